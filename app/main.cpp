@@ -49,7 +49,7 @@ int run(int argc, char** argv) {
   for (const auto add : app::kCommands) add(molar);
   const int status = molar.run(argc, argv);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    return refuse("standard output: it can not be written, check its destination");
+    return refuse("standard output: it cannot be written, check its destination");
   return status;
 }
 

@@ -44,7 +44,7 @@ std::string cameraPosition(int position) {
 WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
     : plan_(plan), screen_(calibration::seenScreen(plan.rig)), board_(calibration::boardFor(screen_.px)) {
   if (plan_.positions < 2)
-    throw calibration::CalibrationError("webcam procedure: one position can not tell depth, take three");
+    throw calibration::CalibrationError("webcam procedure: one position does not determine depth, take three");
   if (plan_.places.targets.empty())
     throw calibration::CalibrationError("webcam procedure: no places for the tip, take webcam27");
   for (const calibration::Point<calibration::World>& corner :

@@ -47,7 +47,7 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters) {
     try {
       return assets::loadPatient(folder.string());
     } catch (const assets::LoadError&) {
-      printMessage("the cached built-in patient can not be read, generating it again");
+      printMessage("the cached built-in patient cannot be read, generating it again");
     }
   } else {
     printMessage("generating the built-in patient (once, up to a minute)");

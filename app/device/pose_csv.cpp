@@ -122,7 +122,7 @@ std::vector<TimedPose> readPoses(const std::string& path) {
   const auto bytes = std::filesystem::file_size(path, error);
   std::ifstream file(path);
   if (error || !file)
-    throw UsageError("pose file " + path + ": it can not be read, check the path and its permissions");
+    throw UsageError("pose file " + path + ": it cannot be read, check the path and its permissions");
   if (bytes > kLargestFile_bytes) throw UsageError("pose file " + path + ": it is larger than 1 GiB, split it");
 
   std::vector<TimedPose> poses;

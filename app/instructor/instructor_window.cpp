@@ -37,7 +37,7 @@ render::Window::Options optionsFor(const render::Window& surgeons, std::optional
 struct InstructorWindow::Open {
   Open(const render::Window& surgeons, std::optional<int> monitor) : window(optionsFor(surgeons, monitor)) {
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
-      throw render::GpuError("instructor's window: OpenGL can not draw its panel, continue without --instructor");
+      throw render::GpuError("instructor's window: OpenGL cannot draw its panel, continue without --instructor");
   }
   ~Open() {
     window.makeCurrent();

@@ -46,7 +46,7 @@ std::string cameraText(const std::string& option) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(option, error);
   std::ifstream file(option);
-  if (error || !file) throw UsageError("--camera " + option + ": it can not be read, give JSON or a file of it");
+  if (error || !file) throw UsageError("--camera " + option + ": it cannot be read, give JSON or a file of it");
   if (bytes > kMaxCamera_bytes)
     throw UsageError("--camera " + option + ": it is too long for a camera, check the path");
   std::ostringstream text;

@@ -16,7 +16,7 @@ struct TrialRecord {
   bool comparison_first = false;
   std::optional<double> standard, comparison;  ///< values of the varied parameter
   bool comparison_harder = false;
-  std::optional<bool> correct;  ///< none where nothing says which is harder: equal, or different laws
+  std::optional<bool> correct;  ///< none if undefined: equal stimuli, or different laws
   bool reversal = false;
   int reversals = 0;  ///< of this track so far
   ProbeMeasures standard_measures, comparison_measures;
@@ -29,7 +29,7 @@ class Experiment {
 
   /// Goes to the next trial; false at the end.
   bool next();
-  /// What is felt in the first (0) or second (1) interval of this trial.
+  /// Stimulus of the first (0) or second (1) interval of this trial.
   haptics::Command commandOf(int interval) const;
   /// The answer to this trial.
   TrialRecord answer(bool second_harder, const ProbeMeasures& first, const ProbeMeasures& second,
@@ -46,7 +46,7 @@ class Experiment {
   int trial_ = 0;
 };
 
-/// Every trial by the simulated hand and observer of the protocol; `on_trial` hears each as it comes.
+/// Runs every trial with the protocol's simulated hand and observer; `on_trial` is called after each.
 Experiment runSimulated(const Protocol& protocol, haptics::CarvedBone& bone, const ProbeSite& site, std::uint64_t seed,
                         const std::function<void(const TrialRecord&, const Experiment&)>& on_trial);
 

@@ -11,13 +11,13 @@
 
 namespace app {
 
-/// What hardness is judged by.
+/// The measure by which hardness is compared.
 enum class Cue : std::uint8_t { stiffness, peak_force };
 
 struct ObserverSettings {
   Cue cue = Cue::stiffness;
   double weber_fraction = 0.15;  ///< JND over standard; stiffness of people: 0.08..0.22 (reference/physics 4)
-  double lapse_rate = 0.02;      ///< trials answered by coin
+  double lapse_rate = 0.02;      ///< share of trials answered at random
 };
 
 double noiseShare(const ObserverSettings& settings);
@@ -26,7 +26,7 @@ class SimulatedObserver {
  public:
   SimulatedObserver(const ObserverSettings& settings, std::uint64_t seed) : settings_(settings), rng_(seed, 3) {}
 
-  /// Was the second interval harder than the first?
+  /// True if the second interval felt harder than the first.
   bool secondHarder(const ProbeMeasures& first, const ProbeMeasures& second);
 
  private:

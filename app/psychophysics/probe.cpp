@@ -14,7 +14,7 @@ constexpr int kTaps = 3, kFreePresses = 4;
 constexpr double kFreeWander_mm = 1.0, kFreeSpread = 0.3;
 constexpr double kHandMass_kg = 0.1;
 
-/// Places in the site's own axes: x, y along the surface, z outward; 0 where the bur first touches.
+/// Positions in the axes of the site: x, y along the surface, z outward; 0 where the bur first touches.
 struct Leg {
   glm::dvec3 to_mm{0.0};
   double duration_s = 0.0;
@@ -56,7 +56,7 @@ std::vector<Leg> legsOf(const ProbePlan& plan, calibration::RandomGenerator& han
   return way;
 }
 
-/// Minimum jerk: 10 s^3 - 15 s^4 + 6 s^5 of the way, and its rate.
+/// Minimum jerk: 10 s^3 - 15 s^4 + 6 s^5 of the path, and its rate.
 double minimumJerk(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
 double minimumJerkRate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
 

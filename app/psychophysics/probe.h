@@ -19,12 +19,12 @@ enum class Motion : std::uint8_t { tap, press, stroke, free };
 
 struct ProbePlan {
   Motion motion = Motion::press;
-  double reach_mm = 1.5;       ///< how far below the surface the hand means to go
+  double reach_mm = 1.5;       ///< intended depth of the hand below the surface
   double duration_s = 0.8;     ///< of one interval
-  double stroke_mm = 4.0;      ///< way along the surface: `stroke`
-  double grip_N_per_mm = 0.5;  ///< spring of the hand on its way
-  double spread = 0.1;         ///< standard deviation of the reach from one probing to the next, a share of it
-  double wander_mm = 0.2;      ///< standard deviation of the place along the surface
+  double stroke_mm = 4.0;      ///< path along the surface: `stroke`
+  double grip_N_per_mm = 0.5;  ///< stiffness of the hand along its path
+  double spread = 0.1;         ///< standard deviation of the reach between probings, relative
+  double wander_mm = 0.2;      ///< standard deviation of the position along the surface
   double rate_Hz = 1000.0;
 };
 

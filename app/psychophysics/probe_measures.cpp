@@ -15,7 +15,7 @@ ProbeMeasures measuresOf(std::span<const ProbeSample> samples) {
   for (const ProbeSample& s : samples) felt.peak_force_N = std::max(felt.peak_force_N, s.force_N);
   if (felt.peak_force_N <= kFaintest_N) return {};
 
-  // Means first, then moments about them.
+  // Means, then moments about the means.
   double n = 0.0, mean_depth = 0.0, mean_force = 0.0;
   const double in_contact_N = kContactShareOfPeak * felt.peak_force_N;
   for (const ProbeSample& s : samples) {

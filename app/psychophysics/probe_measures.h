@@ -16,11 +16,11 @@ struct ProbeMeasures {
   double stiffness_N_per_mm = 0.0;  ///< least-squares slope of force over depth while in contact
   double peak_force_N = 0.0;
   double depth_mm = 0.0;  ///< largest
-  double work_Nmm = 0.0;  ///< put into the bone by the hand: the sum of F dx over the whole way
+  double work_Nmm = 0.0;  ///< done by the hand on the bone: sum of F dx over the path
   double contact_share = 0.0;
 };
 
-/// In contact: more than a twentieth of the peak force. All zero for a hand that never touched.
+/// In contact: more than a twentieth of the peak force. All zero without contact.
 ProbeMeasures measuresOf(std::span<const ProbeSample> samples);
 
 }  // namespace app

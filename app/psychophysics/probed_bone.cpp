@@ -16,12 +16,12 @@ namespace app {
 namespace {
 
 constexpr double kTextureBlur_mm = 0.15, kAir_hu = -1000.0;
-/// How far up its layer of voxels the flat face lies: f (1 - f) = 1/6, the mean softness of a face of any orientation.
+/// Height of the flat face within its voxel layer: f (1 - f) = 1/6, the mean softness over all orientations.
 constexpr double kFaceInLayer = 0.2113248654;
 constexpr double kAboveSurface_mm = 1.0, kMargin_mm = 2.0;
 constexpr double kSearch_mm = 10.0, kSearchStep_mm = 0.02;
 
-/// A box of bone under z = 0, large enough for everything the probe may do.
+/// A box of bone under z = 0, large enough for every motion of the probe.
 assets::Patient phantom(const Protocol& protocol) {
   const BoneChoice& bone = protocol.bone;
   const double R = protocol.tool.head.radius_mm, s = bone.voxel_mm;
@@ -46,7 +46,7 @@ assets::Patient phantom(const Protocol& protocol) {
       for (int i = 0; i < ct.grid.size.x; ++i) {
         const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
         const std::size_t voxel = ct.grid.index({i, j, k});
-        // The share of the voxel under the face: exact, so that flat bone is as flat as voxels can say.
+        // Exact share of the voxel below the face, so flat bone is as flat as voxels allow.
         const double under = std::clamp(0.5 - p.z / s, 0.0, 1.0);
         const double hu = is_flat ? assets::properties(label).hounsfield : texture.hounsfield(p);
         ct.hounsfield[voxel] = static_cast<std::int16_t>(std::lround(std::lerp(kAir_hu, hu, under)));
@@ -76,7 +76,7 @@ assets::Patient volumeOf(const BoneChoice& bone) {
   return patient;
 }
 
-/// The surface on the line through the site, coming from outside; trilinear, half solid.
+/// First surface on the line through the site from outside: trilinear, half solid.
 ProbeSite onSurface(const assets::CtVolume& ct, const ProbeSite& site) {
   for (double above = kSearch_mm; above >= -kSearch_mm; above -= kSearchStep_mm) {
     const glm::dvec3 p = site.surface_P.mm + above * site.outward_P.xyz;

@@ -9,7 +9,7 @@
 namespace app {
 
 struct ProbedBone {
-  assets::Patient patient;  ///< title and ct; whatever else the source has
+  assets::Patient patient;  ///< title and ct, and the rest of the source
   ProbeSite site;
 };
 

@@ -16,7 +16,7 @@ constexpr std::size_t kMostLevels = 50;
 constexpr std::int64_t kMostTrials = 5000;
 constexpr double kFarthest_mm = 1e4;
 
-/// One to three capitals, a hyphen if you like, one to four digits: room for a number, none for a name or a date.
+/// One to three capitals, an optional hyphen, one to four digits: too short for a name or a date.
 bool isAnonymousId(const std::string& id) {
   std::size_t at = 0;
   while (at < id.size() && id[at] >= 'A' && id[at] <= 'Z') ++at;
@@ -99,7 +99,7 @@ haptics::LawSettings lawOf(assets::TomlReader& keys, const std::string& table) {
   return law;
 }
 
-/// What varies, and the range the law gives it.
+/// The varied parameter, within its range in the law.
 Setting variedOf(assets::TomlReader& keys, Protocol& protocol) {
   protocol.parameter = keys.text("vary", "parameter");
   const auto known = parametersOf(protocol.comparison);

@@ -18,13 +18,13 @@ namespace app {
 enum class Method : std::uint8_t {
   constant,   ///< "2afc-constant": the method of constant stimuli
   staircase,  ///< "staircase": transformed up-down tracks, mixed
-  pair        ///< "2afc": one comparison again and again
+  pair        ///< "2afc": one comparison, repeated
 };
 
 struct BoneChoice {
   enum class Kind : std::uint8_t { flat, trabecular, volume, patient } kind = Kind::flat;
   double voxel_mm = 0.2;          ///< of the built-in phantoms
-  std::uint64_t seed = 1;         ///< of the trabecular one
+  std::uint64_t seed = 1;         ///< of the trabecular phantom
   std::string path;               ///< volume file, or patient folder; empty: the built-in patient
   bool is_hounsfield = true;      ///< volume: Hounsfield, else solid fraction
   std::optional<ProbeSite> site;  ///< needed for a volume
@@ -38,21 +38,21 @@ struct Protocol {
   ProbePlan probe;
   haptics::LawSettings standard, comparison;
   double peak_force_N = 3.3;
-  std::string parameter;  ///< of the comparison, that varies; empty for `pair`
+  std::string parameter;  ///< varied parameter of the comparison; empty for `pair`
   std::string unit;
-  std::vector<double> levels;  ///< constant: rising; staircase: where each track starts
-  int trials = 40;             ///< of a level (constant), of all (pair)
+  std::vector<double> levels;  ///< constant: rising; staircase: start of each track
+  int trials = 40;             ///< per level (constant) or in total (pair)
   StaircaseRule staircase;
   double between_trials_s = 1.0;
   ObserverSettings observer;
 
-  /// The comparison at a level.
+  /// The comparison law at a level.
   haptics::LawSettings comparisonAt(double level) const;
-  /// What the varied parameter is in the standard; none where the standard is another law or nothing varies.
+  /// The standard's value of the varied parameter; none if the standard is another law or nothing varies.
   std::optional<double> standardValue() const;
 };
 
-/// `where` names the file. Relative paths in it are kept as they are. Throws UsageError.
+/// `where` names the file. Relative paths in it stay unchanged. Throws UsageError.
 Protocol protocolFromToml(const std::string& text, const std::string& where);
 
 }  // namespace app

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLargestLapse = 0.06;
 constexpr double kJndPerSigma = 0.6744897501960817;  ///< Phi^-1(3/4)
-/// A slope that the levels cannot resolve: sigma stays above this share of their range, and below this many of it.
+/// Limits of sigma as multiples of the range of levels; outside, the levels cannot resolve the slope.
 constexpr double kSteepest = 1e-3, kFlattest = 50.0;
 
 double density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi); }
@@ -25,7 +25,7 @@ double logLikelihood(const std::vector<LevelCount>& counts, const Psychometric& 
   return sum;
 }
 
-/// Likelihood of answers that are each explained by themselves.
+/// Log likelihood of the saturated model: every level has its observed share.
 double saturated(const std::vector<LevelCount>& counts) {
   double sum = 0.0;
   for (const LevelCount& c : counts) {
@@ -89,7 +89,7 @@ class Scoring {
   double centre_, range_;
 };
 
-/// Do the answers rise with the level at all? The sign of their covariance.
+/// Whether the answers rise with the level: the sign of their covariance.
 bool rises(const std::vector<LevelCount>& counts) {
   double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xy = 0.0;
   for (const LevelCount& c : counts) {
@@ -114,7 +114,7 @@ Interval percentiles95(std::vector<double>& draws) {
 double normalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 double normalQuantile(double p) {
-  // Bisection of Phi: slow, obvious, exact to the last digits.
+  // Bisection of Phi: slow, but exact to the last digits.
   double low = -40.0, high = 40.0;
   for (int i = 0; i < 90; ++i) {
     const double middle = 0.5 * (low + high);
@@ -137,7 +137,7 @@ std::optional<Psychometric> fitPsychometric(const std::vector<LevelCount>& count
   const Scoring scoring(counts, 0.5 * (least->level + most->level), range);
   if (fixed_lapse) return scoring.fit(*fixed_lapse);
 
-  // The likelihood over the lapse alone has one top in practice: golden section, and both ends.
+  // The likelihood over the lapse has one maximum in practice: golden section, and both ends.
   const auto likelihood_at = [&](double lapse) { return logLikelihood(counts, scoring.fit(lapse)); };
   constexpr double kGolden = 0.6180339887498949;
   double low = 0.0, high = kLargestLapse;
@@ -169,7 +169,7 @@ std::optional<PsychometricFit> fitWithIntervals(const std::vector<LevelCount>& c
   fit.log_likelihood = logLikelihood(counts, *function);
   fit.deviance = 2.0 * (saturated(counts) - fit.log_likelihood);
 
-  // The same levels and trials, answered by the fitted observer.
+  // The same levels and trials with the fitted observer.
   calibration::RandomGenerator rng(seed, 0xb007);
   std::vector<double> pse, jnd;
   int worse = 0;

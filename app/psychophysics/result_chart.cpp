@@ -21,7 +21,7 @@ std::string valueLabel(const Protocol& protocol) {
          (protocol.unit.empty() ? "" : " / (" + protocol.unit + ")");
 }
 
-/// Dots larger where more was answered, with Wilson's bars; the fitted curve; standard and PSE upright.
+/// Answers as dots, larger for more trials, with Wilson's bars; the fitted curve; vertical lines at standard and PSE.
 Panel psychometricPanel(const Protocol& protocol, const Outcome& outcome) {
   Panel panel;
   panel.title = "Psychometric function";
@@ -32,7 +32,7 @@ Panel psychometricPanel(const Protocol& protocol, const Outcome& outcome) {
   for (const LevelCount& c : outcome.counts) most = std::max(most, c.trials);
   for (const LevelCount& c : outcome.counts) {
     answers.points.emplace_back(c.level, static_cast<double>(c.harder) / c.trials);
-    // Of one or two answers an interval says nothing but that.
+    // No interval for one or two answers.
     const double hit = answers.points.back().y;
     const Interval share = c.trials < kFewest ? Interval{hit, hit} : wilson95(c.harder, c.trials);
     answers.bars.emplace_back(share.low, share.high);

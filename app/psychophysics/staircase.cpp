@@ -41,7 +41,7 @@ bool Staircase::answer(bool comparison_harder) {
   if (run_ < (comparison_harder ? rule_.down : rule_.up)) return false;
   run_ = 0;
 
-  // A turn is noted at the level where it happened, before the step.
+  // A reversal is recorded at the level before the step.
   const int direction = comparison_harder ? -1 : 1;
   const bool turned = direction_ != 0 && direction != direction_;
   direction_ = direction;
@@ -58,7 +58,7 @@ bool Staircase::answer(bool comparison_harder) {
 std::vector<double> Staircase::pairMeans() const {
   std::vector<double> means;
   const std::size_t first = static_cast<std::size_t>(rule_.discarded);
-  // From the end, so that an odd one out is the oldest.
+  // From the end, so an unpaired reversal is the oldest.
   for (std::size_t i = reversal_levels_.size(); i >= first + 2; i -= 2)
     means.push_back(0.5 * (scaled(rule_, reversal_levels_[i - 1]) + scaled(rule_, reversal_levels_[i - 2])));
   return means;

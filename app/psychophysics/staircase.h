@@ -18,14 +18,14 @@ struct StaircaseRule {
   StepKind kind = StepKind::added;
   std::vector<double> steps{0.1};  ///< in the parameter's unit, or as a ratio above 1; one for every stage
   int reversals_per_step = 2;      ///< then the next step, until the last
-  double up_to_down = 1.0;         ///< a step upwards in steps downwards (of the logarithm, for a ratio)
+  double up_to_down = 1.0;         ///< size of an upward step over a downward step (of the logarithms, for ratios)
   int reversals = 12;              ///< the track ends with this many
-  int discarded = 4;               ///< of them, the first, that the threshold leaves out
+  int discarded = 4;               ///< first reversals that the threshold leaves out
   int max_trials = 200;
   double low = 0.0, high = 0.0;  ///< the level stays within
 };
 
-/// The chance of "comparison harder" at which such a track settles.
+/// The chance of "comparison harder" at which a track settles.
 double targetProbability(const StaircaseRule& rule);
 
 class Staircase {
@@ -36,13 +36,13 @@ class Staircase {
   bool over() const;
   int reversals() const { return static_cast<int>(reversal_levels_.size()); }
 
-  /// True when this answer turned the track round.
+  /// True if this answer reversed the track.
   bool answer(bool comparison_harder);
 
   /// Mean (of the logarithms, for ratios) of an even number of last reversals after the discarded ones; NaN while there
   /// are fewer than two.
   double threshold() const;
-  /// Standard error of it from the pairs of reversals; NaN while there are fewer than two pairs.
+  /// Its standard error from the pairs of reversals; NaN while there are fewer than two pairs.
   double standardError() const;
 
  private:

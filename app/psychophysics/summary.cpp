@@ -41,7 +41,7 @@ json jsonOf(const PsychometricFit& fit) {
           {"bootstrap_draws", fit.draws}};
 }
 
-/// Two-sided chance of an answer as lopsided as this from a coin.
+/// Two-sided binomial test against chance (p = 1/2).
 double coinChance(int hits, int trials) {
   double sum = 0.0;
   const int far = std::abs(2 * hits - trials);
@@ -73,7 +73,7 @@ Outcome outcomeOf(const Protocol& protocol, const Experiment& experiment, std::v
     if (trial.comparison_harder) ++count.harder;
   }
   for (const auto& [level, count] : counts) outcome.counts.push_back(count);
-  // Tracks ask little where lapses would show, and their slope is biased as it is (Kaernbach 2001): no lapse to fit.
+  // Tracks have few trials where lapses would show, and a biased slope (Kaernbach 2001): no lapse is fitted.
   const std::optional<double> lapse = protocol.method == Method::staircase ? std::optional<double>(0.0) : std::nullopt;
   if (protocol.method != Method::pair) outcome.fit = fitWithIntervals(outcome.counts, kDraws, seed, lapse);
   outcome.tracks = experiment.tracks();

@@ -14,20 +14,20 @@ namespace app {
 
 struct Outcome {
   std::vector<TrialRecord> trials;
-  std::vector<LevelCount> counts;      ///< rising levels; one of level 0 where nothing varies
-  std::optional<PsychometricFit> fit;  ///< none where the answers know no slope
+  std::vector<LevelCount> counts;      ///< by rising level; a single level 0 if nothing varies
+  std::optional<PsychometricFit> fit;  ///< none if there is no slope
   std::vector<Staircase> tracks;
-  std::optional<double> threshold;  ///< mean of the tracks', at the staircase's target
+  std::optional<double> threshold;  ///< mean over the tracks, at the staircase's target
   bool complete = false;            ///< every planned trial was answered
 };
 
 Outcome outcomeOf(const Protocol& protocol, const Experiment& experiment, std::vector<TrialRecord> trials,
                   bool complete, std::uint64_t seed);
 
-/// From where the tracks settle and the standard, taken as the PSE: 0.6745 (threshold - standard) / Phi^-1(p).
+/// From the threshold of the tracks, with the standard as PSE: 0.6745 (threshold - standard) / Phi^-1(p).
 std::optional<double> trackJnd(const Protocol& protocol, const Outcome& outcome);
 
-/// Of a staircase by its tracks, else by the fit.
+/// From the tracks of a staircase, else from the fit.
 std::optional<double> weberFraction(const Protocol& protocol, const Outcome& outcome);
 
 std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::uint64_t seed,

@@ -14,7 +14,7 @@ TrialOrder::TrialOrder(const Protocol& protocol, std::uint64_t seed) : rng_(seed
     return;
   }
   const std::vector<double> levels = protocol.method == Method::constant ? protocol.levels : std::vector<double>{0.0};
-  // An odd repetition out goes to either order in turn, level by level.
+  // With an odd number of repetitions the extra one alternates between the orders, level by level.
   bool odd_first = rng_.coin(0.5);
   for (int done = 0; done < protocol.trials; done += 2) {
     std::vector<PlannedTrial> block;

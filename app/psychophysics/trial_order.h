@@ -12,7 +12,7 @@
 namespace app {
 
 struct PlannedTrial {
-  double level = 0.0;  ///< of the comparison; 0 where nothing varies
+  double level = 0.0;  ///< of the comparison; 0 if nothing varies
   std::size_t track = 0;
   bool comparison_first = false;
 };
@@ -23,10 +23,10 @@ class TrialOrder {
 
   /// None at the end.
   std::optional<PlannedTrial> next();
-  /// Of the trial next() gave last. True when its track turned round.
+  /// The answer to the last trial of next(). True if its track reversed.
   bool answer(bool comparison_harder);
 
-  /// The most trials there can be.
+  /// Upper limit of the number of trials.
   int most() const { return most_; }
   const std::vector<Staircase>& tracks() const { return tracks_; }
 

@@ -71,7 +71,7 @@ std::optional<haptics::Command> TrialRunner::followTick(const haptics::Tick& tic
     return command;
   }
   if (tick.command_serial <= serial_before_) return std::nullopt;
-  // Along the way the bur comes, from where it would first touch.
+  // Depth along the approach of the bur, from the first contact.
   const glm::dvec3 touch_P = site_.surface_P.mm + command.tool.head.radius_mm * site_.outward_P.xyz;
   felt_[interval_].push_back({glm::dot(touch_P - tick.hand.X_PT.translation_mm, site_.outward_P.xyz),
                               glm::dot(tick.commanded_force_P_N.xyz, site_.outward_P.xyz)});
@@ -87,7 +87,7 @@ std::string TrialRunner::participantText() const {
          "   1: feel A   2: feel B   harder was: A or B" + hint_;
 }
 
-/// Whoever watches knows as little of what is felt: blind for both.
+/// Double blind: spectators see no law or value either.
 ProcedureMessages TrialRunner::messages() const {
   if (is_over_) return {participantText(), "all trials answered"};
   const char* const felt = touched(felt_[0]) ? (touched(felt_[1]) ? "A and B" : "A") : touched(felt_[1]) ? "B" : "none";

@@ -16,7 +16,7 @@ class TrialRunner final : public Procedure {
  public:
   using OnTrial = std::function<void(const TrialRecord&)>;
 
-  /// `experiment` is borrowed and led to its end.
+  /// `experiment` is borrowed and run to its end.
   TrialRunner(Experiment& experiment, const ProbeSite& site, double between_trials_s, OnTrial on_trial);
 
   bool takeKey(char key) override;
@@ -34,10 +34,10 @@ class TrialRunner final : public Procedure {
   ProbeSite site_;
   double between_trials_s_;
   OnTrial on_trial_;
-  std::vector<ProbeSample> felt_[2];  ///< of the newest visit to each
+  std::vector<ProbeSample> felt_[2];  ///< latest probing of each stimulus
   int interval_ = 0;
   bool changed_ = true, is_over_ = false, pausing_ = false;
-  std::uint64_t serial_before_ = 0;  ///< of the command that was in force when the stimulus was asked for
+  std::uint64_t serial_before_ = 0;  ///< of the command in force when the stimulus was requested
   double t_s_ = 0.0, since_s_ = 0.0, pause_ends_s_ = 0.0;
   std::string hint_;
 };

@@ -69,7 +69,7 @@ void TrialTable::add(const TrialRecord& r) {
 }
 
 void TrialTable::write(const std::string& line) {
-  // One write a row: a row is whole or, at the very worst, the last.
+  // One write per row: only the last row can be incomplete.
   for (std::size_t done = 0; done < line.size();) {
     const ssize_t n = ::write(file_, line.data() + done, line.size() - done);
     if (n < 0 && errno == EINTR) continue;

@@ -10,7 +10,7 @@ namespace app {
 
 class TrialTable {
  public:
-  /// Refuses (UsageError) a file that is there already, unless `overwrite`; then the old rows go at once.
+  /// Throws UsageError if the file exists, unless `overwrite`, which deletes the old rows at once.
   TrialTable(const std::string& path, bool overwrite, const Protocol& protocol);
   ~TrialTable();
   TrialTable(const TrialTable&) = delete;
@@ -25,7 +25,7 @@ class TrialTable {
   int file_ = -1;
 };
 
-/// As in the protocol.
+/// Name of the motion in a protocol.
 std::string methodName(Method method);
 
 }  // namespace app

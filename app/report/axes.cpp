@@ -69,7 +69,7 @@ double legend(const Drawing& drawing, const std::vector<LegendEntry>& entries, c
   };
   double y = 0.0;
   for (std::size_t first = 0; first < entries.size(); y += kRow) {
-    // As many as fit into this row.
+    // As many entries as fit into this row.
     double row = width_of(entries[first]);
     std::size_t end = first + 1;
     for (; end < entries.size() && row + kGap + width_of(entries[end]) < width; ++end)

@@ -10,18 +10,18 @@
 
 namespace app {
 
-/// Heights of lines: numbers, labels, titles.
+/// Text heights: numbers, labels, titles.
 inline constexpr double kNumberLine = 12.9, kLabelLine = 13.5, kTitleLine = 15.2;
 
 struct AxisTicks {
-  double low = 0.0, high = 1.0;  ///< the range, widened to whole steps where it was asked
+  double low = 0.0, high = 1.0;  ///< the range, widened to whole steps if `whole`
   double step = 0.2;
   std::vector<double> at;
 
   std::string text(double value) const;
 };
 
-/// About `wanted` of them. `whole`: the range ends on ticks. A range that is none, or not finite, becomes 0..1.
+/// About `wanted` ticks. `whole`: the range ends on ticks. An empty or non-finite range becomes 0..1.
 AxisTicks axisTicks(double low, double high, int wanted, bool whole);
 
 struct Axis {
@@ -30,7 +30,7 @@ struct Axis {
     std::string text;
   };
 
-  double from = 0.0, to = 1.0;  ///< at the left or the foot, and at the other end; either may be the larger
+  double from = 0.0, to = 1.0;  ///< left or bottom, and right or top; either may be larger
   std::vector<Mark> marks;
   std::string label;
 };
@@ -39,13 +39,13 @@ struct Axis {
 Axis axisOf(const AxisTicks& ticks, std::string label);
 
 struct Axes {
-  static constexpr double kAbove = 42.0, kBelow = 38.0;  ///< what title, numbers and labels need
+  static constexpr double kAbove = 42.0, kBelow = 38.0;  ///< space for title, numbers and labels
 
   glm::dvec2 corner{0.0}, size{0.0};  ///< the plot, upper left
   Axis x, y;
   std::string title;
 
-  /// Where a place of the plot is drawn.
+  /// Position on the drawing of a point of the plot.
   glm::dvec2 at(const glm::dvec2& value) const;
   glm::dvec2 foot() const { return corner + size; }
   void draw(const Drawing& drawing) const;
@@ -54,10 +54,10 @@ struct Axes {
 struct LegendEntry {
   std::string label;
   double sample_width = 0.0;
-  std::function<void(const glm::dvec2& left)> draw_sample;  ///< from its left, half-way up
+  std::function<void(const glm::dvec2& left)> draw_sample;  ///< `left`: its left end, at half height
 };
 
-/// In rows, each as full as it may be, centred below `top`. Returns the height; `draws`: else it is measured alone.
+/// Rows filled in order, centred below `top`. Returns the height; without `draws` it is only measured.
 double legend(const Drawing& drawing, const std::vector<LegendEntry>& entries, const glm::dvec2& top, double width,
               bool draws = true);
 

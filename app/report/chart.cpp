@@ -9,9 +9,9 @@
 namespace app {
 namespace {
 
-/// 300 dpi where a unit is a 120th of an inch.
+/// 300 dpi; a unit is 1/120 inch.
 constexpr double kPxPerUnit = 2.5, kMargin = 14.0, kTitle = 17.0;
-/// Okabe and Ito 2008, the yellow left out: too pale for a line.
+/// Okabe and Ito 2008, without the yellow, which is too pale for a line.
 constexpr std::array kColours = {paper::kBlue,  paper::kOrange,  paper::kGreen,  inkOf(0xcc79a7),
                                  paper::kAmber, inkOf(0x56b4e9), inkOf(0x1a1a1a)};
 constexpr double kLine = 1.8, kThin = 1.2, kDot = 2.8;
@@ -19,7 +19,7 @@ constexpr double kLine = 1.8, kThin = 1.2, kDot = 2.8;
 const Ink& inkOf(const Curve& curve) { return kColours[static_cast<std::size_t>(curve.colour) % kColours.size()]; }
 Dashes dashesOf(const Curve& curve) { return curve.dashed ? Dashes{5.6, 3.6} : Dashes{}; }
 
-/// The range that holds every finite point, bar and reference line.
+/// Range of all finite points, bars and reference lines.
 glm::dvec2 rangeOf(const Panel& panel, int axis) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   const auto take = [&](double v) {
@@ -36,7 +36,7 @@ glm::dvec2 rangeOf(const Panel& panel, int axis) {
   return {low, high};
 }
 
-/// All that belongs to it lies between the two corners.
+/// A panel between two corners, labels included.
 Axes axesOf(const Drawing& drawing, const Panel& panel, const glm::dvec2& corner, const glm::dvec2& foot) {
   const glm::dvec2 x = panel.x_range.value_or(rangeOf(panel, 0)), y = panel.y_range.value_or(rangeOf(panel, 1));
   Axes axes{{},
@@ -65,7 +65,7 @@ void drawCurve(const Drawing& drawing, const Axes& axes, const Curve& curve) {
     drawing.disc(points[i], kDot * (i < curve.sizes.size() ? curve.sizes[i] : 1.0), ink);
 }
 
-/// On white, over the curves, at the line, where it hides the least points of curves.
+/// The label of a line on white, at the position along the line that hides the fewest points.
 void drawLineLabel(const Drawing& drawing, const Axes& axes, const Panel& panel, const ReferenceLine& line) {
   if (line.label.empty()) return;
   const glm::dvec2 low = axes.corner, high = axes.foot();
@@ -105,7 +105,7 @@ void drawPanel(const Drawing& drawing, const Panel& panel, const Axes& axes) {
   for (const ReferenceLine& line : panel.lines) drawLineLabel(drawing, axes, panel, line);
 }
 
-/// Every label once.
+/// One entry per label.
 std::vector<LegendEntry> entriesOf(const Drawing& drawing, const Chart& chart) {
   constexpr double kSample = 26.0;
   std::vector<LegendEntry> entries;

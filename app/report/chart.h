@@ -13,26 +13,26 @@
 namespace app {
 
 struct Curve {
-  std::string label;  ///< in the legend; empty: not there. The same label in two panels is one entry
+  std::string label;  ///< in the legend; empty: no entry. A label in two panels is one entry
   int colour = 0;     ///< 0..6, see chart.cpp
   std::vector<glm::dvec2> points;
   bool joined = true, dotted = false, dashed = false;
   std::vector<glm::dvec2> bars;  ///< low and high of each point, or none
-  std::vector<double> sizes;     ///< of each dot, 1 the usual, or none
+  std::vector<double> sizes;     ///< of each dot, 1 is the default; or none
 };
 
-/// A grey line across the panel with its name on it.
+/// A labelled grey line across the panel.
 struct ReferenceLine {
   std::string label;
   double at = 0.0;
-  bool across = true;  ///< horizontal; else upright
+  bool across = true;  ///< horizontal; else vertical
 };
 
 struct Panel {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
   std::vector<ReferenceLine> lines;
-  std::optional<glm::dvec2> x_range, y_range;  ///< else what the curves and lines need
+  std::optional<glm::dvec2> x_range, y_range;  ///< else fitted to curves and lines
 };
 
 struct Chart {

@@ -16,7 +16,7 @@
 namespace app {
 namespace {
 
-/// Letters are laid out in steps so small that no rounding shows, whatever the unit and the shape of its pixels.
+/// Layout resolution, fine enough that rounding is invisible for every unit and pixel shape.
 constexpr double kStepsPerUnit = 64.0 * PANGO_SCALE, kLineOfFont = 1.17;
 
 struct Unref {
@@ -47,7 +47,7 @@ void trace(cairo_t* pen, const std::vector<glm::dvec2>& points) {
   }
 }
 
-/// The path that was traced.
+/// Strokes the current path.
 void stroke(cairo_t* pen, double width, const Ink& ink, const Dashes& dashes = {}) {
   choose(pen, ink);
   cairo_set_line_width(pen, width);
@@ -81,7 +81,7 @@ glm::dvec2 sizeOf(const Layout& layout) {
 }
 
 constexpr std::array kAnchors = {"start", "middle", "end"};
-/// How much of its width lies left of the place that a text is aligned to.
+/// Share of the width of a text left of its anchor.
 double shareLeft(Align align) { return align == Align::left ? 0.0 : align == Align::right ? 1.0 : 0.5; }
 
 std::string colourOf(const Ink& ink) {
@@ -210,7 +210,7 @@ double Drawing::paragraph(const std::string& words, const glm::dvec2& top, doubl
   return sizeOf(layout).y;
 }
 
-/// In SVG each line is a text of its own; in pixels their outlines are filled.
+/// SVG: one <text> per line; pixels: filled outlines.
 void Drawing::show(PangoLayout* layout, const glm::dvec2& corner, Align align, const Ink& ink) const {
   if (!isSvg()) {
     choose(pen(), ink);
@@ -246,7 +246,7 @@ void Drawing::show(PangoLayout* layout, const glm::dvec2& corner, Align align, c
 std::string Drawing::markup(std::string_view description) {
   assert(isSvg());
   cairo_surface_finish(cairo_get_target(pen()));
-  // Cairo's own element says nothing of what it shows, and its group has an id that nobody needs.
+  // Cairo's <svg> element has no label, and its group an unused id.
   const std::size_t shapes = svg_.find('>', svg_.find("<svg")) + 1;
   std::string drawn = svg_.substr(shapes, svg_.rfind("</svg>") - shapes);
   if (const std::size_t id = drawn.find(" id=\"surface"); id != std::string::npos)
@@ -260,7 +260,7 @@ std::string Drawing::markup(std::string_view description) {
 
 void Drawing::save(calibration::OutputFile& file) const {
   if (cairo_surface_write_to_png(cairo_get_target(pen()), file.temporaryPath().c_str()) != CAIRO_STATUS_SUCCESS)
-    throw UsageError("picture: it can not be written, check the folder and the free space");
+    throw UsageError("image: it cannot be written, check the folder and the free space");
   file.commit();
 }
 

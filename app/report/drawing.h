@@ -1,5 +1,5 @@
 // Shapes and text by Cairo and Pango, as pixels or as SVG for a page, with the same calls; y downwards. The height of a
-// text line is 1.17 times the font size. SVG text stays text that can be selected and read aloud (Cairo alone writes
+// text line is 1.17 times the font size. SVG text stays selectable and accessible text (Cairo alone writes
 // outlines with clashing ids). Any one thread.
 #pragma once
 
@@ -17,13 +17,13 @@ using PangoLayout = struct _PangoLayout;
 
 namespace app {
 
-/// As the screen encodes it, 0..1.
+/// sRGB as encoded, 0..1.
 struct Ink {
   double red, green, blue;
 };
 constexpr Ink inkOf(int rgb) { return {(rgb >> 16) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0}; }
 
-/// Okabe and Ito 2008: told apart by any colour vision, and in grey by shape or dash beside them.
+/// Okabe and Ito 2008: distinct for every colour vision; with shapes or dashes also in grey.
 namespace paper {
 inline constexpr Ink kInk = inkOf(0x222222), kQuiet = inkOf(0x666666), kFaint = inkOf(0xd8d8d8),
                      kBlue = inkOf(0x0072b2), kOrange = inkOf(0xd55e00), kGreen = inkOf(0x009e73),
@@ -35,9 +35,9 @@ using Dashes = std::vector<double>;
 
 class Drawing {
  public:
-  /// SVG for a page, its width as the page allows.
+  /// SVG for a page, no wider than the page.
   explicit Drawing(glm::dvec2 size);
-  /// Pixels, black; a unit is that many of them.
+  /// Pixels, initially black.
   Drawing(glm::ivec2 px, double px_per_unit);
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
@@ -48,35 +48,35 @@ class Drawing {
                const Dashes& dashes = {}) const;
   void line(const glm::dvec2& from, const glm::dvec2& to, double width, const Ink& ink,
             const Dashes& dashes = {}) const;
-  /// Through all points, round at corners and ends; a point that is not finite breaks it.
+  /// Through all points, round corners and ends; a non-finite point interrupts it.
   void path(const std::vector<glm::dvec2>& points, double width, const Ink& ink, bool closed = false,
             const Dashes& dashes = {}) const;
   void polygon(const std::vector<glm::dvec2>& corners, const Ink& ink) const;
   void circle(const glm::dvec2& centre, double radius, double width, const Ink& ink) const;
   void disc(const glm::dvec2& centre, double radius, const Ink& ink) const;
-  /// From the top, clockwise; `share` of the whole circle.
+  /// From the top, clockwise; `share` of the full circle.
   void arc(const glm::dvec2& centre, double radius, double share, double width, const Ink& ink) const;
   void cross(const glm::dvec2& centre, double half, double width, const Ink& ink) const;
-  /// With a head; what is too short for one is a line.
+  /// With a head; without one if too short.
   void arrow(const glm::dvec2& from, const glm::dvec2& to, double width, const Ink& ink) const;
-  /// What `draw` draws, inside the box alone.
+  /// Clips `draw` to the box.
   void inside(const glm::dvec2& corner, const glm::dvec2& size, const std::function<void()>& draw) const;
 
-  /// Of one line.
+  /// Width of one line.
   double textWidth(const std::string& words, double height, bool bold = false) const;
-  /// One line: its left, middle or right, half-way up, is `at`.
+  /// One line; `at`: its left end, middle or right end, at half height.
   void text(const std::string& words, const glm::dvec2& at, double height, const Ink& ink, Align align = Align::centre,
             bool bold = false) const;
-  /// Of all lines that paragraph() would draw.
+  /// Height of the lines of paragraph().
   double paragraphHeight(const std::string& words, double width, double height) const;
-  /// Lines broken where they would be wider than `width`; `top` is the left, middle or right of its upper edge.
-  /// Returns the height of them all.
+  /// Lines wrapped to `width`; `top`: left end, middle or right end of the upper edge.
+  /// Returns the total height.
   double paragraph(const std::string& words, const glm::dvec2& top, double width, double height, const Ink& ink,
                    Align align = Align::centre) const;
 
-  /// Of SVG, once: an element to put into a page. `description`: what it shows, for those who do not see it.
+  /// SVG only, called once: the element for a page. `description`: its label for screen readers.
   std::string markup(std::string_view description);
-  /// Of pixels, as PNG; the file is committed. Throws UsageError when it cannot be written.
+  /// Pixels only: writes a PNG and commits the file. Throws UsageError when it cannot be written.
   void save(calibration::OutputFile& file) const;
 
  protected:
@@ -89,8 +89,8 @@ class Drawing {
   void show(PangoLayout* layout, const glm::dvec2& corner, Align align, const Ink& ink) const;
 
   glm::dvec2 size_{0.0};
-  std::string svg_;            ///< what Cairo has written
-  mutable std::string words_;  ///< of SVG, over all shapes
+  std::string svg_;            ///< output of Cairo
+  mutable std::string words_;  ///< text elements of SVG, above all shapes
   std::unique_ptr<_cairo, void (*)(_cairo*)> pen_;
 };
 

@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kSteps = 96;
 constexpr double kVoxelsPerRadius = 16.0, kFinest_mm = 0.03, kCoarsest_mm = 0.2;
-/// Where in its layer of voxels the face lies: f (1 - f) = 1/6, as soft as faces are on the average.
+/// Height of the face within its voxel layer: f (1 - f) = 1/6, the mean softness over all orientations.
 constexpr double kFaceInLayer = 0.2113248654;
 
-/// Solid below z = 0, room for the head to go in.
+/// Solid below z = 0, deep enough for the head.
 haptics::CarvedBone flatBone(const BurIndentation& bur) {
   const double s = std::clamp(bur.head.radius_mm / kVoxelsPerRadius, kFinest_mm, kCoarsest_mm);
   const double half_mm = bur.head.radius_mm + 3.0 * s, depth_mm = bur.deepest_mm + 4.0 * s;
@@ -51,7 +51,7 @@ LawCurve lawCurve(const haptics::LawSettings& law, const BurIndentation& bur) {
     const haptics::Contact contact = haptics::contactOf(law, at);
     curve.force_N.emplace_back(depth_mm, contact.force_P_N.xyz.z);
   }
-  // The slope of what is felt, over a window of four steps.
+  // Slope of the force over a window of four steps.
   constexpr std::size_t kWindow = 2;
   for (std::size_t n = kWindow; n + kWindow < curve.force_N.size(); ++n) {
     const glm::dvec2 rise = curve.force_N[n + kWindow] - curve.force_N[n - kWindow];

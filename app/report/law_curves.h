@@ -19,7 +19,7 @@ struct LawCurve {
 struct BurIndentation {
   haptics::BurShape head;
   double deepest_mm = 1.0;
-  double spindle_rpm = 40000.0, feed_mm_per_s = 1.0;  ///< what the machining law goes by
+  double spindle_rpm = 40000.0, feed_mm_per_s = 1.0;  ///< of the machining law
 };
 
 LawCurve lawCurve(const haptics::LawSettings& law, const BurIndentation& bur);

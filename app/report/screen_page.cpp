@@ -34,7 +34,7 @@ ScreenPage::ScreenPage(const calibration::Rig& rig, glm::ivec2 px) : Drawing(px,
   towards_W_ = glm::normalize(glm::cross(side_a, side_b));
   if (glm::dot(towards_W_, rig.cyclopeanEye().mm - middle_W_) < 0.0) towards_W_ = -towards_W_;
 
-  // The person's right is that side of the panel, or its opposite, which goes best with the line between the eyes.
+  // The viewer's right: the direction of a panel side that agrees best with the line between the eyes.
   const glm::dvec3 eyes = rig.right_eye.mm - rig.left_eye.mm;
   const bool upright = std::abs(glm::dot(side_a, eyes)) >= std::abs(glm::dot(side_b, eyes));
   const glm::dvec3 along = upright ? side_a : side_b;
@@ -42,7 +42,7 @@ ScreenPage::ScreenPage(const calibration::Rig& rig, glm::ivec2 px) : Drawing(px,
   down_W_ = glm::cross(right_W_, towards_W_);
   size_mm_ = {glm::length(upright ? across : up), glm::length(upright ? up : across)};
 
-  // From the page to pixels, rows from the top: affine, whatever hangs how.
+  // From the page to pixels, rows from the top: affine for every mounting.
   const auto pixel_of = [&](const glm::dvec2& page) {
     const glm::dvec3 p = middle_W_ + page.x * right_W_ + page.y * down_W_ - corner;
     return glm::dvec2(glm::dot(p, across) / glm::dot(across, across) * px.x,

@@ -15,30 +15,30 @@
 
 namespace app {
 
-/// Grey that gives this share of white's light.
+/// Grey with this share of the luminance of white.
 Ink greyOfLight(double share);
 /// Linear light as a byte of sRGB.
 std::uint8_t encoded(double light);
 
 class ScreenPage : public Drawing {
  public:
-  /// `px` pixels over the whole of the rig's screen.
+  /// `px`: pixels of the rig's whole screen.
   ScreenPage(const calibration::Rig& rig, glm::ivec2 px);
 
   glm::dvec2 size_mm() const { return size_mm_; }
   /// Width of a device pixel along x.
   double pixel_mm() const;
-  /// Where an eye of the rig sees, on the screen, a point that many mm before it.
+  /// Where an eye of the rig sees, on the screen, a point that many mm in front of it.
   glm::dvec2 seenAt(const calibration::Rig& rig, render::Eye eye, const glm::dvec2& place_mm, double before_mm) const;
-  /// The same of a point of the world.
+  /// The same for a point of the world.
   glm::dvec2 seenAt(const calibration::Rig& rig, render::Eye eye,
                     const calibration::Point<calibration::World>& p_W) const;
-  /// Where on the virtual screen a place of the page is.
+  /// Position on the virtual screen of a point of the page.
   calibration::Point<calibration::World> placeOf(const glm::dvec2& place_mm) const;
 
-  /// All that is on another page of the same size.
+  /// Copies another page of the same size.
   void copy(const ScreenPage& other) const;
-  /// Its edges on the edges of device pixels.
+  /// A box with its edges on device pixels.
   void pixelBox(const glm::dvec2& corner, const glm::dvec2& size, const Ink& ink) const;
   void frame(double width_mm, const Ink& ink) const;
   /// Text on black, centred.

@@ -28,7 +28,7 @@ std::array<double, 256> linearOfBytes() {
   return light;
 }
 
-/// Mixes two colours; the same two again cost nothing, and pages are mostly of one colour.
+/// Mixes two colours and caches the last result, as pages are mostly of one colour.
 class Mixer {
  public:
   Mixer(render::DisplayMode mode, bool swapped) : mode_(mode), swapped_(swapped), light_(linearOfBytes()) {}
@@ -55,7 +55,7 @@ class Mixer {
   std::uint8_t last_left_[4]{}, last_right_[4]{}, mixed_[4]{0, 0, 0, 255};
 };
 
-/// Pixels of a row that come one after the other from one eye: all but where eyes alternate along it.
+/// Whether consecutive pixels of a row come from one eye alone.
 bool runsAlongRows(render::DisplayMode mode) {
   return mode != render::DisplayMode::column_interleaved && mode != render::DisplayMode::checkerboard &&
          !render::isAnaglyph(mode);

@@ -1,5 +1,6 @@
-// Two eyes' pictures as a display is given them: every pixel from the eye the layout says, mixed in linear light for
-// anaglyphs. Any thread; about 3 ms for 1080p, 15 ms where eyes alternate by columns, 60 ms for a colourful anaglyph.
+// Combines the images of both eyes for a display: each pixel from the eye given by the layout, mixed in linear light
+// for anaglyphs. Any thread; about 3 ms for 1080p, 15 ms where eyes alternate by columns, 60 ms for a colourful
+// anaglyph.
 #pragma once
 
 #include "render/display/stereo_layout.h"

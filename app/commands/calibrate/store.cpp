@@ -61,7 +61,7 @@ int list(const StoreOptions& options) {
       try {
         line = recordLine(readRigRecord(rigs.pathOf(location, name).string()));
       } catch (const CalibrationError& error) {
-        line = std::string("can not be read: ") + error.what();
+        line = std::string("cannot be read: ") + error.what();
       }
       std::printf("  %s %s  %s\n", current == name ? "*" : " ", name.c_str(), line.c_str());
     }
