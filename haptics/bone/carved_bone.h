@@ -34,6 +34,7 @@ struct BlockState {
 
   bool operator==(const BlockState&) const = default;
 };
+static_assert(sizeof(BlockState) == 256);
 
 /// Memory layout, next to the arrays of bone/cubelets; b = block number (SolidField::blockAt), v = voxel within:
 ///

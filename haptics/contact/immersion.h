@@ -2,9 +2,8 @@
 // al. 2002; reference/physics 1.1, 2.1-2.3). Frame P; mm. One overlap sum a call, and under 15 µs for heads that are no
 // spheres. Servo thread (or any that may read the field). Not a force.
 //   sphere:  n = -M1 / |M1| (contact/overlap),  h from V by contact/cap
-//   others:  n = A / |A|, A the bone's surface inside the head (contact/shape_overlap),  h from V by the flat overlap
-//   of
-//            this shape at this angle (tool/flat_overlap), less the voxels' smear of contact/cap
+//   others:  n = A / |A|, A the bone's surface inside the head (contact/shape_overlap),
+//            h from V by the flat overlap at this angle (tool/flat_overlap), less the voxels' smear of contact/cap
 // Where bone on all sides cancels out, n gets shorter than 1 instead of turning at random.
 #pragma once
 
