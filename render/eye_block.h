@@ -1,6 +1,6 @@
 // Per-eye uniforms in frame P as floats: projection, lamp, face window. std140 twin of eye_block.glsl, computed in
-// double precision once per eye and frame. Any thread; pure. The lamp is above and beside the surgeon's head, aimed at
-// the site, the same for both eyes, so that highlights have true parallax.
+// double precision once per eye and frame. Any thread; pure. The lamp is above the surgeon's head, to one side, aimed
+// at the site, the same for both eyes, so that highlights have true parallax.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -26,7 +26,7 @@ struct Layers {
 
 enum class Antialias { none, edges };
 
-/// What a slower machine can leave out. The drawn surface moves only for `step_voxels` above one half.
+/// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
 struct Quality {
   Antialias antialias = Antialias::none;
   bool ambient_occlusion = true, lamp_shadow = true;

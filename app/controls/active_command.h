@@ -26,7 +26,7 @@ class ActiveCommand {
   void attach(Workstation& workstation) { workstation_ = &workstation; }
 
   /// Executes law, drill, tool (the next of the tray, cyclic), irrigation, undo (of the newest stroke left) and arm
-  /// (lifts a latched fault whose cause is over); returns false for all others. `where`: file and row of a script, for
+  /// (clears a latched fault whose cause is over); returns false for all others. `where`: file and row of a script, for
   /// refusals.
   bool execute(const ControlRequest& request, const std::string& where = {});
   void pollSettingsFile(LiveParameters::Clock::time_point now);

@@ -31,15 +31,15 @@ struct RehearsalPlan {
   std::string device = "mouse";            ///< its address
   DeviceOptions device_options;
   std::optional<OpenedDevice> opened;  ///< the real one of the address, where it is open already
-  SessionCalibration calibration;      ///< of hand and eye, as the session keeps it
+  SessionCalibration calibration;      ///< of hand and eye, as stored in the session
   std::vector<std::string> remarks;    ///< on calibration and case: printed, shown to the instructor, recorded
   SecondHandPlan second_hand;
   haptics::Command command;
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
   std::string parameters;  ///< settings file, applied whenever it changes; `command` holds the keys it leaves out
   Procedure* procedure = nullptr;             ///< leads where there is one
-  std::optional<haptics::PedalChoice> pedal;  ///< none: it is not looked for
-  std::optional<double> rate_Hz;              ///< none: what the hand was recorded at, else 1 kHz
+  std::optional<haptics::PedalChoice> pedal;  ///< none: no pedal is searched for
+  std::optional<double> rate_Hz;              ///< none: the rate of a recorded pose source, else 1 kHz
   std::optional<double> seconds;              ///< simulated time; a scripted hand ends by itself
   std::optional<Recording> recording;
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending

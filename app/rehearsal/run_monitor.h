@@ -1,4 +1,4 @@
-// Decides when a rehearsal is over and why, and which news has to be reported, each once. State and time are passed in.
+// Decides when a rehearsal is over and why, and which events have to be reported, each once. State and time are passed in.
 // Main thread, once a frame; microseconds.
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace app {
 
 enum class Ending { interrupted, by_user, procedure, time_over, silent };
-/// "interrupted", "by the user", … as a session keeps it.
+/// "interrupted", "by the user", … as stored in a session.
 const char* textOf(Ending ending);
 
 struct StationHealth {

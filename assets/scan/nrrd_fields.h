@@ -1,5 +1,5 @@
-// Fields of an NRRD header by name, and the lines after "data file: LIST". Knows the valid names, not their meaning.
-// Throws LoadError of one line. Any thread.
+// Fields of an NRRD header by name, and the lines after "data file: LIST". Checks names only; values are not
+// interpreted. Throws LoadError of one line. Any thread.
 #pragma once
 
 #include <cstddef>

@@ -2,9 +2,7 @@
 // user; mm, rad. With c, s of turret 1, thigh 2 and shin 3 (absolute: a parallelogram leaves both motors at the base),
 // R = l1 c2 + l2 s3 and the shoulder o:
 //   x = ox - R s1,  y = oy + l1 s2 - l2 c3,  z = oz + R c1;
-// det J
-// = R l1 l2
-// cos(shin - thigh)
+//   det J = R l1 l2 cos(shin - thigh)
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ namespace calibration {
 struct CrossValidation {
   double rms_mm = 0.0;
   /// In sigmas of a touch of this precision and usual mismatch, per axis: models are compared by this, because touches
-  /// by eye say little along the line of sight.
+  /// by eye determine little along the line of sight.
   double relative = 0.0;
 };
 

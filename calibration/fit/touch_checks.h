@@ -20,8 +20,8 @@ void checkTouches(const TouchSet& set);
 /// (empty fields are not compared) or the touch.
 void checkUnseen(const TouchSet& fitted, const TouchSet& verification);
 
-/// Variety of the stylus directions: the 95th percentile of the angles between pairs, in the room (for the tip) or
-/// against the forearm (for the gimbal), whichever is smaller.
+/// Variety of the stylus directions: the 95th percentile of the angles between pairs, in W (for the tip) or
+/// relative to the forearm (for the gimbal), whichever is smaller.
 double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>& touches,
                       std::span<const std::size_t> which);
 

@@ -12,7 +12,7 @@ namespace calibration {
 /// The kinematic model of `kinematics`; another kind of arm would have another name.
 inline constexpr std::string_view kKinematicsKind = "phantom6_v1";
 
-/// Matrices typed by hand are rounded.
+/// Manually entered matrices are rounded.
 inline constexpr double kTypedRotationTolerance = 1e-3, kMeasuredRotationTolerance = 1e-6;
 
 Rig rigIn(const CheckedYaml& yaml, double rotation_tolerance);

@@ -9,7 +9,7 @@
 namespace calibration {
 namespace {
 
-/// The hash; empty for a file typed by hand. Throws for a broken or missing seal.
+/// The hash; empty for a hand-written file. Throws for a broken or missing seal.
 std::string sealOf(const CheckedYaml& yaml) {
   const cv::FileNode root = yaml.root();
   if (!yaml.has(root, "sha256")) {

@@ -11,7 +11,7 @@
 namespace calibration {
 
 /// Throws CalibrationError with file, key and remedy: missing, truncated, malformed, not finite, not rigid, degenerate,
-/// newer schema, or edited since its hash was written. A file without a hash counts as typed by hand.
+/// newer schema, or edited since its hash was written. A file without a hash counts as hand-written.
 RigRecord readRigRecord(const std::string& path);
 Rig readRig(const std::string& path);
 

@@ -98,7 +98,7 @@ std::string_view nameOf(const ImageOrientation& orientation) {
 }
 
 std::string remedyFor(const ImageOrientation& orientation) {
-  if (orientation.isUpright()) return "the picture reads right, go on";
+  if (orientation.isUpright()) return "the picture is upright, continue";
   if (orientation.quarters % 2 == 1)
     return "the picture is " + std::string(nameOf(orientation)) +
            ", set the screen's rotation in the system's settings";

@@ -23,7 +23,7 @@ struct TimeErosion {
 };
 
 /// Friction power (Agus et al. 2002; reference/physics 1.1; with 1/alpha as Archard's wear, Chan et al. 2016, 1.6):
-/// MRR = alpha mu F_n v_c. alpha = 1/u, u 0.3-4 J/mm3 for burring by hand (reference/physics 4).
+/// MRR = alpha mu F_n v_c. alpha = 1/u, u 0.3-4 J/mm3 for manual burring (reference/physics 4).
 struct DoseErosion {
   double removal_mm3_per_J = 0.5;
 };

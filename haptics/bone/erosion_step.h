@@ -3,7 +3,7 @@
 //   time:       part of the first content lost = k f (1 - worn) |w| / w_rated dt: open loop, linear in time.
 //   dose:       mm3/s = alpha f (1 - worn) mu F_n v_c, v_c = |w| sliding_arm; the loss grows with |r x axis|.
 //   machining:  mm3/s = (1 - worn) min(swept, f P / u).
-// The last two are met through their yield: half-used voxels yield more than their visible part, used-up ones nothing.
+// The last two use feedback: partly cut voxels yield more than their visible content, voxels at their cap nothing.
 // ErosionState learns the yield and carries the deficit on, at most 5 % of the overlap and none out of contact, so that
 //   sum removed_t / rate_t = time spent cutting, over tissues t   (Agus: work of friction = work of removal).
 #pragma once

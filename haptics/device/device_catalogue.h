@@ -1,6 +1,7 @@
 // Every kind of device, one table line each: its address, its driver and what that was tested against, how it is found
 // and opened. A new back-end is a folder, its `open…` in opened_device.h and a line here. A search opens no device: it
-// reads files, asks libusb, and loads the vendor's library to see whether it can be used. Any thread but the servo's.
+// reads files, queries libusb, and loads the vendor's library to see whether it can be used. Any thread but the
+// servo's.
 #pragma once
 
 #include <span>

@@ -2,8 +2,8 @@
 // that ticks come, measures their timing, ramps the force down at the end. A derived class gives the wrench and must
 // stop() in its destructor. start() and stop() from one thread, emergencyStop() from any. Real-time priority, a core
 // and locked memory are requested and reported, not required. One start and one stop. A stepped device (served_device)
-// has no thread, supervisor or clock: step() makes the ticks. Without the safety layer: that is part of the derived
-// class.
+// has no thread, supervisor or clock: step() makes the ticks. The safety layer is
+// not included: the derived class adds it.
 #pragma once
 
 #include <atomic>

@@ -23,7 +23,7 @@ class HandleRecorder final : public DeviceLoop {
 
   /// Appends all states since the last call, valid or not. Always the same thread.
   void takeInto(std::vector<TimedHandle>& out) { log_.drainInto(out); }
-  /// States lost because they were not taken in time: 4 s at 1 kHz.
+  /// States lost because takeInto() came too late; the buffer holds 4 s at 1 kHz.
   std::uint64_t dropped() const { return log_.dropped(); }
 
  private:

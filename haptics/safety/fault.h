@@ -20,9 +20,9 @@ enum class Fault : std::uint32_t {
   braked = 512,      ///< damped: the hand was fast
   too_fast = 1024,   ///< no force for 0.1 s: the hand was too fast
   buzz = 2048,       ///< the contact oscillated
-  overdrawn = 4096,  ///< the hand got more energy than can be taken back gently
+  overdrawn = 4096,  ///< the hand got more energy than a ramp can take back
   let_go = 8192,     ///< the deadman detected no hand
-  latched = 16384,   ///< no force until the instructor lifts it
+  latched = 16384,   ///< no force until the instructor clears it
   stopped = 32768,   ///< emergency stop
 };
 constexpr Fault operator|(Fault a, Fault b) {

@@ -1,5 +1,5 @@
 // All stages between the requested and the commanded force, in the order of reference/devices 6; pure, so a replay
-// trips alike.
+// reproduces every trip.
 //   admit(), before contact: 1 HandGuard, 9 Staleness, 10 stop, 2 SafetyStateMachine
 //   serve(), after the law:  3 SoftStart, 6 brake, 5 PassivityController, 6 VelocityGuard and BuzzDetector,
 //                            7 ThermalBudget, peaks, joints, 8 slew: SafetyFilter, last, so that its limits always hold
@@ -27,7 +27,7 @@ class SafetyLayer {
     SafetyState state = SafetyState::off;
     Fault faults = Fault::none;
 
-    /// Nothing is cut that is not felt.
+    /// False while there is no force: bone that cannot be felt is not cut.
     bool mayDrill() const;
   };
   /// `limits` sanitised; `rearm` is Command::rearm.

@@ -1,8 +1,7 @@
-// Whether the hand may be pushed (reference/devices 6.2): off, calibrate, ready, armed, active, fault. Force in
+// State of the force output (reference/devices 6.2): off, calibrate, ready, armed, active, fault. Force in
 // `active` alone. Ready becomes armed outside tissue, at rest and out of the inkwell, and active when a hand is
-// detected; docking and a pause lead back to ready; a fault stays until the instructor lifts it; a stop is final. For a
-// device that cannot push
-// (`must_be_armed` false) it is active at once and nothing latches. Servo thread, no clock.
+// detected; docking and a pause lead back to ready; a fault stays until the instructor clears it; a stop is final. For
+// a device without motors (`must_be_armed` false) it is active at once and nothing latches. Servo thread, no clock.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ class SafetyStateMachine {
     bool stop_requested = false, trouble = false, calibrated = true, docked = false, held = true, resumed = false;
     bool touches = true;        ///< the tool is in tissue, or it is not known
     double speed_mm_per_s = 0;  ///< of the hand
-    std::uint64_t rearm = 0;    ///< a change lifts a fault whose cause is over
+    std::uint64_t rearm = 0;    ///< a change clears a fault whose cause is over
   };
   SafetyState update(const Inputs& inputs, const SafetyLimits& limits, double dt_s) noexcept;
 

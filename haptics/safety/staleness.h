@@ -1,5 +1,5 @@
-// Age of the last measurement and the share of the force left of it (reference/devices 6.9): up to 3 ms as if new, then
-// the force is held, from 5 to 20 ms it fades, then it is a fault. Any thread, flops.
+// Age of the last measurement and the share of the force it still allows (reference/devices 6.9): up to 3 ms as if new,
+// then the force is held, from 5 to 20 ms it fades, then it is a fault. Any thread, flops.
 #pragma once
 
 #include <algorithm>

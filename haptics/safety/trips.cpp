@@ -11,7 +11,7 @@ constexpr std::string_view kNothing = "Nothing needs to be done.";
 const std::array<StateText, 6> kStates = {{
     {"off", "The force is off for the rest of the session.", "End the rehearsal and start it again."},
     {"calibrate", "The device is not calibrated yet.",
-     "Put the handle into its inkwell, or move it as the device asks."},
+     "Put the handle into its inkwell, or move it as the device requires."},
     {"ready", "There is no force yet.", "Take the tool out of the tissue and hold it still for a moment."},
     {"armed", "There will be force as soon as a hand is detected.", "Take hold of the handle."},
     {"active", "The hand feels the tissue.", kNothing},

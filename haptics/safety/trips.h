@@ -1,4 +1,4 @@
-// Texts of every trip of the safety layer, and a counter of them. The counter takes the faults tick by tick on one
+// Texts of all trips of the safety layer, and a counter of trips. The counter takes the faults tick by tick on one
 // thread that is not the servo's (a drained TickLog, a session read again); fixed memory. A trip begins with a tick
 // whose predecessor lacks the fault.
 #pragma once

@@ -22,7 +22,7 @@ struct Command {
   ErosionSettings erosion;
   SpindleSettings spindle;
   SafetyLimits safety;
-  std::uint64_t rearm = 0;  ///< a change lifts a latched fault
+  std::uint64_t rearm = 0;  ///< a change clears a latched fault
 };
 
 }  // namespace haptics

@@ -19,7 +19,7 @@ Command sanitised(const Command& command);
 
 class Servo {
  public:
-  /// Borrows the bone, which must outlive this; becomes its one writer. Allocates the undo history.
+  /// Borrows the bone, which must outlive this; becomes its only writer. Allocates the undo history.
   explicit Servo(CarvedBone& bone) : bone_(bone), undo_(bone) {}
 
   /// One tick of length `dt_s`. Invalid input is a Fault in the Tick.

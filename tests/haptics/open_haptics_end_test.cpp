@@ -186,7 +186,7 @@ TEST_F(OpenHapticsTrouble, IsClosedAfterAStartThatThrew) {
     door.reset();
     door.script.schedule_error = code;
     OpenHaptics device(library);
-    EXPECT_THAT(refusal([&] { device.start(servo, 1000.0); }), HasSubstr("the servo can not be scheduled"));
+    EXPECT_THAT(refusal([&] { device.start(servo, 1000.0); }), HasSubstr("the servo cannot be scheduled"));
     device.stop();
     device.stop();
     EXPECT_EQ(std::ranges::count(door.seen.events, "disable device"), 1);

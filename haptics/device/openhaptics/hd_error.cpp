@@ -14,17 +14,17 @@ constexpr const char* kReport = "report it with the model and the driver's versi
 
 // Numbers: reference/devices 2. After an exceeded limit the amplifiers switch off and ramp back by themselves.
 constexpr std::array<HdErrorMeaning, 21> kMeanings{{
-    {0x0100, kPassing, "the library does not know a property that Molar asked for", kReport},
+    {0x0100, kPassing, "the library does not have a property that Molar requested", kReport},
     {0x0101, kPassing, "the library refused a value that Molar set", kReport},
-    {0x0102, kPassing, "the library does not allow at this moment what Molar asked for", kReport},
-    {0x0103, kPassing, "a property has another type than Molar asked for", kReport},
+    {0x0102, kPassing, "the library does not allow Molar's call at this moment", kReport},
+    {0x0103, kPassing, "a property has another type than Molar requested", kReport},
     {0x0104, kFatal, "the library does not know the device any more", "plug it in and start again",
      DeviceTrouble::not_there},
     {0x0200, kPassing, "the motors are too warm", "rest the arm for some minutes and press less"},
     {0x0201, kPassing, "the force was larger than the device can give", "lower the stiffness or the peak force"},
     {0x0202, kPassing, "the force changed too fast", "lower the stiffness or the slew limit"},
     {0x0203, kPassing, "the stylus moved too fast", "move more slowly"},
-    {0x0204, kFatal, "the device can not give the force it was asked for",
+    {0x0204, kFatal, "the device cannot give the requested force",
      "switch it off for ten seconds, then start again; if it stays, have it serviced"},
     {0x0300, kFatal, "the device reports a fault", "switch it off for ten seconds, check its cables, start again"},
     {0x0301, kFatal, "the device is in use already", "end the other program that uses it, then start again",

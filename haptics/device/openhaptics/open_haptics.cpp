@@ -59,7 +59,7 @@ void OpenHaptics::start(DeviceServo& servo, double rate_Hz) {
   phase_.store(Phase::serving);
   const auto call = [](void* self) { return static_cast<OpenHaptics*>(self)->serve(); };
   schedule_ = hd_.schedule_asynchronous(call, this, hd::kFirstOfATick);
-  throwOnHdError(hd_, session_.name() + ", the servo can not be scheduled");
+  throwOnHdError(hd_, session_.name() + ", the servo cannot be scheduled");
   hd_.start_scheduler();
   scheduler_runs_ = true;
 }

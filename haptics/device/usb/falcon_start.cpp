@@ -98,7 +98,7 @@ std::vector<std::uint8_t> readFalconProgram(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error))
     throw DeviceError(where + "not a file, give the firmware itself", DeviceTrouble::no_driver);
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw DeviceError(where + "its size can not be read, check the disk", DeviceTrouble::no_driver);
+  if (error) throw DeviceError(where + "its size cannot be read, check the disk", DeviceTrouble::no_driver);
   if (size == 0) throw DeviceError(where + "empty, copy it again", DeviceTrouble::no_driver);
   if (size < kMinProgram_bytes || size > kMaxProgram_bytes || size % 2 != 0)
     throw DeviceError(where + std::to_string(size) +

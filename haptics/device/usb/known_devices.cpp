@@ -70,10 +70,11 @@ FoundDevice described(KnownDevice kind, const UsbDevice& device) {
                    "needs 3D Systems' Touch driver for the serial kind, " + then +
                        "; ModemManager must leave its serial port alone");
     case KnownDevice::touch_hid:
-      return touch(found, device, "USB HID", "needs 3D Systems' newer Touch driver, which knows the HID kind, " + then);
+      return touch(found, device, "USB HID",
+                   "needs 3D Systems' newer Touch driver, which supports the HID kind, " + then);
     case KnownDevice::touch_of_another_kind:
       return touch(found, device, "unknown kind",
-                   "is neither the serial nor the HID kind, ask 3D Systems which of its drivers knows it");
+                   "is neither the serial nor the HID kind, ask 3D Systems which of its drivers supports it");
     case KnownDevice::force_dimension:
       found.name = "Force Dimension" + (device.name.empty() ? "" : " " + device.name);
       found.driver = "none in Molar; its maker's SDK would be needed";

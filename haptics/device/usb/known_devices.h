@@ -27,7 +27,7 @@ std::optional<KnownDevice> knownAs(const UsbDevice& device);
 bool isClosed(KnownDevice kind);
 FoundDevice described(KnownDevice kind, const UsbDevice& device);
 
-/// What is plugged in, without opening anything. Throw DeviceError when the USB can not be searched.
+/// The devices plugged in, found without opening any. Throws DeviceError when the USB cannot be searched.
 std::vector<FoundDevice> findClosed();  ///< those that another driver would drive
 std::vector<FoundDevice> findFalcon();
 std::vector<FoundDevice> findWoodenHaptics();

@@ -64,7 +64,7 @@ TEST(DeviceCatalogue, ReportsWhyADeviceCannotBeOpenedAsAKindAndAsALine) {
     haptics::openDevice("wooden:9-9", {});
     FAIL();
   } catch (const haptics::DeviceError& error) {
-    // A machine without any USB can not even look.
+    // A machine without any USB cannot even look.
     const bool can_look = error.trouble != haptics::DeviceTrouble::no_resources;
     EXPECT_TRUE(!can_look || error.trouble == haptics::DeviceTrouble::not_there);
     EXPECT_THAT(error.what(),

@@ -247,7 +247,7 @@ TEST(DoctorChecks, SayOneSentenceEachOnAnEmptyMachine) {
                              checkPriorityLimit(machine), checkMemoryLimit(machine), checkProcessors(machine)}) {
     EXPECT_FALSE(one.id.empty());
     EXPECT_TRUE(one.sentence.ends_with(".")) << one.sentence;
-    EXPECT_NE(one.health, Health::missing) << one.id << ": what can not be seen is not missing";
+    EXPECT_NE(one.health, Health::missing) << one.id << ": what cannot be seen is not missing";
     EXPECT_FALSE(one.health == Health::warn && one.next_step.empty()) << one.id;
   }
 }

@@ -91,7 +91,7 @@ TEST(VolumeReader, ReportsLackOfMemory) {
   if (child == 0) assets::runVolumeReader(folder.at("v.vdb"), {60'000'000, 60'000, 60'000}, answer);
   int status = 0;
   ::waitpid(child, &status, 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory can not be limited there
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory cannot be limited there
   EXPECT_THAT(refusalToRead([&] { assets::volumeFromAnswer(answer, status, "p/volume.vdb"); }),
               HasSubstr("not enough memory"));
 #endif
