@@ -1,5 +1,5 @@
-// Decides when a rehearsal is over and why, and which events have to be reported, each once. State and time are passed in.
-// Main thread, once a frame; microseconds.
+// Decides when a rehearsal is over and why, and which events have to be reported, each once. State and time are passed
+// in. Main thread, once a frame; microseconds.
 #pragma once
 
 #include <chrono>

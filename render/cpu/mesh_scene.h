@@ -1,8 +1,8 @@
 // Face, gingiva and instruments for rays on the CPU: a two-level Embree scene, with the instruments posed in each
 // frame. Frame P, mm. Opaque parts yield the first hit, transparent ones all hits along a ray, back to front. The face
 // window cuts as in shaders/mesh_colour.glsl. Both sides of a triangle are hit, in mirrored views too. Cost: setModel
-// builds a tree (20 ms for 35,000 triangles); place() takes some microseconds, a ray about 30 ns. Thread: setModel and place on
-// one thread; then any number of threads may trace.
+// builds a tree (20 ms for 35,000 triangles); place() takes some microseconds, a ray about 30 ns. Thread: setModel and
+// place on one thread; then any number of threads may trace.
 #pragma once
 
 #include "render/cpu/mesh_bodies.h"
