@@ -28,7 +28,7 @@ class GuidedProcedure {
  protected:
   using Clock = std::chrono::steady_clock;
 
-  /// `robot`: a robot holds the stylus. Throws UsageError if nobody could follow.
+  /// `robot`: a robot holds the stylus. Throws UsageError if neither device nor display is available.
   GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, bool robot);
 
   /// Handles window events of a page seen through `rig`.

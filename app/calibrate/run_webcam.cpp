@@ -97,7 +97,7 @@ class WebcamShow : GuidedProcedure {
     screen_->show(draw, true);
   }
 
-  /// What is asked, while it is asked: a pattern stays alone on the screen.
+  /// The instruction, hidden while a pattern is on the screen.
   void showPage() {
     view_ = WizardView{};
     view_.title = "Webcam";

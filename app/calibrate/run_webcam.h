@@ -18,7 +18,7 @@ struct WebcamRun : GuidedRun {
   bool robot = false;                          ///< does all by itself, on the practice workstation
 };
 
-/// None where somebody left. Throws as runWizard, and CalibrationError where the webcam falls silent.
+/// None if the user left. Throws as runWizard, and CalibrationError if the webcam stops.
 std::optional<calibration::WebcamObservations> runWebcam(const WebcamRun& run);
 
 }  // namespace app

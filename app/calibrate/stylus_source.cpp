@@ -8,7 +8,7 @@ namespace app {
 namespace {
 
 constexpr double kRate_Hz = 1000.0;
-/// Without a tick for so long, the wizard is told that there is nothing to believe.
+/// After this long without a tick, the wizard receives an invalid sample.
 constexpr double kSilent_s = 0.15;
 /// A robot's clock that fell behind does not hurry after it.
 constexpr std::int64_t kMostTicks = 100, kHurriedTicks = 20;
@@ -47,7 +47,7 @@ void DeviceSource::takeInto(std::vector<StylusSample>& out, const WizardView&) {
   for (const haptics::TimedHandle& handle : taken_) {
     StylusSample sample = sampleOf(handle);
     if (sample.valid && !handle.state.has_joints)
-      throw UsageError(model_ + ": it does not tell its joint angles, calibrate a Phantom or Touch");
+      throw UsageError(model_ + ": it does not report its joint angles, calibrate a Phantom or Touch");
     if (sample.t_s <= last_s_) continue;
     last_s_ = sample.t_s;
     out.push_back(sample);

@@ -15,7 +15,7 @@
 
 namespace app {
 
-/// As the wizard is told of it; valid where the device is healthy and calibrated and its pose a pose.
+/// The sample for the wizard; valid where the device is healthy and calibrated and its pose a pose.
 StylusSample sampleOf(const haptics::TimedHandle& handle);
 
 class StylusSource {
@@ -29,7 +29,7 @@ class StylusSource {
 };
 
 /// Listens to a device from construction to destruction. Throws haptics::DeviceError; UsageError at the first tick of a
-/// device that does not tell its joints.
+/// device that does not report its joints.
 class DeviceSource : public StylusSource {
  public:
   explicit DeviceSource(haptics::HapticDevice& device);

@@ -136,7 +136,7 @@ TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {
     announcements_.refuse("Tilt it as before" + (words.empty() ? "." : ": " + words + "."));
     return TouchEvent::nothing;
   }
-  // Along the line of sight nobody aims at a cross exactly.
+  // Aiming at a cross is inexact along the line of sight.
   glm::dvec3 apart_mm = arm_.tip_W(take.raw_rad).mm - arm_.tip_W(before).mm;
   if (plan_.kind == calibration::TargetKind::cross) apart_mm.z = 0.0;
   confirming_.reset();

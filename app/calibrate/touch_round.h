@@ -24,7 +24,7 @@ class TouchRound {
  public:
   enum class TouchEvent { nothing, taken, undone, started_again, left };
 
-  /// `max_distance_mm`: a tip believed further from its target is objected to; 0: the arm is not known so well.
+  /// `max_distance_mm`: a tip computed further from its target is doubtful; 0: no limit.
   TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double max_distance_mm,
              Announcements& announcements);
 
@@ -81,7 +81,7 @@ class TouchRound {
   std::vector<std::optional<Taken>> taken_;  ///< one a target
   std::vector<std::size_t> order_;           ///< in which they were taken
   std::optional<std::size_t> confirming_;    ///< touched again after a silence
-  std::optional<std::size_t> objected_;      ///< a press that follows, once it was heard, takes it
+  std::optional<std::size_t> objected_;      ///< doubtful touch that a second press takes
   double objected_at_s_ = 0.0;
   std::optional<double> dwelt_at_s_;  ///< a press right after counts as the same touch
   std::optional<calibration::RawJoints> last_rad_;

@@ -19,7 +19,7 @@ using calibration::GreyImage;
 
 /// Views of the lens must differ by this share of the image's width at some corner.
 constexpr double kNewView = 0.06;
-/// Tips are found to about this, one sigma an axis: hand, exposure and shading of the ball together.
+/// Noise of a detected tip, one sigma per axis: hand, exposure and shading of the ball.
 constexpr double kTipNoise_px = 0.3, kBoardNoise_px = 0.25;
 constexpr double kFlat_mm = 0.01;  ///< of the virtual screen: W lies in it
 
@@ -80,7 +80,7 @@ std::optional<calibration::Target> WebcamProcedure::target() const {
 }
 
 double WebcamProcedure::progress() const {
-  // A view of the lens, a pattern and a tip are each one image to whoever waits.
+  // Each view of the lens, pattern and tip counts as one image.
   const double a_position = 1.0 + static_cast<double>(plan_.places.targets.size());
   const double lens = plan_.lens ? 0.0 : plan_.lens_views;
   double done = lens_ ? lens : static_cast<double>(views_.size());
@@ -116,7 +116,7 @@ void WebcamProcedure::turnTo(WebcamStep step) {
       pressed_ = true;
       return;
     case WebcamStep::tips:
-      // The place where the tip is wanted, flat: for those who do not draw it in stereo.
+      // The target as a flat ring, for displays without stereo.
       shown_ = calibration::ringImage(plan_.rig, plan_.rig.cyclopeanEye(), target()->position_W);
       sentence_ = "Light the tip, hold it at the ring, then press: " +
                   std::to_string(observations_.positions.back().tips.size() + 1) + " of " +
@@ -139,10 +139,10 @@ void WebcamProcedure::press() {
 void WebcamProcedure::see(const GreyImage& image, const calibration::RawJoints& joints_rad) {
   if (expects() != WebcamInput::image) return;
   answer_.clear();
-  if (!picture_px_) picture_px_ = plan_.lens ? plan_.lens->size_px : image.size_px;
-  if (image.size_px != *picture_px_) {
+  if (!image_px_) image_px_ = plan_.lens ? plan_.lens->size_px : image.size_px;
+  if (image.size_px != *image_px_) {
     answer_ = "The picture is " + std::to_string(image.size_px.x) + " x " + std::to_string(image.size_px.y) +
-              ": set the webcam to " + std::to_string(picture_px_->x) + " x " + std::to_string(picture_px_->y) + ".";
+              ": set the webcam to " + std::to_string(image_px_->x) + " x " + std::to_string(image_px_->y) + ".";
     return turnTo(step_);
   }
   switch (step_) {
@@ -204,7 +204,7 @@ void WebcamProcedure::checkLens(const GreyImage& image) {
 
 void WebcamProcedure::checkPattern(const GreyImage& image) {
   seen_patterns_.push_back(image);
-  // The whole code is one press.
+  // One press takes the whole code.
   if (seen_patterns_.size() < patterns_.size()) return show(patterns_[seen_patterns_.size()]);
 
   std::vector<glm::dvec2> screen_px, camera_px;

@@ -19,7 +19,7 @@
 namespace app {
 
 struct WebcamPlan {
-  calibration::Rig rig;            ///< screen, mirror and eyes as believed
+  calibration::Rig rig;            ///< nominal screen, mirror and eyes
   calibration::TargetPlan places;  ///< "webcam27"
   int positions = 3, lens_views = 12;
   std::optional<calibration::CameraModel> lens;  ///< known: it is not measured again
@@ -42,7 +42,7 @@ class WebcamProcedure {
   const std::string& answer() const { return answer_; }      ///< to the last image: why it was not taken; or empty
   /// For the framebuffer as it is; right way round by the rig's corners.
   const calibration::GreyImage& shown() const { return shown_; }
-  /// Where the tip is wanted now.
+  /// Current target of the tip.
   std::optional<calibration::Target> target() const;
   int position() const { return static_cast<int>(observations_.positions.size()); }  ///< from 1
   double progress() const;                                                           ///< 0 to 1
@@ -79,7 +79,7 @@ class WebcamProcedure {
 
   WebcamStep step_ = WebcamStep::letter;
   bool pressed_ = false;
-  std::optional<glm::ivec2> picture_px_;  ///< of the first image: all have it
+  std::optional<glm::ivec2> image_px_;  ///< size of the first image, required of all
   std::string sentence_, answer_;
   calibration::GreyImage shown_;
 };

@@ -26,10 +26,10 @@ class WebcamTechnician {
     return webcam_poses_[position];
   }
 
-  /// Does what is asked now: gets ready and presses, or takes the image.
+  /// Follows the current request: gets ready and presses, or takes the image.
   void act(WebcamProcedure& procedure);
 
-  /// For a person who holds the stylus: the webcam where the procedure wants it now.
+  /// Moves only the webcam as requested, for a person who holds the stylus.
   void placeWebcamFor(const WebcamProcedure& procedure);
   /// What the webcam sees of what the procedure shows, with the tip lit, if any.
   calibration::GreyImage image(const WebcamProcedure& procedure,

@@ -17,7 +17,7 @@ class Wizard {
   /// Throws CalibrationError: no such method, no such model of device.
   explicit Wizard(WizardPlan plan);
 
-  /// In the order of time. Every tick of 500 to 10,000 Hz; also while nothing can be believed.
+  /// In the order of time. Every tick of 500 to 10,000 Hz, also invalid ones.
   void update(const StylusSample& sample);
   /// With the sounds since the last takeView.
   WizardView takeView();
@@ -38,7 +38,7 @@ class Wizard {
   std::string said_before_;  ///< the message with which this page began
   ButtonPress button_;
   bool lost_ = false;
-  std::optional<double> valid_s_;  ///< when the device could last be believed
+  std::optional<double> valid_s_;  ///< time of the last valid sample
 };
 
 }  // namespace app

@@ -48,7 +48,7 @@ struct WizardOutcome {
 /// The rig with what is known by now of screen and eyes.
 calibration::Rig rigSoFar(const calibration::Rig& rig, const WizardOutcome& outcome);
 
-/// The record with everything that was accepted put in. Times, versions, operator and parent are left to who saves it.
+/// The record with all accepted results. Times, versions, operator and parent are set by the caller that saves it.
 /// As `before` unless it was accepted.
 calibration::RigRecord recordOf(const WizardPlan& plan, const WizardOutcome& outcome);
 

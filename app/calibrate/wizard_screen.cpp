@@ -2,14 +2,14 @@
 
 namespace app {
 
-WizardScreen::WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const ReportLine& tell)
+WizardScreen::WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const ReportLine& report)
     : display_(display),
       screen_px_(screen_px),
       windows_({.mode = display.mode,
                 .screen_px = screen_px,
                 .full_screen = display.full_screen,
                 .monitor = display.monitor},
-               tell) {}
+               report) {}
 
 void WizardScreen::show(const std::function<render::Image(const render::StereoLayout&)>& draw, bool as_the_panel) {
   const glm::ivec2 window_px = windows_.first().framebufferSize_px();

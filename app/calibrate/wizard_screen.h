@@ -21,14 +21,14 @@ struct WizardDisplay {
 
 class WizardScreen {
  public:
-  /// `screen_px`: the rig's. `tell`: what could not be had and what is shown instead.
-  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const ReportLine& tell);
+  /// `screen_px`: the rig's. `report`: called with the fallback if the display mode is not available.
+  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const ReportLine& report);
 
   std::vector<render::WindowEvent> takeEvents() { return windows_.takeEvents(); }
   glm::ivec2 window_px() { return windows_.first().framebufferSize_px(); }
 
-  /// Hands over what `draw` makes of each output; waits for the display. `as_the_panel`: drawn in the panel's pixels,
-  /// whatever the window has: patterns for a camera.
+  /// Shows the image of `draw` for each output; waits for the display. `as_the_panel`: drawn in the panel's pixels
+  /// regardless of the window, for a camera's patterns.
   void show(const std::function<render::Image(const render::StereoLayout&)>& draw, bool as_the_panel = false);
 
  private:

@@ -1,4 +1,4 @@
-// The touches of the calibration, judged while they come in: after eight, each is compared with where the others
+// The touches of the calibration, checked as they arrive: after eight, each is compared with where the others
 // predict it. At the end the worst can be repeated; a single tilt for all touches is refused. One thread.
 
 #include "app/calibrate/number_text.h"
@@ -11,7 +11,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t kLeastJudged = 8;
-constexpr int kMostOneWay = 1;          ///< times that somebody is asked to follow the cue
+constexpr int kMostOneWay = 1;          ///< requests to follow the cue
 constexpr double kMostMuddle_mm = 3.0;  ///< left at the touches: beyond, they belong to other targets
 
 class CollectStep final : public WizardStep {

@@ -1,6 +1,6 @@
-// Four crosses in stereo, before and behind the screen's plane: where they seem to be tells whether pupils and distance
-// were measured well. Eyes are never solved from them: so few alignments leave 20 mm open. One thread.
-// Source: reference/calibration 2.2.
+// Four crosses in stereo, before and behind the screen's plane: their apparent position shows whether pupils and
+// distance were measured well. The eyes are not fitted to them: so few alignments leave 20 mm open. One thread. Source:
+// reference/calibration 2.2.
 
 #include <cmath>
 

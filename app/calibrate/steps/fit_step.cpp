@@ -1,4 +1,4 @@
-// The arm is worked out from its touches; what makes the result less than it seems is said. One thread; update() takes
+// Fits the arm to its touches and reports warnings of the fit. One thread; update() takes
 // up to a second once.
 
 #include "app/calibrate/choice_menu.h"

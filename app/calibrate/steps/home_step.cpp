@@ -31,7 +31,7 @@ class HomeStep final : public WizardStep {
           context_.announcements.refuse("The stylus is not in its inkwell: push it home.");
         else if (press == Press::short_press && !sample.valid)
           context_.announcements.refuse("The device is not homed yet.");
-        // A device without an inkwell is told by a press.
+        // Without an inkwell, a press confirms the home position.
         if (!is_home || (!context_.plan.has_inkwell && press != Press::short_press)) {
           since_s_ = sample.t_s;
           return {};

@@ -1,5 +1,5 @@
 // Touches that the calibration has not seen, held in new ways: after a full one 16 of them, at the start of a session
-// 4. They are judged; at a session what is not good is brought up to date, once, and checked again. One thread.
+// 4. They are assessed; a session check that is not green is followed by one re-zero and checked again. One thread.
 
 #include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/touch_step.h"

@@ -29,7 +29,7 @@ class SignOffStep final : public WizardStep {
     const bool changes = context_.outcome.arm || context_.outcome.rest;
     if (may) add(Choice::take, changes ? "take it" : "done");
     add(Choice::numbers, "details");
-    // Nothing is mended by doing a short check once more: what is red after a re-zero wants all of it.
+    // Red after a re-zero needs a full calibration; another short check does not help.
     if (context_.plan.procedure == CalibrationProcedure::full || context_.plan.procedure == CalibrationProcedure::rest)
       add(Choice::repeat, "touch all again");
     if (changes || !may) add(Choice::leave, "leave; the old calibration stays");

@@ -36,7 +36,7 @@ RigStore storeAt(const std::string& folder) {
 
 void KeepOption::addTo(CommandLine& command) {
   command.option("--out", out, "Rig file to write").valueNamed("FILE");
-  command.flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unproved");
+  command.flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unverified");
   addStore(command, store);
   command.flag("--force", force, "Replace a file that exists");
 }
@@ -72,7 +72,7 @@ void KeepOption::keep(const RigRecord& record, const std::string& touches_text) 
                passes ? "in force from now on"
                : record.verification
                    ? "red, so the one before stays in force"
-                   : "not proved yet, so the one before stays in force: prove it with molar calibrate "
+                   : "not verified yet, so the one before stays in force: verify it with molar calibrate "
                      "verify --keep");
 }
 
@@ -107,7 +107,7 @@ int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep) {
     keep.note(record, DriftKind::rezero, targetErrors(residualsOf(*before, outcome.zeroing.touches)));
   else if (outcome.errors)
     keep.note(record, outcome.fit ? DriftKind::calibration : DriftKind::check, *outcome.errors);
-  // A check that found all well changes nothing.
+  // A green check changes nothing.
   if (outcome.arm || outcome.rest || outcome.screen) keep.keep(record, touchesText(touchesOf(outcome)));
   return outcome.assessment ? statusOf(outcome.assessment->verdict) : 0;
 }
@@ -131,7 +131,7 @@ int conclude(const WebcamObservations& seen, const WebcamFit& fit, const RigReco
 int statusOf(Verdict verdict) { return verdict == Verdict::green ? 0 : 1; }
 
 void addCalibrate(CommandLine& molar) {
-  CommandLine& calibrate = molar.command("calibrate", "Align hand and eye: measure, fit, prove, keep");
+  CommandLine& calibrate = molar.command("calibrate", "Align hand and eye: measure, fit, verify, keep");
   calibrate.requireCommand();
   addCalibrateSimulate(calibrate);
   addCalibrateCollect(calibrate);

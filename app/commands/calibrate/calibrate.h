@@ -25,7 +25,7 @@ void addCalibrateStore(CommandLine& calibrate);  ///< list, diff, rollback
 
 /// --store: where calibrations are kept.
 void addStore(CommandLine& command, std::string& store);
-/// Of a folder's name; empty: the usual one.
+/// Empty: the default folder.
 calibration::RigStore storeAt(const std::string& folder);
 
 /// Where a result goes: a file, the store, or nowhere.
@@ -50,10 +50,10 @@ class KeepOption {
   bool into_store = false, force = false;
 };
 
-/// Who measures, as options.
+/// Options of the circumstances of a measurement.
 void addMeasurementInfo(CommandLine& command, MeasurementInfo& info);
 
-/// What a technician was led to, told and kept; the exit status.
+/// Reports and stores the outcome of a guided procedure; returns the exit status.
 int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep);
 /// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `verification`: touches held out, if
 /// any.

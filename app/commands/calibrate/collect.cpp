@@ -50,7 +50,7 @@ int collect(const CollectOptions& asked) {
     throw UsageError("--method " + options.method +
                      ": not a procedure, choose jig27, jig8, visual15, visual25, webcam3 or rest");
   if (rest && options.rest_marks.size() < 6)
-    throw UsageError("--method rest: it needs six marks, three for the pose and three to prove it: --rest-mark x,y,z");
+    throw UsageError("--method rest: it needs six marks, three for the pose and three to verify it: --rest-mark x,y,z");
   for (const auto& mark : options.rest_marks) options.wizard.rest_marks_mm.emplace_back(mark[0], mark[1], mark[2]);
   options.wizard.jig = jigPose(options.jig);
   options.keep.refuseUnlessWritable();

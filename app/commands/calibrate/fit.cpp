@@ -41,7 +41,7 @@ Verdict predictedVerdict(const ArmFit& fit, VerificationKind kind) {
   return assess(errors, kind).verdict;
 }
 
-/// What no number of the fit shows: it may be good where it was measured alone.
+/// Warnings of a fit that may hold only near the measured poses, which no residual shows.
 bool isDoubtful(const ArmFit& fit) {
   using Kind = FitWarning::Kind;
   return std::ranges::any_of(fit.warnings, [](const FitWarning& warning) {
@@ -49,21 +49,21 @@ bool isDoubtful(const ArmFit& fit) {
   });
 }
 
-/// The serial that is given must be that of the unit that was measured.
+/// A given serial must match the measured unit.
 std::string serialOf(const std::string& given, const std::string& measured) {
   if (!given.empty() && !measured.empty() && given != measured)
     throw UsageError("--serial " + given + ": the observations were made with '" + measured + "', leave it out");
   return given.empty() ? measured : given;
 }
 
-/// Of the same device, and not seen by the fit.
+/// Residuals of touches of the same device outside the fit.
 std::vector<Residual> heldOut(const std::string& path, const MeasuredArm& arm, const TouchSet& fitted) {
   const TouchSet verification = readTouches(path);
   checkUnseen(fitted, verification);
   return residualsOf(arm, verification.touches);
 }
 
-/// What a webcam saw.
+/// Fits the observations of a webcam.
 int fitWebcamFile(const CalibrateFitOptions& options) {
   const WebcamObservations observations = readWebcamFile(options.observations);
   const RigRecord base = baseRig(options.rig);
@@ -125,7 +125,7 @@ void addCalibrateFit(CommandLine& calibrate) {
       .oneOf({"auto", "rigid", "joints", "harders", "full"})
       .showsDefault();
   command.option("--rig", o->rig, kBaseRigHelp).showsDefault();
-  command.option("--held-out", o->held_out, "Touches it has not seen, to prove it by").valueNamed("FILE");
+  command.option("--held-out", o->held_out, "Touches outside the fit, to verify it").valueNamed("FILE");
   command.option("--region", o->region_mm3, "Volume that the case needs, mm3").from(0.0, 1e8);
   addMeasurementInfo(command, o->info);
   o->keep.addTo(command);

@@ -93,7 +93,7 @@ int lens(const LensOptions& options) {
   const LensBoard board(options);
   if (!options.out.empty()) out = std::make_unique<calibration::OutputFile>(options.out, options.force);
   const Views views = viewsIn(options, board);
-  // What is wrong with the pictures says more than that they are too few.
+  // The reason for a refused image helps more than "too few".
   if (views.usable.size() < kMinViews && !views.refused.empty())
     throw CalibrationError("folder " + options.folder + ": " + std::to_string(views.usable.size()) + " of " +
                            std::to_string(views.usable.size() + views.refused.size()) +

@@ -28,7 +28,7 @@ std::vector<RawJoints> holdsOf(const TouchSet& touches) {
   return holds;
 }
 
-/// Who measures is as the rig has it, unless it is said.
+/// The rig's name from the base, if it has one.
 MeasurementInfo infoOf(const PivotOptions& options, const RigRecord& base) {
   MeasurementInfo info = options.info;
   if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;
@@ -55,7 +55,8 @@ int pivot(const PivotOptions& options) {
   putPivot(record, arm, found, options.info.stylus_tip);
   stamp(record, base, infoOf(options, base));
   std::fputs(
-      "note: with another tip nothing is proved any more: touch pits that no fit has seen, molar calibrate verify\n",
+      "note: with another tip the verification no longer holds: touch pits that no fit has seen, molar calibrate "
+      "verify\n",
       stderr);
   options.keep.keep(record, touchesText(touches));
   return 0;

@@ -22,7 +22,7 @@ struct ProveOptions {
   bool session_check = false, json = false;
 };
 
-/// A touch it was fitted to leaves the very same error at the very same place.
+/// A touch used by the fit has the same error at the same target.
 void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals, const std::string& path) {
   constexpr double kSame_mm = 1e-6;
   for (const Residual& one : residuals)
@@ -30,11 +30,11 @@ void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals,
       if (one.used && seen.used && glm::distance(one.target_W.mm, seen.target_W.mm) < kSame_mm &&
           glm::distance(one.error_mm.xyz, seen.error_mm.xyz) < kSame_mm)
         throw UsageError(path + ": touch " + std::to_string(one.id) +
-                         " is one that the rig was fitted to, which proves nothing, touch other places");
+                         " is one that the rig was fitted to, which verifies nothing, touch other positions");
 }
 
 int prove(const ProveOptions& options) {
-  // At the workstation it is brought up to date at once where it has to be.
+  // With a device, a failed check is followed by a re-zero.
   if (options.wizard.isGiven())
     return conclude(
         options.wizard.guide(CalibrationProcedure::check, "check4", options.rig, options.keep.rigs(), options.info),

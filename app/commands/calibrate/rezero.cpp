@@ -51,7 +51,7 @@ int rezero(const RezeroOptions& options) {
   stamp(record, base, info);
   options.keep.keep(record, touchesText(touches));
   options.keep.note(record, DriftKind::rezero, targetErrors(residualsOf(before, touches.touches)));
-  // Until others are touched, what is left at its own touches is all there is to say.
+  // Without held-out touches, the residuals of its own touches decide.
   return statusOf(record.verification ? record.verification->verdict
                                       : assess(targetErrors(done.residuals), VerificationKind::session_check).verdict);
 }
@@ -63,7 +63,7 @@ void addCalibrateRezero(CommandLine& calibrate) {
   CommandLine& command = calibrate.command("rezero", "Bring a rig up to date with five touches, 30 s");
   command.option("RIG", o->rig, kBaseRigHelp);
   command.option("OBSERVATIONS", o->observations, "Touches, YAML");
-  command.option("--held-out", o->held_out, "Four touches more, to prove it by").valueNamed("FILE");
+  command.option("--held-out", o->held_out, "Four more touches, to verify it").valueNamed("FILE");
   o->wizard.addTo(command);
   addMeasurementInfo(command, o->info);
   o->keep.addTo(command);

@@ -83,9 +83,9 @@ void addCalibrateSimulate(CommandLine& calibrate) {
       .numbers(3)
       .from(-100.0, 100.0);
   command.option("--out", o->out, "Observations to write, YAML").valueNamed("FILE").required();
-  command.option("--held-out", o->held_out, "Touches to judge by, with tilts of their own, YAML").valueNamed("FILE");
+  command.option("--held-out", o->held_out, "Held-out touches to write, with other tilts, YAML").valueNamed("FILE");
   command.option("--held-out-n", o->held_out_n, "How many of these").wholeFrom(4, 1000).showsDefault();
-  command.option("--rig", o->rig, "The rig as it is believed before, YAML").valueNamed("FILE");
+  command.option("--rig", o->rig, "The nominal rig to write, YAML").valueNamed("FILE");
   command.flag("--force", o->force, "Replace files that exist");
   command.does([o] { return simulate(*o); });
 }

@@ -26,7 +26,7 @@ std::string textOf(const RigLocation& location) {
   return location.rig_id + " / " + location.serial + " / " + location.mount;
 }
 
-/// The one location that is meant.
+/// The only location that fits the options.
 RigLocation placeMeant(const StoreOptions& options) {
   std::vector<RigLocation> fits;
   for (const RigLocation& location : options.rigs().locations())
@@ -41,7 +41,7 @@ RigLocation placeMeant(const StoreOptions& options) {
   return fits.front();
 }
 
-/// A spoilt pointer is said, and hides nothing of what is kept.
+/// A damaged pointer is reported; the records stay listed.
 std::optional<std::string> currentOrReport(const RigStore& rigs, const RigLocation& location) {
   try {
     return rigs.currentName(location);

@@ -29,7 +29,7 @@ RigLocation placeOf(const MeasurementInfo& info) { return {info.rig_id, info.ser
 
 Option WizardOption::addTo(CommandLine& command) {
   Option device = command.option("--device", device_,
-                                 "Stylus: openhaptics[:NAME], or practice:D[:SEED], one in numbers on which nothing "
+                                 "Stylus: openhaptics[:NAME], or practice:D[:SEED], a simulated one on which nothing "
                                  "can break (mouse moves it, space is its button)");
   Option robot = command.flag("--robot", robot_, "A robot holds the practice stylus and does what the pages say");
   command.flag("--hurried", hurried_, "The robot takes no time").needs(robot);

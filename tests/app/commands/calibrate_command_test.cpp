@@ -80,7 +80,7 @@ TEST_F(CalibrateCommand, StoresVerifiedRigsAndRollsBack) {
   EXPECT_EQ(molar("calibrate fit " + at("obs.yaml") + held + store).status, 0);
   EXPECT_NE(current("store"), before);
 
-  // Not proved, or red: kept, not in force.
+  // Not verified, or red: kept, not in force.
   const std::string in_force = current("store");
   molar("calibrate fit " + at("obs.yaml") + store);
   EXPECT_EQ(current("store"), in_force);
@@ -149,7 +149,7 @@ TEST_F(CalibrateCommand, ARedCheckLocksAGreenRig) {
 
   // A re-zero opens it again, once others prove it.
   const std::string rezero = "calibrate rezero " + rig + " " + at("five.yaml") + " --keep --store " + at("store");
-  EXPECT_NE(molar(rezero).err.find("not proved"), std::string::npos);
+  EXPECT_NE(molar(rezero).err.find("not verified"), std::string::npos);
   expectRefusal(rehearse, "red");
   EXPECT_NE(molar(rezero + " --held-out " + at("four.yaml")).status, 2);
   const ProgramOutput opened = molar(rehearse);
@@ -196,7 +196,7 @@ TEST_F(CalibrateCommand, RefusesBadInputAndKeepsTheCurrentRig) {
   // Touches that the fit has seen prove nothing.
   expectRefusal("calibrate fit " + at("obs.yaml") + " --keep --store " + at("store") + " --held-out " + at("obs.yaml"),
                 "of the fit");
-  expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("obs.yaml"), "proves nothing");
+  expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("obs.yaml"), "verifies nothing");
   expectRefusal("calibrate simulate --scenario H --out " + at("x.yaml"));
   expectRefusal("calibrate simulate --method jig9 --out " + at("x.yaml"), "jig9");
   EXPECT_EQ(current("store"), in_force);
