@@ -64,10 +64,10 @@ TouchRound::TouchEvent TouchRound::update(const StylusSample& sample, Press pres
     announcements_.refuse("Not taken: " + why + ".");
     return TouchEvent::nothing;
   }
-  const auto heldStill = still_.heldStill();
-  if (!heldStill) return TouchEvent::nothing;
+  const auto held_still = still_.heldStill();
+  if (!held_still) return TouchEvent::nothing;
   dwelt_at_s_ = sample.t_s;
-  return take(*heldStill, false);
+  return take(*held_still, false);
 }
 
 TouchRound::TouchEvent TouchRound::take(const StillReading& take, bool pressed) {

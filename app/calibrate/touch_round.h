@@ -24,7 +24,7 @@ class TouchRound {
  public:
   enum class TouchEvent { nothing, taken, undone, started_again, left };
 
-  /// `max_distance_mm`: a tip computed further from its target is doubtful; 0: no limit.
+  /// `max_distance_mm`: a tip computed further from its target is doubtful; 0: the 60 mm limit of an unmeasured arm.
   TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double max_distance_mm,
              Announcements& announcements);
 
