@@ -28,8 +28,8 @@ class GuidedProcedure {
  protected:
   using Clock = std::chrono::steady_clock;
 
-  /// `robot`: a robot holds the stylus. Throws UsageError without device or practice rig, or without a window unless the
-  /// robot holds a practice stylus.
+  /// `robot`: a robot holds the stylus. Throws UsageError without device or practice rig, or without a window unless
+  /// the robot holds a practice stylus.
   GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, bool robot);
 
   /// Handles window events of a page seen through `rig`.

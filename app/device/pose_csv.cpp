@@ -121,8 +121,7 @@ std::vector<TimedPose> readPoses(const std::string& path) {
     throw UsageError("pose file " + path + ": it is not a plain file, give one");
   const auto bytes = std::filesystem::file_size(path, error);
   std::ifstream file(path);
-  if (error || !file)
-    throw UsageError("pose file " + path + ": it cannot be read, check the path and its permissions");
+  if (error || !file) throw UsageError("pose file " + path + ": it cannot be read, check the path and its permissions");
   if (bytes > kLargestFile_bytes) throw UsageError("pose file " + path + ": it is larger than 1 GiB, split it");
 
   std::vector<TimedPose> poses;

@@ -51,7 +51,7 @@ bool checkButtons(CheckBench& bench) {
   if (!bench.confirm(OwnerTask::first_button, "Hold the first button down.")) return false;
   const std::uint32_t first = stateAtRest(bench).state.buttons;
   if (!bench.confirm(OwnerTask::second_button,
-                   "Hold the second button down, the first one not; if there is none, nothing."))
+                     "Hold the second button down, the first one not; if there is none, nothing."))
     return false;
   const std::uint32_t second = stateAtRest(bench).state.buttons;
   if (!bench.confirm(OwnerTask::hold, "Let the buttons go.")) return false;
@@ -63,7 +63,7 @@ bool checkButtons(CheckBench& bench) {
 
 bool checkAxes(CheckBench& bench) {
   if (!bench.confirm(OwnerTask::upper_corner,
-                   "Bring the handle to the right, upward and towards you, as far as it goes easily."))
+                     "Bring the handle to the right, upward and towards you, as far as it goes easily."))
     return false;
   const glm::dvec3 upper_mm = stateAtRest(bench).state.X_DH.translation_mm;
   if (!bench.confirm(OwnerTask::lower_corner, "Now to the left, downward and away from you.")) return false;
