@@ -17,6 +17,13 @@ namespace {
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool same(const glm::dvec3& a, const glm::dvec3& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
+bool same(const haptics::SoftTouch& a, const haptics::SoftTouch& b) {
+  return a.tissue == b.tissue && a.bur_cuts == b.bur_cuts && a.tissues == b.tissues && same(a.depth_mm, b.depth_mm) &&
+         same(a.place_P.mm, b.place_P.mm) && same(a.force_P_N.xyz, b.force_P_N.xyz) &&
+         same(a.torque_P_Nmm.xyz, b.torque_P_Nmm.xyz) && same(a.turn_P.w, b.turn_P.w) &&
+         same(glm::dvec3(a.turn_P.x, a.turn_P.y, a.turn_P.z), glm::dvec3(b.turn_P.x, b.turn_P.y, b.turn_P.z));
+}
+
 /// The first quantity in which a replayed tick differs from the recorded one.
 std::optional<std::string> differenceOf(const haptics::Tick& recorded, const haptics::Tick& again) {
   if (recorded.index != again.index) return "the number of the tick differs";
@@ -34,6 +41,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (!same(recorded.removed_mm3, again.removed_mm3)) return "the removed volume differs";
   if (recorded.bone_digest != again.bone_digest) return "the bone differs";
   if (recorded.contact_tissue != again.contact_tissue) return "the tissue in contact differs";
+  if (!same(recorded.soft, again.soft)) return "the contact with soft tissue differs";
   if (recorded.drilling != again.drilling || recorded.drill_inhibit != again.drill_inhibit) return "the drill differs";
   if (recorded.strokes != again.strokes) return "the strokes to take back differ";
   if (recorded.state != again.state) return "the state of the safety layer differs";

@@ -17,6 +17,8 @@ struct Text {
 
 constexpr std::string_view kRests = "none 0, undoing 1, caught 2, pedal 3";
 constexpr std::string_view kStates = "off 0, calibrate 1, ready 2, armed 3, active 4, fault 5";
+constexpr std::string_view kSoftMeaning = "none 0, gingiva 1, flap 2, lip 3, cheek 4, tongue 5, mucosa 6";
+constexpr std::string_view kSoftSetMeaning = "gingiva 2, flap 4, lip 8, cheek 16, tongue 32, mucosa 64; their sum";
 constexpr std::string_view kFaults =
     "bad_pose 1, bad_force 2, clamped 4, slewed 8, device 16, joints 32, hot 64, stale 128, resumed 256, braked 512, "
     "too_fast 1024, buzz 2048, overdrawn 4096, let_go 8192, latched 16384, stopped 32768; their sum";
@@ -29,6 +31,20 @@ void visitXyz(Text text, auto& v, Visit&& visit) {
 }
 
 // Structured bindings: a member added to Tick or HandSample does not compile until it is a column.
+
+template <class Visit>
+void visitSoftTouch(auto& soft, Visit&& visit) {
+  auto& [tissue, bur_cuts, tissues, depth_mm, place_P, force_P_N, torque_P_Nmm, turn_P] = soft;
+  visit(Text{"soft.tissue", "", "", "", kSoftMeaning}, tissue);
+  visit(Text{"soft.bur_cuts", "", "", "", kSoftMeaning}, bur_cuts);
+  visit(Text{"soft.tissues", "", "", "", kSoftSetMeaning}, tissues);
+  visit(Text{"soft.depth_mm", "", "mm"}, depth_mm);
+  visitXyz(Text{"soft.place_P_mm", "", "mm", "P"}, place_P.mm, visit);
+  visitXyz(Text{"soft.force_P_N", "", "N", "P"}, force_P_N.xyz, visit);
+  visitXyz(Text{"soft.torque_P_Nmm", "", "N mm", "P"}, torque_P_Nmm.xyz, visit);
+  visit(Text{"soft.turn_P", ".w", "", "P"}, turn_P.w);
+  visitXyz(Text{"soft.turn_P", "", "", "P"}, turn_P, visit);
+}
 
 template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
@@ -59,7 +75,7 @@ template <class Visit>
 void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
-         removed_total_mm3, contact_tissue, drilling, drill_inhibit, strokes, state, faults, work_us] = tick;
+         removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -77,6 +93,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"removed_mm3", "", "mm3"}, removed_mm3);
   visit(Text{"bone_digest"}, bone_digest);
   visit(Text{"contact_tissue", "", "", "", "place in the labels of meta"}, contact_tissue);
+  visitSoftTouch(soft, visit);
   visit(Text{"drilling"}, drilling);
   visit(Text{"rest", "", "", "", kRests}, drill_inhibit);
   visit(Text{"strokes"}, strokes);

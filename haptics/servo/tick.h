@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "assets/tissue.h"
+#include "haptics/contact/soft_touch.h"
 #include "haptics/safety/fault.h"
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/safety_state.h"
@@ -33,6 +34,7 @@ struct Tick {
   /// Since the start, by assets::Tissue, less what was restored.
   std::array<double, assets::kTissueCount> removed_total_mm3{};
   std::uint8_t contact_tissue = 0;  ///< label with the largest overlap
+  SoftTouch soft;                   ///< lip, cheek, tongue, gingiva: assets::kSoftTissues
   bool drilling = false;
   DrillInhibit drill_inhibit = DrillInhibit::none;  ///< why not drilling
   std::uint8_t strokes = 0;                         ///< that can be undone

@@ -21,8 +21,8 @@ set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webc
 set(calibration/record ${calibration_words} calibration/output_file.h calibration/fit/ calibration/verification/ calibration/record/)
 # Rooms of assets: plain types at the root, then what reads and writes, then what puts together.
 set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/json_depth.h assets/load_error.h assets/mesh.h
-    assets/operative_site.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
-    assets/solid_voxels.h assets/tissue.h assets/toml_reader.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
+    assets/operative_site.h assets/patient.h assets/planned_cut.h assets/soft_tissue.h
+    assets/solid_sample.h assets/solid_voxels.h assets/tissue.h assets/toml_reader.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
 set(assets_root ${assets_words})
 foreach(room mesh scan scenery)
   set(assets/${room} ${assets_words} assets/${room}/)
