@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
+#include <utility>
 
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
@@ -11,21 +12,6 @@
 #include "render/scene_renderer.h"
 
 namespace render {
-namespace {
-
-Image flipped(Image image, bool flip_x, bool flip_y) {
-  if (!flip_x && !flip_y) return image;
-  Image result = image;
-  for (int y = 0; y < image.h; ++y)
-    for (int x = 0; x < image.w; ++x) {
-      const int from_x = flip_x ? image.w - 1 - x : x, from_y = flip_y ? image.h - 1 - y : y;
-      std::copy_n(&image.rgba[4 * static_cast<std::size_t>(from_y * image.w + from_x)], 4,
-                  &result.rgba[4 * static_cast<std::size_t>(y * image.w + x)]);
-    }
-  return result;
-}
-
-}  // namespace
 
 FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                              std::span<const std::uint8_t> label, RenderOptions options)
@@ -69,24 +55,43 @@ Image FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) co
 void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
   std::vector<Inset> insets;
   if (frame.layers.slices && slices_) {
-    constexpr double kHeight = 0.3, kGap = 0.025;  // of the image height
-    const glm::dvec2 screen_px = frame.rig.screen.px;
-    const glm::dvec2 per_height{eye_px.x * screen_px.y / screen_px.x, eye_px.y};
-    const EyeView view = eyeView(frame.rig, Eye::cyclopean);
-    const bool flip_x = glm::dot(view.right_edge_W.xyz, frame.rig.right_eye.mm - frame.rig.left_eye.mm) < 0.0;
-    const bool flip_y = flip_x != view.mirrored;
+    constexpr double kHeight = 0.3, kGap = 0.025;  // of the height of the viewer's screen
+    const ScreenOrientation orientation = screenOrientation(frame.rig);
+    const glm::dvec2 screen_px = orientation.viewerSize(frame.rig.screen.px);
+    const glm::dvec2 per_height =
+        glm::dvec2(orientation.viewerSize(eye_px)) * glm::dvec2(screen_px.y / screen_px.x, 1.0);
     for (std::size_t n = 0; n < kSlicePlanes.size(); ++n) {
-      Inset inset;
-      inset.size_px = glm::max(glm::ivec2(kHeight * per_height), 1);
-      inset.first_px = kGap * per_height * glm::dvec2(1.0, static_cast<double>(n) + 1.0);
-      inset.first_px.y += static_cast<int>(n) * inset.size_px.y;
-      if (flip_x) inset.first_px.x = eye_px.x - inset.first_px.x - inset.size_px.x;
-      if (flip_y) inset.first_px.y = eye_px.y - inset.first_px.y - inset.size_px.y;
-      inset.image = flipped(slice(kSlicePlanes[n], frame, inset.size_px.y), flip_x, flip_y);
-      insets.push_back(std::move(inset));
+      PixelBox seen;
+      seen.size_px = glm::max(glm::ivec2(kHeight * per_height), 1);
+      seen.corner_px = kGap * per_height * glm::dvec2(1.0, static_cast<double>(n) + 1.0);
+      seen.corner_px.y += static_cast<int>(n) * seen.size_px.y;
+      const PixelBox box = orientation.imageBox(seen, eye_px);
+      insets.push_back(
+          {turned(slice(kSlicePlanes[n], frame, seen.size_px.y), orientation), box.corner_px, box.size_px});
     }
   }
   scene_->setInsets(std::move(insets));
+}
+
+void FrameRenderer::setOverlay(std::vector<OverlayPanel> panels) { overlay_ = std::move(panels); }
+
+void FrameRenderer::updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output) {
+  ShownOverlay& shown = shown_overlays_[static_cast<std::size_t>(output)];
+  const bool same_place = shown.layout.mode == layout.mode && shown.layout.screen_px == layout.screen_px &&
+                          shown.orientation == orientation;
+  bool changed = !same_place || shown.serials.size() != overlay_.size();
+  shown.layout = layout;
+  shown.orientation = orientation;
+  shown.serials.resize(overlay_.size());
+  shown.patches.resize(overlay_.size());
+  for (std::size_t n = 0; n < overlay_.size(); ++n) {
+    if (same_place && shown.patches[n].serial != 0 && shown.serials[n] == overlay_[n].serial) continue;
+    shown.patches[n] = patchOf(overlay_[n], layout, orientation);
+    shown.patches[n].serial = ++patch_serial_;
+    shown.serials[n] = overlay_[n].serial;
+    changed = true;
+  }
+  if (changed) scene_->setPatches(output, shown.patches);
 }
 
 void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) {
@@ -111,7 +116,11 @@ void FrameRenderer::render(const Frame& frame) {
   updateInsets(frame, eye_px);
   drawEye(frame, left, eye_px);
   if (!mono) drawEye(frame, right, eye_px);
-  for (; layout.output < outputCount(layout.mode); ++layout.output) scene_->compose(layout, left, right, layout.output);
+  const ScreenOrientation orientation = screenOrientation(frame.rig);
+  for (; layout.output < outputCount(layout.mode); ++layout.output) {
+    updateOverlay(layout, orientation, layout.output);
+    scene_->compose(layout, left, right, layout.output);
+  }
   composed_from_ = left;
 }
 
@@ -122,8 +131,10 @@ void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
 }
 
 void FrameRenderer::composeForBystander() {
-  scene_->compose({.screen_px = drawn(composed_from_).frame.rig.screen.px}, composed_from_, composed_from_,
-                  kBystanderOutput);
+  const calibration::Rig& rig = drawn(composed_from_).frame.rig;
+  const StereoLayout layout{.screen_px = rig.screen.px};
+  updateOverlay(layout, screenOrientation(rig), kBystanderOutput);
+  scene_->compose(layout, composed_from_, composed_from_, kBystanderOutput);
 }
 
 void FrameRenderer::showOnWindow(const WindowTarget& target, int output) { scene_->showOnWindow(target, output); }

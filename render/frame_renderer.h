@@ -8,10 +8,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "assets/mesh.h"
 #include "assets/volume_grid.h"
 #include "render/display/eye_projection.h"
+#include "render/display/overlay.h"
 #include "render/frame.h"
 #include "render/gpu/window_target.h"
 #include "render/image.h"
@@ -41,6 +43,9 @@ class FrameRenderer {
   void setGuides(const Guides& guides);
   /// Grey values and canal for the CT slices, as scanned. Throws GpuError if they do not fit the volume.
   void setScan(CtScan scan);
+  /// Over every image that render() composes from now on, in this order; not over readEye(). Cheap when most panels
+  /// keep their serial.
+  void setOverlay(std::vector<OverlayPanel> panels);
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
 
@@ -72,14 +77,25 @@ class FrameRenderer {
     Frame frame;
     glm::ivec2 px{0};  ///< 0: not drawn yet
   };
+  /// The overlay as an output last showed it.
+  struct ShownOverlay {
+    StereoLayout layout;
+    ScreenOrientation orientation;
+    std::vector<std::uint64_t> serials;  ///< of the panels
+    std::vector<OverlayPatch> patches;
+  };
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   void updateInsets(const Frame& frame, glm::ivec2 eye_px);
+  void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
 
   VolumeFields fields_;
   std::unique_ptr<WindowUpload> upload_;  ///< for the CPU back-end
   std::unique_ptr<SceneRenderer> scene_;
   std::optional<CtSlices> slices_;
+  std::vector<OverlayPanel> overlay_;
+  std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
+  std::uint64_t patch_serial_ = 0;
   std::array<RenderedEye, 3> eyes_;
   Eye composed_from_ = Eye::cyclopean;
 };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "render/display/patch_pass.h"
 #include "render/display/stereo_compositor.h"
 #include "render/eye_block.h"
 #include "render/gpu/drawing.h"
@@ -59,6 +60,9 @@ class GlSceneRenderer final : public SceneRenderer {
     for (const Inset& inset : insets)
       insets_.push_back({InsetPass::uploaded(inset.image), inset.first_px, inset.size_px});
   }
+  void setPatches(int output, std::span<const OverlayPatch> patches) override {
+    PatchPass::update(patches, patches_[static_cast<std::size_t>(output)]);
+  }
 
   void prepare(const Frame& frame, const FieldChanges& changes) override {
     volume_.update(fields_, changes);
@@ -94,6 +98,8 @@ class GlSceneRenderer final : public SceneRenderer {
   EdgePass edges_;
   InsetPass inset_pass_;
   std::vector<InsetPass::GpuInset> insets_;
+  PatchPass patch_pass_;
+  std::array<std::vector<PatchPass::GpuPatch>, kOutputs> patches_;
   std::array<SceneTarget, 3> canvases_;  ///< of the eyes as last drawn
   SceneTarget edge_samples_;
   std::array<Framebuffer, kOutputs> outputs_;
@@ -155,6 +161,7 @@ void GlSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, i
   to.fit(outputSize(layout.mode, layout.screen_px), kOutputTargets, false);
   compositor_.compose(layout, canvasOf(left).target.colour(COLOUR_TARGET), canvasOf(right).target.colour(COLOUR_TARGET),
                       samples_, to);
+  patch_pass_.draw(patches_[static_cast<std::size_t>(output)], to);
 }
 
 Image GlSceneRenderer::readImage(int output) {

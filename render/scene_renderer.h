@@ -5,10 +5,12 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "assets/mesh.h"
 #include "render/display/eye_projection.h"
+#include "render/display/overlay.h"
 #include "render/display/stereo_layout.h"
 #include "render/frame.h"
 #include "render/gpu/window_target.h"
@@ -41,6 +43,9 @@ class SceneRenderer {
   virtual void setGuides(GuideField guides) = 0;
   /// For the eyes drawn from now on.
   virtual void setInsets(std::vector<Inset> insets) = 0;
+
+  /// Blended over an output whenever it is composed, from now on.
+  virtual void setPatches(int output, std::span<const OverlayPatch> patches) = 0;
 
   /// Once per frame, before its eyes: takes over the changes of the fields.
   virtual void prepare(const Frame& frame, const FieldChanges& changes) = 0;

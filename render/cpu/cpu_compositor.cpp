@@ -86,4 +86,15 @@ void compose(const StereoLayout& layout, const EyeImage& left, const EyeImage& r
   });
 }
 
+void blendOver(const OverlayPatch& patch, Image& output) {
+  for (const glm::ivec2& corner : patch.corners_px)
+    for (int y = 0; y < patch.image.h; ++y) {
+      const std::uint8_t* from = &patch.image.rgba[4 * static_cast<std::size_t>(y * patch.image.w)];
+      std::uint8_t* to = &output.rgba[4 * static_cast<std::size_t>((corner.y + y) * output.w + corner.x)];
+      for (int x = 0; x < patch.image.w; ++x, from += 4, to += 4)
+        for (int c = 0; c < 3; ++c)
+          to[c] = static_cast<std::uint8_t>(std::min(255, from[c] + (to[c] * (255 - from[3]) + 127) / 255));
+    }
+}
+
 }  // namespace render

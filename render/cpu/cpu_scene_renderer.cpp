@@ -14,6 +14,7 @@
 #include "render/cpu/edges.h"
 #include "render/cpu/eye_image.h"
 #include "render/cpu/ray_tracer.h"
+#include "render/display/srgb.h"
 #include "render/eye_block.h"
 #include "render/shaders/shared_constants.glsl"
 #include "render/volume/transfer_function.h"
@@ -48,19 +49,9 @@ struct StaticHits {
   std::vector<MeshHits> tiles;
 };
 
-// IEC 61966-2-1.
-std::array<float, 256> lightOfSrgb() {
-  std::array<float, 256> light;
-  for (std::size_t n = 0; n < light.size(); ++n) {
-    const double srgb = static_cast<double>(n) / 255.0;
-    light[n] = static_cast<float>(srgb > 0.04045 ? std::pow((srgb + 0.055) / 1.055, 2.4) : srgb / 12.92);
-  }
-  return light;
-}
-
 // The image holds linear light after the shoulder, as displayed.
 void blendOver(const Inset& inset, EyeImage& image) {
-  static const std::array<float, 256> kLight = lightOfSrgb();
+  static const std::array<float, 256> kLight = lightOfBytes();
   const glm::ivec2 end = glm::min(inset.first_px + inset.size_px, image.px);
   for (int y = inset.first_px.y; y < end.y; ++y)
     for (int x = inset.first_px.x; x < end.x; ++x) {
@@ -92,6 +83,9 @@ class CpuSceneRenderer final : public SceneRenderer {
   void setModel(Model model, const assets::MeshModel& mesh) override { meshes_.setModel(model, mesh); }
   void setGuides(GuideField guides) override { guides_ = std::move(guides); }
   void setInsets(std::vector<Inset> insets) override { insets_ = std::move(insets); }
+  void setPatches(int output, std::span<const OverlayPatch> patches) override {
+    patches_[static_cast<std::size_t>(output)].assign(patches.begin(), patches.end());
+  }
 
   void prepare(const Frame& frame, const FieldChanges& changes) override;
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
@@ -123,6 +117,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   std::optional<GuideField> guides_;
   MeshScene meshes_;
   std::vector<Inset> insets_;
+  std::array<std::vector<OverlayPatch>, kOutputs> patches_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayTracer>> tracers_{[] { return std::make_unique<RayTracer>(); }};
   std::array<RenderedEye, 3> eyes_;
   std::array<Image, kOutputs> outputs_;
@@ -279,10 +274,9 @@ void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& image) 
 }
 
 void CpuSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, int output) {
-  arena_.execute([&] {
-    render::compose(layout, drawn(left).image, drawn(right).image, kernels_,
-                    outputs_[static_cast<std::size_t>(output)]);
-  });
+  Image& to = outputs_[static_cast<std::size_t>(output)];
+  arena_.execute([&] { render::compose(layout, drawn(left).image, drawn(right).image, kernels_, to); });
+  for (const OverlayPatch& patch : patches_[static_cast<std::size_t>(output)]) blendOver(patch, to);
 }
 
 DistanceImage CpuSceneRenderer::readDistance(const Frame& frame, Eye eye) {
