@@ -17,15 +17,20 @@ double distanceTo(const std::vector<glm::dvec2>& curve, const glm::dvec2& p) {
   return nearest;
 }
 
-/// Teeth as balls of 1.4 mm radius on a parabola, some missing.
+/// On a parabola, at the centre of a voxel.
+glm::dvec2 placeOf(int fdi) {
+  const double x = (assets::isRight(fdi) ? -1.0 : 1.0) * (3.6 * assets::positionOf(fdi) - 1.5);
+  return {std::round(x), std::round(0.06 * x * x)};
+}
+
+/// Teeth as balls of 1.4 mm radius.
 assets::Patient jawWithTeeth(const std::vector<int>& teeth) {
   assets::Patient patient;
   assets::CtVolume& ct = patient.ct;
   ct.grid = {{90, 80, 12}, 1.0, {-45.0, -5.0, -6.0}};
   ct.tooth.assign(ct.grid.voxelCount(), 0);
   for (const int fdi : teeth) {
-    const double x = (assets::isRight(fdi) ? -1.0 : 1.0) * (3.6 * assets::positionOf(fdi) - 1.5);
-    const glm::dvec3 centre{std::round(x), std::round(0.06 * x * x), 0.0};
+    const glm::dvec3 centre{placeOf(fdi), 0.0};
     assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
       if (glm::distance(ct.grid.centre_P_mm(ijk), centre) < 1.4) ct.tooth[v] = static_cast<std::uint8_t>(fdi);
     });
@@ -39,10 +44,7 @@ TEST(ArchCurve, GoesThroughTheTeethFromRightToLeft) {
   const std::vector<glm::dvec2> curve = archCurve_P_mm(patient);
   ASSERT_GT(curve.size(), 100U);
   EXPECT_LT(curve.front().x, curve.back().x);
-  for (const int fdi : teeth) {
-    const double x = std::round((assets::isRight(fdi) ? -1.0 : 1.0) * (3.6 * assets::positionOf(fdi) - 1.5));
-    EXPECT_LT(distanceTo(curve, {x, std::round(0.06 * x * x)}), 0.4) << fdi;
-  }
+  for (const int fdi : teeth) EXPECT_LT(distanceTo(curve, placeOf(fdi)), 0.01) << fdi;
   for (std::size_t n = 0; n + 1 < curve.size(); ++n) EXPECT_LT(glm::distance(curve[n], curve[n + 1]), 0.8);
 }
 
