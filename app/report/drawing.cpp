@@ -35,7 +35,7 @@ cairo_status_t append(void* text, const unsigned char* data, unsigned int count)
   return CAIRO_STATUS_SUCCESS;
 }
 
-void choose(cairo_t* pen, const Ink& ink) { cairo_set_source_rgb(pen, ink.red, ink.green, ink.blue); }
+void choose(cairo_t* pen, const Ink& ink) { cairo_set_source_rgba(pen, ink.red, ink.green, ink.blue, ink.opacity); }
 
 void trace(cairo_t* pen, const std::vector<glm::dvec2>& points) {
   cairo_new_path(pen);
@@ -94,9 +94,11 @@ std::string colourOf(const Ink& ink) {
 Drawing::Drawing(glm::dvec2 size)
     : size_(size), pen_(penOn(cairo_svg_surface_create_for_stream(append, &svg_, size.x, size.y)), cairo_destroy) {}
 
-Drawing::Drawing(glm::ivec2 px, double px_per_unit)
+Drawing::Drawing(glm::ivec2 px, double px_per_unit, Ground ground)
     : size_(glm::dvec2(px) / px_per_unit),
-      pen_(penOn(cairo_image_surface_create(CAIRO_FORMAT_RGB24, px.x, px.y)), cairo_destroy) {
+      pen_(penOn(cairo_image_surface_create(ground == Ground::clear ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, px.x,
+                                            px.y)),
+           cairo_destroy) {
   cairo_scale(pen(), px_per_unit, px_per_unit);
 }
 
@@ -185,6 +187,27 @@ void Drawing::inside(const glm::dvec2& corner, const glm::dvec2& size, const std
   cairo_restore(pen());
 }
 
+void Drawing::image(const render::Image& picture, const glm::dvec2& corner, const glm::dvec2& size) const {
+  std::vector<std::uint32_t> pixels(picture.rgba.size() / 4);
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    const std::uint8_t* const p = &picture.rgba[4 * n];
+    pixels[n] = std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+  }
+  void* const data = pixels.data();
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> source(
+      cairo_image_surface_create_for_data(static_cast<unsigned char*>(data), CAIRO_FORMAT_RGB24, picture.w, picture.h,
+                                          4 * picture.w),
+      cairo_surface_destroy);
+  cairo_save(pen());
+  cairo_translate(pen(), corner.x, corner.y);
+  cairo_scale(pen(), size.x / picture.w, size.y / picture.h);
+  cairo_set_source_surface(pen(), source.get(), 0.0, 0.0);
+  cairo_pattern_set_extend(cairo_get_source(pen()), CAIRO_EXTEND_PAD);
+  cairo_rectangle(pen(), 0.0, 0.0, picture.w, picture.h);
+  cairo_fill(pen());
+  cairo_restore(pen());
+}
+
 double Drawing::textWidth(const std::string& words, double height, bool bold) const {
   return sizeOf(layoutOf(words, height, bold || always_bold_)).x;
 }
@@ -262,6 +285,30 @@ void Drawing::save(calibration::OutputFile& file) const {
   if (cairo_surface_write_to_png(cairo_get_target(pen()), file.temporaryPath().c_str()) != CAIRO_STATUS_SUCCESS)
     throw UsageError("image: it cannot be written, check the folder and the free space");
   file.commit();
+}
+
+render::Image Drawing::picture() const {
+  cairo_surface_t* const surface = cairo_get_target(pen());
+  cairo_surface_flush(surface);
+  const bool opaque = cairo_image_surface_get_format(surface) == CAIRO_FORMAT_RGB24;
+  const int w = cairo_image_surface_get_width(surface), h = cairo_image_surface_get_height(surface);
+  const int row_bytes = cairo_image_surface_get_stride(surface);
+  const unsigned char* const rows = cairo_image_surface_get_data(surface);
+  render::Image picture{w, h, {}};
+  picture.rgba.resize(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  std::uint8_t* to = picture.rgba.data();
+  for (int y = 0; y < h; ++y) {
+    // Native-endian 0xAARRGGBB; the alpha of an opaque surface is undefined.
+    const void* const row = rows + y * row_bytes;
+    const auto* pixel = static_cast<const std::uint32_t*>(row);
+    for (int x = 0; x < w; ++x, ++pixel, to += 4) {
+      to[0] = static_cast<std::uint8_t>(*pixel >> 16);
+      to[1] = static_cast<std::uint8_t>(*pixel >> 8);
+      to[2] = static_cast<std::uint8_t>(*pixel);
+      to[3] = opaque ? 255 : static_cast<std::uint8_t>(*pixel >> 24);
+    }
+  }
+  return picture;
 }
 
 bool Drawing::isSvg() const { return cairo_surface_get_type(cairo_get_target(pen())) == CAIRO_SURFACE_TYPE_SVG; }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "calibration/output_file.h"
+#include "render/image.h"
 
 struct _cairo;
 using PangoLayout = struct _PangoLayout;
@@ -20,6 +21,7 @@ namespace app {
 /// sRGB as encoded, 0..1.
 struct Ink {
   double red, green, blue;
+  double opacity = 1.0;  ///< below 1 in pixels only
 };
 constexpr Ink inkOf(int rgb) { return {(rgb >> 16) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0}; }
 
@@ -37,8 +39,9 @@ class Drawing {
  public:
   /// SVG for a page, no wider than the page.
   explicit Drawing(glm::dvec2 size);
-  /// Pixels, initially black.
-  Drawing(glm::ivec2 px, double px_per_unit);
+  /// Pixels, initially black or transparent.
+  enum class Ground { black, clear };
+  Drawing(glm::ivec2 px, double px_per_unit, Ground ground = Ground::black);
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
 
@@ -62,6 +65,9 @@ class Drawing {
   /// Clips `draw` to the box.
   void inside(const glm::dvec2& corner, const glm::dvec2& size, const std::function<void()>& draw) const;
 
+  /// An opaque picture, scaled to the box and smoothed.
+  void image(const render::Image& picture, const glm::dvec2& corner, const glm::dvec2& size) const;
+
   /// Width of one line.
   double textWidth(const std::string& words, double height, bool bold = false) const;
   /// One line; `at`: its left end, middle or right end, at half height.
@@ -74,6 +80,8 @@ class Drawing {
   double paragraph(const std::string& words, const glm::dvec2& top, double width, double height, const Ink& ink,
                    Align align = Align::centre) const;
 
+  /// Pixels only: a copy, premultiplied by its alpha.
+  render::Image picture() const;
   /// SVG only, called once: the element for a page. `description`: its label for screen readers.
   std::string markup(std::string_view description);
   /// Pixels only: writes a PNG and commits the file. Throws UsageError when it cannot be written.

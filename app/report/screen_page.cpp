@@ -107,27 +107,4 @@ void ScreenPage::label(const std::string& words, const glm::dvec2& centre, doubl
   text(words, centre, height_mm, ink);
 }
 
-render::Image ScreenPage::picture() const {
-  cairo_surface_t* const surface = cairo_get_target(pen());
-  cairo_surface_flush(surface);
-  const int w = cairo_image_surface_get_width(surface), h = cairo_image_surface_get_height(surface);
-  const int row_bytes = cairo_image_surface_get_stride(surface);
-  const unsigned char* const rows = cairo_image_surface_get_data(surface);
-  render::Image picture{w, h, {}};
-  picture.rgba.resize(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
-  std::uint8_t* to = picture.rgba.data();
-  for (int y = 0; y < h; ++y) {
-    // Native-endian 0x00RRGGBB.
-    const void* const row = rows + y * row_bytes;
-    const auto* pixel = static_cast<const std::uint32_t*>(row);
-    for (int x = 0; x < w; ++x, ++pixel, to += 4) {
-      to[0] = static_cast<std::uint8_t>(*pixel >> 16);
-      to[1] = static_cast<std::uint8_t>(*pixel >> 8);
-      to[2] = static_cast<std::uint8_t>(*pixel);
-      to[3] = 255;
-    }
-  }
-  return picture;
-}
-
 }  // namespace app

@@ -44,8 +44,6 @@ class ScreenPage : public Drawing {
   /// Text on black, centred.
   void label(const std::string& words, const glm::dvec2& centre, double height_mm, const Ink& ink) const;
 
-  render::Image picture() const;
-
  private:
   glm::dvec2 size_mm_{0.0};
   glm::dvec3 middle_W_{0.0}, right_W_{0.0}, down_W_{0.0}, towards_W_{0.0};
