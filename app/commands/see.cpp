@@ -14,6 +14,7 @@
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
+#include "app/view/panoramic_picture.h"
 #include "app/view/patient_renderer.h"
 #include "app/view/renderer_choice.h"
 #include "assets/patient/patient_folder.h"
@@ -26,6 +27,7 @@
 namespace app {
 namespace {
 
+constexpr double kPanoramicZoom = 4.0;
 constexpr double kUsualBur_mm = 1.5;  ///< bur radius of the planned trough
 
 struct SeeOptions {
@@ -35,7 +37,7 @@ struct SeeOptions {
   std::vector<double> tool_at_mm;
   std::string patient, out, depth, matrices;
   int samples = 2;
-  bool bone_only = false, force = false;
+  bool bone_only = false, panoramic = false, force = false;
 };
 
 std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
@@ -43,6 +45,24 @@ std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 4; ++c) rows.push_back(clip_from_P[c][r]);
   return nlohmann::json{{"clip_from_P", rows}, {"size", {px.x, px.y}}}.dump(1) + "\n";
+}
+
+/// The patient's jaw unrolled along its arch.
+int seePanoramic(const SeeOptions& options) {
+  if (options.patient.empty()) throw UsageError("--panoramic: it shows a patient's CT, use --patient");
+  if (!options.depth.empty() || !options.matrices.empty())
+    throw UsageError("--panoramic: it is no projection, leave --depth and --matrices out");
+  calibration::OutputFile out(options.out, options.force);
+  const auto picture = PanoramicPicture::of(assets::loadPatient(options.patient));
+  if (!picture)
+    throw UsageError(options.patient + ", --panoramic: no tooth is numbered, so its arch is not known; " +
+                     "import the scan with labels of its teeth");
+  std::optional<glm::dvec3> bur_P_mm;
+  if (const std::vector<double>& at = options.tool_at_mm; !at.empty()) bur_P_mm = glm::dvec3(at[0], at[1], at[2]);
+  const render::Image image = picture->image(kPanoramicZoom, bur_P_mm);
+  calibration::writePng(out.temporaryPath(), {image.w, image.h}, image.rgba);
+  out.commit();
+  return 0;
 }
 
 int see(const SeeOptions& options) {
@@ -124,15 +144,16 @@ void addSee(CommandLine& molar) {
       .wholeFrom(1, 4)
       .showsDefault();
   command
-      .option("--tool-at", options->tool_at_mm, "x,y,z: position of the slices, mm in P (default: the operated tooth)")
+      .option("--tool-at", options->tool_at_mm, "x,y,z: position of the slices or of the bur, mm in P (default: the operated tooth)")
       .numbers(3)
       .from(-1e4, 1e4);
+  command.flag("--panoramic", options->panoramic, "The jaw unrolled along its arch, as dentists read it");
   command.flag("--bone-only", options->bone_only, "Without face and gingiva");
   command.option("--out", options->out, "Image, .png").required();
   command.option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
   command.option("--matrices", options->matrices, "clip_from_P and size, .json");
   command.flag("--force", options->force, "Replace outputs that exist");
-  command.does([options] { return see(*options); });
+  command.does([options] { return options->panoramic ? seePanoramic(*options) : see(*options); });
 }
 
 }  // namespace app

@@ -1,6 +1,7 @@
 #include "app/view/panoramic_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,7 @@ namespace app {
 namespace {
 
 constexpr double kPixel_mm = 0.25, kScale_mm = 10.0, kText_px = 13.0;
+constexpr double kShortest_px = 0.2;  ///< piece of the canal whose direction in the image is known
 /// The layer averages bone with soft tissue and air: a window below that of the slices. HU.
 constexpr float kLowest_HU = -500.0f, kHighest_HU = 1300.0f;
 constexpr Ink kCanal = inkOf(0xfacd3c), kBur = inkOf(0x5ae1ff), kLabel = inkOf(0xe1e8eb), kRim = inkOf(0x0e1012);
@@ -55,11 +57,16 @@ render::Image PanoramicPicture::image(double zoom, const std::optional<glm::dvec
   const Drawing drawing(size_px(zoom), 1.0);
   drawing.image(grey_, {0.0, 0.0}, size);
 
-  // The walls of the canal, above and below its centre line.
+  // The walls of the canal, on both sides of its centre line.
   const double wall_px = zoom * canal_radius_mm_ / view_.pixel_mm;
   for (const double side : {-1.0, 1.0}) {
     std::vector<glm::dvec2> wall;
-    for (const glm::dvec2& p : canal_px_) wall.push_back(zoom * p + glm::dvec2(0.0, side * wall_px));
+    for (std::size_t n = 0; n + 1 < canal_px_.size(); ++n) {
+      const glm::dvec2 along = canal_px_[n + 1] - canal_px_[n];
+      const double length = glm::length(along);
+      if (length > kShortest_px || !std::isfinite(length))
+        wall.push_back(zoom * canal_px_[n] + side * wall_px * glm::dvec2(-along.y, along.x) / length);
+    }
     drawing.path(wall, 1.5, kCanal);
   }
   if (bur_P_mm)
@@ -68,8 +75,9 @@ render::Image PanoramicPicture::image(double zoom, const std::optional<glm::dvec
       drawing.cross(zoom * at->px, 10.0, 1.0, kBur);
     }
 
-  label(drawing, "R", {10.0, 0.5 * size.y}, Align::left);
-  label(drawing, "L", {size.x - 10.0, 0.5 * size.y}, Align::right);
+  // An end in the other half of the jaw has no letter.
+  if (view_.columns_P_mm.front().x < 0.0) label(drawing, "R", {10.0, 0.5 * size.y}, Align::left);
+  if (view_.columns_P_mm.back().x > 0.0) label(drawing, "L", {size.x - 10.0, 0.5 * size.y}, Align::right);
   label(drawing, "panoramic view, as scanned", {10.0, 14.0}, Align::left);
   const double scale_px = zoom * kScale_mm / view_.pixel_mm;
   const glm::dvec2 from{size.x - 12.0 - scale_px, size.y - 12.0}, to = from + glm::dvec2(scale_px, 0.0);

@@ -85,7 +85,10 @@ std::optional<Panoramic::Position> Panoramic::positionOf(const glm::dvec3& p_P_m
   const glm::dvec2 normal = normalAt(columns_P_mm, n);
   const double across_mm = std::abs(glm::dot(p - *nearest, normal));
   if ((n == 0 || n + 1 == columns_P_mm.size()) && distance_mm - across_mm > pixel_mm) return std::nullopt;
-  return Position{{static_cast<double>(n) + 0.5, (top_P_mm - p_P_mm.z) / pixel_mm}, across_mm};
+  // Between columns.
+  const double beyond_mm = glm::dot(p - *nearest, glm::dvec2(normal.y, -normal.x));
+  const double column = static_cast<double>(n) + 0.5 + std::clamp(beyond_mm / pixel_mm, -0.5, 0.5);
+  return Position{{column, (top_P_mm - p_P_mm.z) / pixel_mm}, across_mm};
 }
 
 }  // namespace assets
