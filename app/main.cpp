@@ -2,6 +2,7 @@
 // do`.
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -42,13 +43,19 @@ void holdStandardStreams() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+/// A pipe whose reader has closed it, as `head` does.
+bool isReaderGone() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
 int run(int argc, char** argv) {
   app::CommandLine molar(
       "Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one.",
       std::string(app::programBuild()));
   for (const auto add : app::kCommands) add(molar);
   const int status = molar.run(argc, argv);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+  if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && !isReaderGone())
     return refuse("standard output: it cannot be written, check its destination");
   return status;
 }

@@ -32,8 +32,8 @@ RigRecord baseRig(const std::string& named) {
 MeasuredArm armOf(const RigRecord& record, const TouchSet& touches, const std::string& named) {
   const PhantomModel* const model = findPhantomModel(touches.device_model);
   if (model == nullptr)
-    throw CalibrationError("observations: device '" + touches.device_model +
-                           "' is not known, give omni, touch, desktop or premium");
+    throw CalibrationError("observations: device '" + touches.device_model + "' is not known, give one of " +
+                           phantomModelKeys());
   if (record.rig.device) {
     const std::string why = mismatchWith(record, touches.device_model, touches.serial, touches.mount);
     if (!why.empty()) throw CalibrationError("rig file " + named + ": " + why);
@@ -104,10 +104,10 @@ void putWebcamFit(RigRecord& record, const WebcamFit& fit) {
   const double fitted_mm = targetErrors(left_out).rms_mm;
   for (Residual& one : left_out)
     one.error_mm.xyz *= fitted_mm > 0.0 ? std::hypot(fit.cv_rms_mm, kHidden_mm) / fitted_mm : 1.0;
-  putProof(record, left_out, VerificationKind::full);
+  putVerification(record, left_out, VerificationKind::full);
 }
 
-void putProof(RigRecord& record, const std::vector<Residual>& held_out, VerificationKind kind) {
+void putVerification(RigRecord& record, const std::vector<Residual>& held_out, VerificationKind kind) {
   RigVerification verification;
   verification.errors = targetErrors(held_out);
   verification.kind = kind;
@@ -117,7 +117,7 @@ void putProof(RigRecord& record, const std::vector<Residual>& held_out, Verifica
   record.verification = verification;
 }
 
-VerificationKind proofKindOf(const std::string& method) {
+VerificationKind verificationKindOf(const std::string& method) {
   return method.starts_with("visual") ? VerificationKind::by_eyes : VerificationKind::full;
 }
 

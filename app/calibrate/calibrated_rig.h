@@ -43,10 +43,10 @@ void putPivot(calibration::RigRecord& record, const calibration::MeasuredArm& ar
 /// across the lines of sight and extended to three axes.
 void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit);
 /// Stores the verification by touches that were not fitted.
-void putProof(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
-              calibration::VerificationKind kind);
+void putVerification(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
+                     calibration::VerificationKind kind);
 
 /// Of the method of a calibration: wider limits by eyes alone.
-calibration::VerificationKind proofKindOf(const std::string& method);
+calibration::VerificationKind verificationKindOf(const std::string& method);
 
 }  // namespace app

@@ -103,7 +103,7 @@ std::string webcamFitJson(const WebcamFit& fit) {
   return json.dump(1) + "\n";
 }
 
-std::string proofText(const TargetErrors& errors, const Assessment& assessment) {
+std::string verificationText(const TargetErrors& errors, const Assessment& assessment) {
   return fmt::format(
              "{}: {:.2f} mm RMS of {} touches, mean {:.2f}, 95 of 100 within {:.2f}, largest {:.2f} mm, bias {}; ",
              nameOf(assessment.verdict), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm, errors.max_mm,
@@ -111,7 +111,7 @@ std::string proofText(const TargetErrors& errors, const Assessment& assessment) 
          assessment.reason + "\n";
 }
 
-std::string proofJson(const TargetErrors& errors, const Assessment& assessment) {
+std::string verificationJson(const TargetErrors& errors, const Assessment& assessment) {
   ordered_json json;
   json["n"] = errors.n;
   json["tre_mean_mm"] = errors.mean_mm;

@@ -22,9 +22,9 @@ std::string webcamFitText(const calibration::WebcamFit& fit);
 std::string webcamFitJson(const calibration::WebcamFit& fit);
 
 /// One line: verdict, errors, the deciding limit.
-std::string proofText(const calibration::TargetErrors& errors, const calibration::Assessment& assessment);
+std::string verificationText(const calibration::TargetErrors& errors, const calibration::Assessment& assessment);
 /// {"n","tre_mean_mm","tre_rms_mm","tre_p95_mm","tre_max_mm","bias_mm","verdict"}
-std::string proofJson(const calibration::TargetErrors& errors, const calibration::Assessment& assessment);
+std::string verificationJson(const calibration::TargetErrors& errors, const calibration::Assessment& assessment);
 
 std::string rezeroText(const calibration::Rezero& rezero);
 

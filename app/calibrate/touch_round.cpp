@@ -33,10 +33,10 @@ const char* nounOf(const calibration::TargetPlan& plan) {
   return plan.kind == calibration::TargetKind::cross ? "cross" : "place";
 }
 
-TouchRound::TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double max_distance_mm,
+TouchRound::TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& assumed, double max_distance_mm,
                        Announcements& announcements)
     : plan_(std::move(plan)),
-      arm_(believed),
+      arm_(assumed),
       max_distance_mm_(max_distance_mm),
       announcements_(announcements),
       still_(plan_.kind == calibration::TargetKind::cross ? kCrossStillness : kPitStillness),

@@ -25,7 +25,7 @@ class TouchRound {
   enum class TouchEvent { nothing, taken, undone, started_again, left };
 
   /// `max_distance_mm`: a tip computed further from its target is doubtful; 0: the 60 mm limit of an unmeasured arm.
-  TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double max_distance_mm,
+  TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& assumed, double max_distance_mm,
              Announcements& announcements);
 
   /// `pressed_s`: when the button went down.

@@ -32,7 +32,7 @@ calibration::MeasuredArm armOf(const WizardPlan& plan) {
   const calibration::PhantomModel* const model = calibration::findPhantomModel(plan.device.model);
   if (model == nullptr)
     throw calibration::CalibrationError("calibration: no arm is known for a device \"" + plan.device.model +
-                                        "\": use one of omni, touch, desktop, premium");
+                                        "\": use one of " + calibration::phantomModelKeys());
   return {model->geometry, {}, plan.record.rig.X_WD};
 }
 

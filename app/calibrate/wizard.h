@@ -1,7 +1,7 @@
-// The technician's procedure, page by page: identity, homing, flips, pixel size, eyes, touches, fit, proof, sign-off;
-// and the short procedures. Input: stylus samples tick by tick; output: the view and sounds. No window, clock, file or
-// device; forces are off. The same ticks give the same outcome. Frame W, mm, s. One thread; a tick takes a few
-// microseconds, the fit up to a second; takeView() a few more.
+// The technician's procedure, page by page: identity, homing, flips, pixel size, eyes, touches, fit, verification,
+// sign-off; and the short procedures. Input: stylus samples tick by tick; output: the view and sounds. No window,
+// clock, file or device; forces are off. The same ticks give the same outcome. Frame W, mm, s. One thread; a tick takes
+// a few microseconds, the fit up to a second; takeView() a few more.
 #pragma once
 
 #include <memory>

@@ -36,7 +36,8 @@ calibration::RigRecord recordOf(const WizardPlan& plan, const WizardOutcome& out
     putFit(record, outcome.touches, *fit, outcome.duration_s);
   else if (const auto& rezero = outcome.rezero)
     putRezero(record, outcome.zeroing, *rezero, outcome.duration_s);
-  if (outcome.errors && outcome.assessment) putProof(record, outcome.proof_residuals, outcome.verification_kind);
+  if (outcome.errors && outcome.assessment)
+    putVerification(record, outcome.verification_residuals, outcome.verification_kind);
   if (outcome.rest) record.rest = outcome.rest;
   return record;
 }

@@ -37,7 +37,7 @@ struct WizardOutcome {
   std::optional<calibration::Rezero> rezero;
   std::optional<calibration::MeasuredArm> arm;  ///< the result; none: as before
   calibration::VerificationKind verification_kind = calibration::VerificationKind::full;
-  std::vector<calibration::Residual> proof_residuals;
+  std::vector<calibration::Residual> verification_residuals;
   std::optional<calibration::TargetErrors> errors;
   std::optional<calibration::Assessment> assessment;
   std::optional<calibration::RestRegistration> rest;

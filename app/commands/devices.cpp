@@ -1,4 +1,4 @@
-// `molar devices`: what is there and what drives it. `molar devices check`: its owner proves a unit and gets a report.
+// `molar devices`: what is there and what drives it. `molar devices check`: its owner tests a unit and gets a report.
 
 #include <signal.h>
 
@@ -64,7 +64,8 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
   if (address.starts_with(kSimulated)) {
     const haptics::PhantomMechanics* phantom = haptics::findSimulatedPhantom(address.substr(kSimulated.size()));
     if (phantom == nullptr)
-      throw UsageError("devices check " + address + ": no such device, choose omni, touch, desktop or premium");
+      throw UsageError("devices check " + address + ": no such device, choose one of " +
+                       calibration::phantomModelKeys());
     auto hand = std::make_unique<SimulatedOwner>(*phantom);
     auto simulated = std::make_unique<haptics::SimulatedPhantom>(*phantom, hand->script());
     unit.simulated = simulated.get();
@@ -139,7 +140,7 @@ void addDevices(CommandLine& molar) {
   o->falcon_scale = defaultFalconScaleFile();
   CommandLine& devices = molar.command("devices", "What is plugged in and what drives it; proving a unit");
   devices.flag("--json", *json, "For programs");
-  CommandLine& command = devices.command("check", "Prove a unit, ten minutes with a kitchen balance: a report");
+  CommandLine& command = devices.command("check", "Test a unit, ten minutes with a kitchen balance: a report");
   command.option("ADDRESS", o->address, "As molar devices lists it, or simulated:omni [the first real one]");
   command.option("--report", o->report, "The page to write, Markdown").valueNamed("FILE").showsDefault();
   command.flag("--force", o->force, "Replace a report that exists");

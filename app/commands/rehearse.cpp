@@ -147,6 +147,9 @@ int run(RehearseOptions& options) {
   applyTo(plan.command, options.settings);
   refuseBeyondServoLimits(plan.command);
   refuseUnlessAdmitted(plan.command);
+  if (plan.headless && plan.instructor_window)
+    throw UsageError(
+        "--instructor: its window cannot open in a run without windows, leave out --instructor or --headless");
   if (plan.headless && plan.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
   refuseUnlessPoseSource(plan.device);

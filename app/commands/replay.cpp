@@ -55,14 +55,14 @@ void addReplay(CommandLine& molar) {
 
 void addMetrics(CommandLine& molar) {
   auto session = std::make_shared<std::string>();
-  auto json_only = std::make_shared<bool>(false);
-  CommandLine& command = molar.command("metrics", "Measures of a recorded session, JSON");
+  auto as_json = std::make_shared<bool>(false);
+  CommandLine& command = molar.command("metrics", "Measures of a recorded session, as text or JSON");
   command.option("SESSION", *session, "Session file").required();
-  command.flag("--json", *json_only, "JSON only, without the text on stderr");
-  command.does([session, json_only] {
+  command.flag("--json", *as_json, "All measures as JSON");
+  command.footer(measuresHelp());
+  command.does([session, as_json] {
     const SessionMetrics metrics = metricsOf(*session);
-    std::printf("%s\n", metricsJson(metrics).c_str());
-    if (!*json_only) std::fprintf(stderr, "%s", metricsText(metrics).c_str());
+    std::fputs((*as_json ? metricsJson(metrics) + "\n" : metricsText(metrics)).c_str(), stdout);
     return 0;
   });
 }

@@ -68,12 +68,12 @@ std::string kinds(const TerminalFormat& look) {
 std::string asText(const DeviceCatalogue& catalogue, const TerminalFormat& look) {
   std::string text = bold("Here now", look) + ", and the address that --device takes\n" + here(catalogue, look);
   text += "\n" + bold("What Molar drives", look) + "\n" + kinds(look);
-  const bool unproved = std::ranges::any_of(
+  const bool untested = std::ranges::any_of(
       haptics::deviceKinds(), [](const DeviceKind& kind) { return kind.isHardware() && !kind.ran_on_a_unit; });
-  if (unproved)
+  if (untested)
     text += "\n" +
             wrappedText(
-                "Whoever owns a unit can prove it in ten minutes with a kitchen balance: molar devices "
+                "Whoever owns a unit can test it in ten minutes with a kitchen balance: molar devices "
                 "check ADDRESS writes a report.",
                 0, look.width) +
             "\n";

@@ -1,5 +1,5 @@
 // The devices that are present and the kinds that Molar drives, as text and as JSON: driver, next step, and what no
-// real unit has proved yet.
+// real unit has confirmed yet.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // The doctor's checks. Measuring (probe…) is separate from evaluating (check…), so that tests reach every finding. A
-// check that measures or asks a driver says how long it takes; the others read a few files.
+// check that measures or queries a driver states its duration; the others read a few files.
 #pragma once
 
 #include <optional>

@@ -52,9 +52,11 @@ std::vector<HapticUnit> hapticUnits(const Machine& machine) {
 }
 
 std::string udevRules() {
-  std::string text = std::string("# ") + kUdevRulesFile +
-                     ": the person at this machine may use its haptic devices and pedals.\n"
-                     "# Then: sudo udevadm control --reload && sudo udevadm trigger, and plug the device in again.\n";
+  std::string text =
+      "# 70-molar.rules: the person at this machine may use its haptic devices and pedals. Belongs in a folder of "
+      "udev\n"
+      "# rules: /etc/udev/rules.d by hand, /usr/lib/udev/rules.d in a package. After a change:\n"
+      "# sudo udevadm control --reload && sudo udevadm trigger, and plug the device in again.\n";
   for (const haptics::UsbIdentity& one : haptics::usbIdentities()) {
     if (one.kind == KnownDevice::force_dimension) continue;
     const std::string product = one.product == 0 ? "*" : fmt::format("{:04x}", one.product);

@@ -24,7 +24,7 @@ std::vector<HapticUnit> hapticUnits(const Machine& machine);
 
 /// For /etc/udev/rules.d: the person at the machine may use every unit that Molar drives, and ModemManager opens none.
 std::string udevRules();
-/// The file that they belong in.
+/// The file of the local administrator; a package installs the same rules as /usr/lib/udev/rules.d/70-molar.rules.
 inline constexpr const char* kUdevRulesFile = "/etc/udev/rules.d/70-molar.rules";
 
 }  // namespace app

@@ -99,6 +99,20 @@ SessionMetrics metricsOf(const std::string& path) {
   return metrics;
 }
 
+namespace {
+
+/// Units as people write them.
+std::string unitText(std::string_view unit) { return unit == "mm3" ? "mm³" : std::string(unit); }
+
+}  // namespace
+
+std::string measuresHelp() {
+  std::string text = "Measures (keys of --json):\n";
+  for (const Measure& measure : kMeasures)
+    text += fmt::format("  {:<22} {}, {}\n", measure.key, measure.meaning, unitText(measure.unit));
+  return text;
+}
+
 std::string metricsText(const SessionMetrics& metrics) {
   std::string words =
       fmt::format("{:.1f} s, of which {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
@@ -111,6 +125,13 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
+  words += "\n";
+  for (const Measure& measure : kMeasures)
+    words +=
+        fmt::format("  {:<55} {:>9.2f} {}\n", measure.meaning, metrics.*measure.value + 0.0, unitText(measure.unit));
+  if (metrics.removed_mm3_by_label)
+    for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label)
+      words += fmt::format("  {:<55} {:>9.2f} mm³\n", "removed " + tissue, removed_mm3);
   return words;
 }
 

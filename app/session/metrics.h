@@ -53,7 +53,10 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
 /// Throws SessionError if the file is missing, not a session, or damaged.
 SessionMetrics metricsOf(const std::string& path);
 
-/// A summary for people, a few short lines.
+/// The table of kMeasures for --help and the manual.
+std::string measuresHelp();
+
+/// For people: a summary in a few short lines, then kMeasures with units, then the volume by tissue.
 std::string metricsText(const SessionMetrics& metrics);
 
 /// One JSON object: the state of the recording, kMeasures by key, volumes by the key of the tissue.

@@ -1,4 +1,4 @@
-// The calibration of a recorded session: which rig, its proven error and age, and the word given to use it although
+// The calibration of a recorded session: which rig, its verified error and age, and the word given to use it although
 // red. mm. Plain values; any thread. Never a person's name.
 #pragma once
 

@@ -27,6 +27,6 @@ inline constexpr double kMaxRestError_mm = 2.0;
 
 /// Throws CalibrationError for fewer than three marks, marks on a line, numbers not finite, or distances that differ
 /// from the marks' by more than 3 mm (wrong order, another rest).
-RestRegistration registerRest(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by);
+RestRegistration registerRest(const std::vector<MarkTouch>& fitted_to, const std::vector<MarkTouch>& verified_by);
 
 }  // namespace calibration

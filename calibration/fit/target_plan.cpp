@@ -15,7 +15,7 @@ constexpr glm::dvec2 kCrossesHalf_mm{65.0, 45.0};
 constexpr glm::dvec3 kPlacesHalf_mm{60.0, 42.0, 30.0};
 
 constexpr double kMaxTilt_deg = 25.0;  ///< an axis
-constexpr int kFirstProofId = 101;
+constexpr int kFirstVerificationId = 101;
 constexpr int kSwings = 12;
 
 /// The smallest rotation that takes z to `there`.
@@ -130,9 +130,9 @@ std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig
   } else if (method == "rezero5") {
     plan.targets = held(kRezero, 1, jig.X_WB);
   } else if (method == "check4") {
-    plan.targets = held(kCheck, kFirstProofId, jig.X_WB);
+    plan.targets = held(kCheck, kFirstVerificationId, jig.X_WB);
   } else if (method == "verify8") {
-    plan.targets = held(kBetween, kFirstProofId, jig.X_WB);
+    plan.targets = held(kBetween, kFirstVerificationId, jig.X_WB);
   } else if (method == "pivot12") {
     plan.targets = swung(jig.X_WB);
     plan.one_pit = true;

@@ -85,6 +85,17 @@ void checkUnseen(const TouchSet& fitted, const TouchSet& verification) {
                       " of the fit, touch other positions");
 }
 
+void checkUnseen(const std::vector<Residual>& fitted, const std::vector<Residual>& verification,
+                 const std::string& file) {
+  constexpr double kSame_mm = 1e-6;
+  for (const Residual& one : verification)
+    for (const Residual& seen : fitted)
+      if (one.used && seen.used && glm::distance(one.target_W.mm, seen.target_W.mm) < kSame_mm &&
+          glm::distance(one.error_mm.xyz, seen.error_mm.xyz) < kSame_mm)
+        throw CalibrationError(file + ": touch " + std::to_string(one.id) +
+                               " is one that the rig was fitted to, which verifies nothing, touch other positions");
+}
+
 double pairSpread_deg(const std::vector<glm::dvec3>& directions) {
   std::vector<double> angles;
   for (std::size_t a = 0; a < directions.size(); ++a)

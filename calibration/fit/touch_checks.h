@@ -3,9 +3,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "calibration/calibration_error.h"
+#include "calibration/fit/arm_fit.h"
 #include "calibration/fit/touches.h"
 
 namespace calibration {
@@ -19,6 +21,10 @@ void checkTouches(const TouchSet& set);
 /// Verification touches must be of the same device and not in the fit. Throws CalibrationError naming what differs
 /// (empty fields are not compared) or the touch.
 void checkUnseen(const TouchSet& fitted, const TouchSet& verification);
+/// The same for a rig file, which keeps residuals and no touches: a touch of the fit has the same error at the same
+/// target. `file`: of the verification, for the message.
+void checkUnseen(const std::vector<Residual>& fitted, const std::vector<Residual>& verification,
+                 const std::string& file);
 
 /// Variety of the stylus directions: the 95th percentile of the angles between pairs, in W (for the tip) or
 /// relative to the forearm (for the gimbal), whichever is smaller.

@@ -134,7 +134,7 @@ std::vector<Residual> residualsIn(const CheckedYaml& yaml, const cv::FileNode& p
   return residuals;
 }
 
-RigVerification proofIn(const CheckedYaml& yaml) {
+RigVerification verificationIn(const CheckedYaml& yaml) {
   const cv::FileNode node = yaml.map(yaml.root(), "verify");
   RigVerification verification;
   verification.errors.n = yaml.integer(node, "n", 0, kMaxTouches);
@@ -177,7 +177,7 @@ void readMetadata(const CheckedYaml& yaml, double rotation_tolerance, RigRecord&
   record.provenance = provenanceIn(yaml);
   if (yaml.has(eyes, "sd_mm")) record.eye_sd_mm = within(yaml, eyes, "sd_mm", 0.0, 200.0);
   if (yaml.has(root, "procedure")) record.procedure = procedureIn(yaml);
-  if (yaml.has(root, "verify")) record.verification = proofIn(yaml);
+  if (yaml.has(root, "verify")) record.verification = verificationIn(yaml);
   if (yaml.has(root, "residuals")) record.residuals = residualsIn(yaml, root);
   if (yaml.has(root, "rest")) record.rest = restIn(yaml, rotation_tolerance);
   if (yaml.has(root, "kinematics") && yaml.has(root["kinematics"], "sigma"))

@@ -14,8 +14,8 @@
 
 namespace haptics {
 
-/// h_max: half the head's smallest radius, or the depth of 85 % of a 0.6 mm plate through the head's middle if less, so
-/// that a large head does not pass through the thinnest plate that must hold.
+/// h_max: half the head's smallest radius, or, if less, the equivalent depth at which the overlap is 85 % of that with
+/// a 0.6 mm plate through the middle of the head: a large head does not pass the thinnest bone plate that must resist.
 double maxLawDepth_mm(const BurShape& head);
 
 class Proxy {

@@ -1,4 +1,4 @@
-# Who may include whom, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
+# Which folder may include which, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
 #   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
@@ -19,7 +19,7 @@ set(calibration/verification ${calibration_words} calibration/fit/ calibration/v
 set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webcam/ calibration/verification/
     calibration/synthetic/)
 set(calibration/record ${calibration_words} calibration/output_file.h calibration/fit/ calibration/verification/ calibration/record/)
-# Rooms of assets: plain types at the root, then what reads and writes, then what puts together.
+# Folders of assets: plain types at the root, then readers and writers, then the folders that combine them.
 set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/json_depth.h assets/load_error.h assets/mesh.h
     assets/operative_site.h assets/patient.h assets/planned_cut.h assets/soft_tissue.h
     assets/solid_sample.h assets/solid_voxels.h assets/tissue.h assets/toml_reader.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
@@ -32,7 +32,7 @@ foreach(room patient instrument import synthetic)
 endforeach()
 set(assets calibration/ assets/)
 
-# Rooms of app: each sees itself and those before it; beside them, what commands alone see.
+# Folders of app: each may include itself and those before it; the last group is for commands only.
 set(floors calibration/ assets/ haptics/ render/)
 set(app/text ${floors} app/text/)
 set(case_report_session app/case/ app/report/ app/session/)
@@ -58,12 +58,13 @@ set(app/commands ${floors} app/)
 set(app_root ${floors} app/commands/ app/text/command_line.h app/text/message.h app/text/version.h)
 set(tests ${floors} app/ tests/)
 
-# Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
-# values cross threads, and the plain words of render lie beside their sub-folders for all.
+# Inside haptics and render a sub-folder names what it may include; the folder itself may include all of its own. The
+# plain types of haptics (what crosses threads, wrenches) and of render lie at the root of each.
 set(haptics ${assets} haptics/)
-set(haptics/device ${assets} haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h haptics/device/)
-set(haptics/safety ${assets} haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
-set(haptics/loop ${assets} haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/ haptics/loop/)
+set(haptics_plain haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h)
+set(haptics/device ${assets} ${haptics_plain} haptics/device/)
+set(haptics/safety ${assets} ${haptics_plain} haptics/device/ haptics/safety/)
+set(haptics/loop ${assets} ${haptics_plain} haptics/device/ haptics/safety/ haptics/loop/)
 set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
 set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
@@ -75,7 +76,7 @@ set(render/gpu ${render_words} render/gpu/)
 foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)
 endforeach()
-# The CPU back-end stands beside gpu: of that folder it knows the exception alone.
+# The CPU back-end is an alternative to gpu: of that folder it may include the exception and the window target only.
 set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_target.h render/cpu/ render/volume/ render/display/
     render/scene/models.h render/eye_block.h
     render/scene_renderer.h render/render_options.h render/shaders/)
@@ -117,8 +118,8 @@ function(starts_with_one_of result name)
   endforeach()
 endfunction()
 
-# What a file may see: the rule of its sub-folder if that has one, else of its top folder. Where the root of a folder
-# has a rule of its own, every sub-folder needs one.
+# The rule of a file: of its sub-folder if that has one, else of its top folder. Where the root of a folder has a rule of
+# its own, every sub-folder needs one.
 macro(find_rule)
   string(REGEX MATCH "^[^/]+" top "${file}")
   string(REGEX MATCH "^[^/]+/[^/]+" rule "${file}")
@@ -151,7 +152,7 @@ macro(check_third_party name)
     endif()
   endwhile()
   if("${name}" MATCHES "${operating_system}")
-    # Vector instructions are no service of the system: the headers that wrap them may.
+    # The headers that wrap vector instructions may include immintrin.h, which is no system call.
     if(file MATCHES "\\.h$" AND NOT file MATCHES "^render/cpu/lanes_[a-z0-9]+\\.h$")
       violation("is a header and includes <${name}>: keep the operating system in .cpp files")
     endif()
@@ -174,10 +175,10 @@ foreach(file IN LISTS files)
   find_rule()
   file(STRINGS "${ROOT}/${file}" lines REGEX "^[ \t]*#[ \t]*include")
 
-  # A source proves that its own header stands alone.
+  # A source includes its own header first, so that the header compiles by itself.
   string(REGEX REPLACE "\\.cpp$" ".h" own_header "${file}")
   if(NOT own_header STREQUAL file AND EXISTS "${ROOT}/${own_header}" AND NOT "${lines}" MATCHES "^#include \"${own_header}\"")
-    violation("does not include \"${own_header}\" first: its header must be seen to stand alone")
+    violation("does not include \"${own_header}\" first: so that the header compiles by itself")
   endif()
   foreach(line IN LISTS lines)
     if(line MATCHES "include[ \t]*\"([^\"]+)\"")
@@ -187,7 +188,7 @@ foreach(file IN LISTS files)
       endif()
     elseif(line MATCHES "include[ \t]*<([^>]+)>")
       set(name "${CMAKE_MATCH_1}")
-      # The standard library, GLM, and whatever a test likes are free.
+      # The standard library and GLM are free; tests may include any library.
       if(name MATCHES "[/.]" AND NOT name MATCHES "^glm/" AND NOT top STREQUAL "tests")
         check_third_party("${name}")
       endif()

@@ -1,4 +1,4 @@
-# Proves that the include rules bite: plants one violation of each kind and expects every one to be named.
+# Tests the include rules: plants one violation of each kind and expects every one to be reported.
 # Run: cmake -DSCRIPTS=<this folder> -DSCRATCH=<empty folder> -P include_rules_planted.cmake
 cmake_minimum_required(VERSION 3.25)
 

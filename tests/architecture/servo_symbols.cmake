@@ -1,13 +1,13 @@
 # What the servo's thread can reach, read from the machine code: starting at Servo::step, at the tick of the loop with
-# its motor gate, at the answers of those who serve it, and at the part of every device that its thread runs (of a
-# simulated Phantom all but its script, which is a function it is given), all calls and references are followed through
-# the archives, and whatever leaves them must be on the short list below. So an allocation in a constructor is fine and
-# one behind a rare branch is not, whether a test runs it or not. Calls through pointers can not be followed: who makes
-# one, or waits for the machine, is on the second list with the reason.
+# its motor gate, at the virtual functions they call, and at the part of every device that runs on this thread (of a
+# simulated Phantom all but its script, a function passed to it), all calls and references are followed through the
+# archives, and every symbol outside them must be on the short list below. So an allocation in a constructor passes and
+# one behind a rare branch fails, whether a test runs it or not. Calls through pointers cannot be followed: functions
+# that make one, or wait for the operating system, are on the second list with the reason.
 # Run: cmake -DOBJDUMP=… -DARCHIVES=a.a,b.a [-DROOTS=regex,regex] -P servo_symbols.cmake  (x86-64 objects, mangled names)
 cmake_minimum_required(VERSION 3.25)
 
-# Bounded, lock-free and without memory of their own: libm, memory moves, and the ways a bug of ours ends the program.
+# Bounded, lock-free and without memory of their own: libm, memory moves, and the ways an internal error ends the program.
 set(allowed
   "^(sqrt|cbrt|hypot|floor|ceil|round|trunc|rint|nearbyint|lround|llround|lrint|fma|fmod|fmin|fmax|exp|exp2|expm1|log|log2|log1p|pow|sin|cos|sincos|tan|asin|acos|atan|atan2|erf|erfc|copysign|ldexp|frexp|modf)f?$"
   "^(memcpy|memmove|memset|memcmp|clock_gettime|_ZNSt6chrono3_V212steady_clock3nowEv)$"
@@ -15,11 +15,11 @@ set(allowed
   "^(_GLOBAL_OFFSET_TABLE_|_ZTV.*|_ZTI.*|_ZTS.*)$")
 list(JOIN allowed "|" allowed)
 
-# FUNCTION>TARGET: what one function alone may do.
+# FUNCTION>TARGET: a reference that is allowed in one function only.
 set(admitted
-  # The tick asks whoever derives from the loop: all their answers are roots themselves.
+  # The tick calls virtual functions of the classes derived from the loop; all of them are roots themselves.
   "^_ZN7haptics10DeviceLoop4tickE.*>indirect$"
-  # The thread of a paced device sleeps until its tick, then asks servo, sensors and motors, roots all of them.
+  # The thread of a paced device sleeps until its tick, then calls servo, sensors and motors, which are roots too.
   "^_ZN7haptics11PacedDevice(3run|4tick|4step)E.*>indirect$"
   "^_ZN7haptics(11PacedDevice(3run|4tick|5await)|10sleepUntil)E.*>clock_nanosleep$"
   # The wait for a report has a deadline; raising and lowering are one write to, one read from an eventfd that never
@@ -27,7 +27,7 @@ set(admitted
   "^_ZN7haptics10WakeSignal10awaitUntilE.*>ppoll$"
   "^_ZN7haptics10WakeSignal5raiseE.*>write$"
   "^_ZN7haptics10WakeSignal5lowerE.*>read$"
-  # The functions of the vendor's library, which are its maker's to bound; and the tick.
+  # The functions of the vendor's library, whose bounds its maker states; and the tick.
   "^_ZNK?7haptics(11OpenHaptics|8HdHandle|8HdErrors|13HdCalibration)[0-9].*>indirect$")
 list(JOIN admitted "|" admitted)
 if(NOT DEFINED ROOTS)

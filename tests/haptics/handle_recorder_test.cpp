@@ -56,7 +56,7 @@ TEST(HandleRecorder, BringsEveryTickOnceInOrderAndNeverAForce) {
   hand.stop();
   ASSERT_EQ(taken.size(), 200u);
   for (std::size_t n = 0; n < taken.size(); ++n) {
-    EXPECT_EQ(taken[n].state.X_DH.translation_mm.x, static_cast<double>(n + 1));  // also what cannot be believed
+    EXPECT_EQ(taken[n].state.X_DH.translation_mm.x, static_cast<double>(n + 1));  // also invalid poses
     EXPECT_NEAR(taken[n].t_s, 1e-3 * static_cast<double>(n + 1), 1e-12);
   }
   EXPECT_EQ(hand.dropped(), 0u);

@@ -10,7 +10,7 @@
 namespace haptics {
 namespace {
 
-/// Moves by `way_mm` in steps of 0.5 mm with the switch as told.
+/// Moves by `way_mm` in steps of 0.5 mm with the given state of the switch.
 bool travel(Inkwell& inkwell, bool value, double from_mm, double to_mm, bool sure = true) {
   bool docked = false;
   const int steps = static_cast<int>(std::abs(to_mm - from_mm) / 0.5);

@@ -146,7 +146,7 @@ TEST(Laws, ThatAreConservativeGiveNoEnergyOnAClosedPathAboutAnEdge) {
   EXPECT_LT(loopWork(settingsOf(LawKind::shell), 0.2), 1e-3);
   EXPECT_LT(loopWork(settingsOf(LawKind::harmonic), 0.1), 1e-3);
   EXPECT_LT(loopWork(settingsOf(LawKind::harmonic), 0.2), 1e-3);
-  // The path is one that tells: the height law is known not to be conservative (reference/physics 0.8).
+  // This closed path shows the difference: the height law is known not to be conservative (reference/physics 0.8).
   EXPECT_GT(loopWork(settingsOf(LawKind::agus), 0.1), 3e-3);
 }
 

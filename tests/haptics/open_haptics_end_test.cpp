@@ -96,7 +96,7 @@ TEST_F(OpenHapticsTrouble, SwitchesItsMotorsOffForAnyThread) {
     until([&] { return !door.seen.motors_on; });
     servo.pushes = true;
   }
-  // The servo that never let go is cut for a frame, and obeyed again in the next.
+  // A held force is cut to zero for one frame and served again in the next.
   until([&] { return forceNow_N() == 1.0; });
   const long ticks = servo.ticks;
   std::thread([&] { device.motorsOff(); }).join();
@@ -149,7 +149,7 @@ TEST_F(OpenHapticsTrouble, StopsCleanlyWhileTheSchedulerHangs) {
   until([&] { return forceNow_N() == 1.0; });
   door.script.hangs = true;
   until([&] { return door.seen.hanging.load(); });
-  // Nobody else may speak to the device: the wish waits, the caller does not.
+  // Only the servo thread may call the device: the request is queued, the caller returns at once.
   device.motorsOff();
   EXPECT_TRUE(door.seen.motors_on);
   device.stop();

@@ -52,7 +52,7 @@ TEST_F(OpenHapticsLoop, DetectsAHangingSchedulerAndStaysOffWhenItReturns) {
   door.script.hangs = false;
   runFor(loop, 50);
   loop.stop();
-  // The wish of the supervisor is obeyed first, then the loop's command again.
+  // The supervisor's request is served first, then the loop's command again.
   EXPECT_GE(std::ranges::count(door.seen.events, "enable 0x4000"), 2);
   EXPECT_EQ(door.seen.events.back(), "disable device");
 }

@@ -210,7 +210,7 @@ class WanderingHand {
 
 /// The grace, and what a hand takes by jerking back while the force comes down at the slew limit: F^2 v / (2 slew).
 /// Laws that hang on the place alone never come near it; one that hangs on the speed, and a switch, may have more force
-/// on at that moment than the hand has paid for. Without the books these hands get up to 0.95 N mm.
+/// on at that moment than the hand has paid for. Without the energy balance these hands get up to 0.95 N mm.
 constexpr double kSteady_Nmm = 0.05, kOneRamp_Nmm = 3.3 * 3.3 * 20.0 / (2.0 * 300.0);
 
 Phantom randomBone(unsigned seed, double half_mm, double spacing_mm) {

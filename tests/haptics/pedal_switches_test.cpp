@@ -60,12 +60,12 @@ TEST(PedalSwitches, IgnoreAnAxisUntilItWasUp) {
   PedalSwitches between = axisPedal();
   between.takeAxis(ABS_Z, 60);
   EXPECT_EQ(between.held(), HandActions{}) << "no end seen yet";
-  PedalSwitches told = axisPedal(AxisRest::low);
-  told.takeAxis(ABS_Z, 100);
-  EXPECT_EQ(told.held(), HandActions{}) << "down when found";
-  told.takeAxis(ABS_Z, 0);
-  told.takeAxis(ABS_Z, 100);
-  EXPECT_EQ(told.held(), kDrill);
+  PedalSwitches held_at_start = axisPedal(AxisRest::low);
+  held_at_start.takeAxis(ABS_Z, 100);
+  EXPECT_EQ(held_at_start.held(), HandActions{}) << "down when found";
+  held_at_start.takeAxis(ABS_Z, 0);
+  held_at_start.takeAxis(ABS_Z, 100);
+  EXPECT_EQ(held_at_start.held(), kDrill);
 }
 
 TEST(PedalSwitches, OnceSeenUpFollowAnAxisAsThePlainRuleDoes) {

@@ -48,7 +48,7 @@ int underALimitOf(rlim_t most_bytes, int (*act)()) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 99;
 }
 
-/// Enough for the program that asks, not for what it asks for later.
+/// Enough for what the program has locked, not for later allocations.
 int underAFiniteLimit(int (*act)()) { return underALimitOf(programSize_bytes() + (16u << 20), act); }
 
 int failsToKeepItsStack() {

@@ -7,7 +7,7 @@
 namespace haptics {
 namespace {
 
-/// One with motors, that has come to the state asked for the way it should.
+/// The state machine of a device with motors, and its inputs.
 struct Bench {
   SafetyLimits limits = strict({});
   SafetyStateMachine machine;

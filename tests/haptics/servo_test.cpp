@@ -143,7 +143,7 @@ TEST(Servo, HoldsAndLetsGoWhenThePoseIsAbsurd) {
   }
 }
 
-TEST(Servo, BelievesADeviceThatStaysFarAway) {
+TEST(Servo, AcceptsADeviceThatStaysFarAway) {
   CarvedBone bone = halfSpace(4.0, 0.2).bone();
   Servo servo(bone);
   servo.step(handAt({0.0, 0.0, 50.0}), {}, 1e-3);
@@ -199,7 +199,7 @@ TEST(Servo, CutsOnlyWithPedalAndPermission) {
   EXPECT_GT(removed, 0.0);
 }
 
-TEST(Servo, ObeysOnlyWhatIsSaneInACommand) {
+TEST(Servo, AppliesOnlyValidPartsOfACommand) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Command command;
   command.tool.head.radius_mm = nan;

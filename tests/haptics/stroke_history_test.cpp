@@ -17,7 +17,7 @@ namespace {
 using namespace phantom;
 using calibration::Tool;
 
-/// Everything a bone tells of itself.
+/// All observable state of a bone.
 struct Whole {
   std::vector<BlockState> blocks;
   std::vector<std::uint32_t> sums;

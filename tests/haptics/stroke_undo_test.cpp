@@ -16,7 +16,7 @@ namespace {
 using namespace phantom;
 using calibration::Tool;
 
-/// A servo on flat bone under a hand that is told where to go.
+/// A servo on flat bone and a hand with a commanded position.
 struct Room {
   CarvedBone bone = halfSpace(5.0, 0.2).bone(1);
   Servo servo{bone};
@@ -49,7 +49,7 @@ struct Room {
     }
     hand.velocity_P_mm_per_s = {};
   }
-  /// Down into the bone beside `x_mm`, along it and out again.
+  /// Down into the bone next to `x_mm`, along it and out again.
   void cutAt(double x_mm) {
     go({x_mm, -1.5, 1.5}, 0.05);
     hand.drill_pedal = true;
@@ -140,7 +140,7 @@ TEST(StrokeUndo, ChangesNothingWhereThereIsNothingToTakeBack) {
   }
   EXPECT_EQ(room.bone.digest(), other.bone.digest());
   EXPECT_EQ(room.tick.commanded_force_P_N.xyz, other.tick.commanded_force_P_N.xyz);
-  // What was asked for in vain is not owed; a serial that falls asks for nothing.
+  // A request that could not be served is dropped; a smaller serial is no request.
   const std::uint64_t cut = room.bone.digest();
   room.command.undo_serial = 2;
   room.hand.drill_pedal = false;
@@ -185,7 +185,7 @@ TEST(StrokeUndo, StopsTheDrillUntilTheFootHasLeftThePedal) {
   room.go({0.0, 0.0, 2.0}, 0.2);
   EXPECT_EQ(room.tick.drill_inhibit, DrillInhibit::pedal_held);
   EXPECT_FALSE(room.tick.drilling);
-  // A pose nobody can believe says nothing of the foot.
+  // The pedal state of a tick with an invalid pose is ignored.
   const double x_mm = room.hand.X_PT.translation_mm.x;
   room.hand.X_PT.translation_mm.x = std::numeric_limits<double>::quiet_NaN();
   room.step();
@@ -275,7 +275,7 @@ TEST(StrokeUndo, NeverThrowsAHandInsideTheReturningBone) {
         EXPECT_LE(glm::length(room.ticks[n].commanded_force_P_N.xyz - room.ticks[n - 1].commanded_force_P_N.xyz),
                   1.01 * 1.5 * before_N / 0.04 * room.dt_s + 1e-9);
       }
-      // Once out, bone is bone again.
+      // Once out of the bone, contact is normal again.
       room.go({0.0, 0.0, 0.8}, 0.2);
       EXPECT_NEAR(newton(room.tick), 0.16, 0.01);
     }
@@ -347,7 +347,7 @@ TEST(StrokeUndo, GivesBackNoMoreThanSixtyFourBlocksInATick) {
   EXPECT_EQ(room.tick.strokes, 0);
 }
 
-/// A hand and an instructor without sense: drills, leaves, undoes, jumps.
+/// Random input of hand and instructor: drills, leaves, undoes, jumps.
 void wander(Room& room, unsigned seed, int steps) {
   std::mt19937 random(seed);
   std::normal_distribution<double> move(0.0, 0.04);

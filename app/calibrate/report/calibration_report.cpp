@@ -60,7 +60,7 @@ std::string symbolOf(const std::optional<Verdict>& verdict) {
 }
 
 std::string wordsOf(const std::optional<Verdict>& verdict) {
-  if (!verdict) return "Not proven: verify it with touches that were not fitted";
+  if (!verdict) return "Not verified: verify it with touches that were not fitted";
   if (*verdict == Verdict::green) return "Green: use it";
   if (*verdict == Verdict::amber) return "Amber: usable, with a larger error than intended";
   return "Red: locked on a real device, calibrate again";

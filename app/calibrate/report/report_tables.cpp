@@ -44,7 +44,7 @@ std::string plain(const char* what, const std::string& value, const char* meanin
   return row({what, value, "", "", meaning});
 }
 
-std::string proofRows(const calibration::RigVerification& verification) {
+std::string verificationRows(const calibration::RigVerification& verification) {
   const calibration::TargetErrors& errors = verification.errors;
   const calibration::VerificationLimits& limits = calibration::limitsOf(verification.kind);
   const calibration::Assessment judged = calibration::assess(errors, verification.kind);
@@ -71,7 +71,7 @@ std::string described(const std::string& value) { return value.empty() ? "not kn
 
 std::string figuresTable(const RigRecord& record) {
   std::string table = "<table>\n" + head({"figure", "value", "green", "amber", ""});
-  if (record.verification) table += proofRows(*record.verification);
+  if (record.verification) table += verificationRows(*record.verification);
   if (record.procedure) {
     const calibration::RigProcedure& procedure = *record.procedure;
     table += plain("Cross-validation error (CV), RMS", mm(procedure.cv_rms_mm));

@@ -11,8 +11,8 @@ namespace app {
 namespace {
 
 constexpr std::size_t kLeastJudged = 8;
-constexpr int kMostOneWay = 1;          ///< requests to follow the cue
-constexpr double kMostMuddle_mm = 3.0;  ///< left at the touches: beyond, they belong to other targets
+constexpr int kMostOneWay = 1;                 ///< requests to follow the cue
+constexpr double kMaxMedianResidual_mm = 3.0;  ///< left at the touches: beyond, they belong to other targets
 
 class CollectStep final : public WizardStep {
  public:
@@ -77,8 +77,8 @@ class CollectStep final : public WizardStep {
     // Beyond repair by one touch: the fit would say so, too, but later.
     std::size_t many = 0;
     for (const bool is : doubtful) many += is ? 1 : 0;
-    const bool muddled = 3 * many > doubtful.size() || quick.median_mm > kMostMuddle_mm;
-    if (muddled) {
+    const bool mixed_up = 3 * many > doubtful.size() || quick.median_mm > kMaxMedianResidual_mm;
+    if (mixed_up) {
       round_->setArm(context_.arm, 0.0);
       context_.announcements.refuse("The touches do not fit together: touch them in the order they glow.");
     } else {

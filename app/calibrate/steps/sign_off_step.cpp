@@ -9,7 +9,7 @@
 namespace app {
 namespace {
 
-const char* judgedAs(calibration::Verdict verdict) {
+const char* verdictText(calibration::Verdict verdict) {
   if (verdict == calibration::Verdict::green) return "Good";
   return verdict == calibration::Verdict::amber ? "Usable, not good" : "Not good enough";
 }
@@ -70,7 +70,7 @@ class SignOffStep final : public WizardStep {
       view.button = {"back", "back", ""};
       return;
     }
-    view.title = judgedAs(verdict());
+    view.title = verdictText(verdict());
     view.sentence =
         verdict() == calibration::Verdict::red ? "It cannot be accepted." : "Accept it, or keep the old calibration.";
     menu_.show(view);
@@ -87,13 +87,13 @@ class SignOffStep final : public WizardStep {
   }
 
   std::string sentence() const {
-    std::string said = judgedAs(verdict());
+    std::string said = verdictText(verdict());
     if (context_.plan.procedure == CalibrationProcedure::rest && context_.outcome.rest)
       return said + ": the position of the rest is known within " + mmText(context_.outcome.rest->worst_mm) +
              (verdict() == calibration::Verdict::green ? "." : ", which is noticeable: touch its marks again.");
     if (!context_.outcome.assessment) return said + ".";
     // As the surgeon sees it; what decided it where it is not good.
-    std::string worst = calibration::worstErrorSentence(context_.outcome.proof_residuals, {});
+    std::string worst = calibration::worstErrorSentence(context_.outcome.verification_residuals, {});
     worst[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(worst[0])));
     said += ". " + worst;
     if (verdict() != calibration::Verdict::green) said += " (" + context_.outcome.assessment->reason + ")";

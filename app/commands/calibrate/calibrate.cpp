@@ -98,7 +98,8 @@ int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep) {
   const WizardOutcome& outcome = led.outcome;
   if (outcome.fit) std::fputs(fitText(*outcome.fit).c_str(), stderr);
   if (outcome.rezero) std::fputs(rezeroText(*outcome.rezero).c_str(), stderr);
-  if (outcome.errors && outcome.assessment) std::fputs(proofText(*outcome.errors, *outcome.assessment).c_str(), stderr);
+  if (outcome.errors && outcome.assessment)
+    std::fputs(verificationText(*outcome.errors, *outcome.assessment).c_str(), stderr);
   if (outcome.end != WizardOutcome::End::accepted) return 1;
 
   RigRecord record = recordOf(led.plan, outcome);
@@ -117,12 +118,12 @@ int conclude(const WebcamObservations& seen, const WebcamFit& fit, const RigReco
   RigRecord record = before;
   record.rig.device = RigDevice{seen.device_model, info.serial, info.mount, info.stylus_tip};
   putWebcamFit(record, fit);
-  if (!verification.empty()) putProof(record, verification, VerificationKind::full);
+  if (!verification.empty()) putVerification(record, verification, VerificationKind::full);
   stamp(record, before, info);
   std::fputs(webcamFitText(fit).c_str(), stderr);
-  std::fputs(
-      proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::full)).c_str(),
-      stderr);
+  std::fputs(verificationText(record.verification->errors, assess(record.verification->errors, VerificationKind::full))
+                 .c_str(),
+             stderr);
   keep.keep(record, webcamFileText(seen));
   keep.note(record, DriftKind::calibration, record.verification->errors);
   return statusOf(record.verification->verdict);
@@ -136,7 +137,7 @@ void addCalibrate(CommandLine& molar) {
   addCalibrateSimulate(calibrate);
   addCalibrateCollect(calibrate);
   addCalibrateFit(calibrate);
-  addCalibrateProofs(calibrate);
+  addCalibrateVerification(calibrate);
   addCalibrateRezero(calibrate);
   addCalibratePivot(calibrate);
   addCalibrateLens(calibrate);

@@ -16,7 +16,7 @@ namespace app {
 void addCalibrateSimulate(CommandLine& calibrate);
 void addCalibrateCollect(CommandLine& calibrate);
 void addCalibrateFit(CommandLine& calibrate);
-void addCalibrateProofs(CommandLine& calibrate);  ///< verify, check
+void addCalibrateVerification(CommandLine& calibrate);  ///< verify, check
 void addCalibrateRezero(CommandLine& calibrate);
 void addCalibratePivot(CommandLine& calibrate);
 void addCalibrateLens(CommandLine& calibrate);

@@ -97,15 +97,15 @@ int fit(const CalibrateFitOptions& options) {
   RigRecord record = base;
   record.rig.device = RigDevice{touches.device_model, info.serial, info.mount, info.stylus_tip};
   putFit(record, touches, fitted, 0.0);
-  const VerificationKind kind = proofKindOf(touches.method);
-  std::string proof_text;
+  const VerificationKind kind = verificationKindOf(touches.method);
+  std::string verification_text;
   if (!options.held_out.empty()) {
-    putProof(record, heldOut(options.held_out, fitted.arm, touches), kind);
-    proof_text = proofText(record.verification->errors, assess(record.verification->errors, kind));
+    putVerification(record, heldOut(options.held_out, fitted.arm, touches), kind);
+    verification_text = verificationText(record.verification->errors, assess(record.verification->errors, kind));
   }
   stamp(record, base, info);
   std::fputs(fitText(fitted).c_str(), stderr);
-  std::fputs(proof_text.c_str(), stderr);
+  std::fputs(verification_text.c_str(), stderr);
   options.keep.keep(record, touchesText(touches));
   if (record.verification) options.keep.note(record, DriftKind::calibration, record.verification->errors);
   if (options.json) std::fputs(fitJson(fitted).c_str(), stdout);

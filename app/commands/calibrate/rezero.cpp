@@ -40,11 +40,11 @@ int rezero(const RezeroOptions& options) {
   if (!options.held_out.empty()) {
     const TouchSet others = readTouches(options.held_out);
     armOf(base, others, options.rig);
-    putProof(record, residualsOf(done.arm, others.touches), VerificationKind::session_check);
-    std::fputs(
-        proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::session_check))
-            .c_str(),
-        stderr);
+    putVerification(record, residualsOf(done.arm, others.touches), VerificationKind::session_check);
+    std::fputs(verificationText(record.verification->errors,
+                                assess(record.verification->errors, VerificationKind::session_check))
+                   .c_str(),
+               stderr);
   }
   MeasurementInfo info = options.info;
   if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;

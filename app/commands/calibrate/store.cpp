@@ -27,7 +27,7 @@ std::string textOf(const RigLocation& location) {
 }
 
 /// The only location that fits the options.
-RigLocation placeMeant(const StoreOptions& options) {
+RigLocation chosenLocation(const StoreOptions& options) {
   std::vector<RigLocation> fits;
   for (const RigLocation& location : options.rigs().locations())
     if (options.rig_id.value_or(location.rig_id) == location.rig_id &&
@@ -78,7 +78,7 @@ int diff(const StoreOptions& options) {
 }
 
 int rollBack(const StoreOptions& options) {
-  const RigLocation location = placeMeant(options);
+  const RigLocation location = chosenLocation(options);
   const std::string name = options.rigs().rollBack(location);
   std::fprintf(stderr, "molar: %s is in force again for %s\n", name.c_str(), textOf(location).c_str());
   return 0;

@@ -9,17 +9,17 @@ namespace {
 struct OpenQuestion {
   const char* text;
   bool can_be_checked;
-  Proof proof;
+  Evidence evidence;
 };
 constexpr std::array<OpenQuestion, 13> kOpenQuestions = {{
-    {"the unit moves under a commanded force", true, Proof::moves},
-    {"the force has the right sign on every axis", true, Proof::force_sign},
-    {"a newton is a newton", true, Proof::force_scale},
-    {"the inkwell's switch is the right way round", true, Proof::inkwell},
-    {"the deadman feels a hand", true, Proof::deadman},
-    {"the pose is calibrated by the device's own style", true, Proof::calibration},
-    {"the axes of the pose point where they should", true, Proof::axes},
-    {"the rate and its jitter on the real bus", true, Proof::rate},
+    {"the unit moves under a commanded force", true, Evidence::moves},
+    {"the force has the right sign on every axis", true, Evidence::force_sign},
+    {"a newton is a newton", true, Evidence::force_scale},
+    {"the inkwell's switch is the right way round", true, Evidence::inkwell},
+    {"the deadman feels a hand", true, Evidence::deadman},
+    {"the pose is calibrated by the device's own style", true, Evidence::calibration},
+    {"the axes of the pose point where they should", true, Evidence::axes},
+    {"the rate and its jitter on the real bus", true, Evidence::rate},
     {"the base's offsets and the gimbal's zeros: molar calibrate", false, {}},
     {"the largest stiffness and damping under a human hand", false, {}},
     {"how bone and drill feel", false, {}},
@@ -65,11 +65,12 @@ std::string pageOf(const CheckReport& report) {
   for (const CheckLine& one : report.lines)
     page += "| " + cell(one.what) + " | " + cell(one.expected) + " | " + cell(one.found) + " | " + wordOf(one.verdict) +
             " |\n";
-  page += "\n## What only a real unit can prove\n\n";
-  if (is_simulated) page += "This unit is simulated and proves none of it.\n\n";
+  page += "\n## What only a real unit can show\n\n";
+  if (is_simulated) page += "This unit is simulated and shows none of it.\n\n";
   for (const OpenQuestion& one : kOpenQuestions) {
-    const bool proved = one.can_be_checked && !is_simulated && std::ranges::count(report.proved, one.proof) != 0;
-    page += std::string("- [") + (proved ? "x" : " ") + "] " + one.text + "\n";
+    const bool confirmed =
+        one.can_be_checked && !is_simulated && std::ranges::count(report.confirmed, one.evidence) != 0;
+    page += std::string("- [") + (confirmed ? "x" : " ") + "] " + one.text + "\n";
   }
   return page;
 }

@@ -1,5 +1,5 @@
 // The result of a device check, line by line, and its page in Markdown: a table, and a checklist of what only a real
-// unit can prove. No patient data; of the serial number only the end.
+// unit can show. No patient data; of the serial number only the end.
 #pragma once
 
 #include <string>
@@ -16,14 +16,14 @@ struct CheckLine {
   Verdict verdict = Verdict::ok;
 };
 
-/// What only a real unit can prove (reference/devices 7.3).
-enum class Proof { moves, force_sign, force_scale, inkwell, deadman, calibration, axes, rate };
+/// What only a real unit can show (reference/devices 7.3).
+enum class Evidence { moves, force_sign, force_scale, inkwell, deadman, calibration, axes, rate };
 
 struct CheckReport {
   std::string address, date, program;
   haptics::DeviceCapabilities device;
   std::vector<CheckLine> lines;
-  std::vector<Proof> proved;
+  std::vector<Evidence> confirmed;
   bool left_early = false;
 
   /// Complete, and nothing tried was wrong.

@@ -1,4 +1,4 @@
-// The steps of a device check, in the order in which they are safe. Each asks the user, measures, adds lines to the
+// The steps of a device check, in the order in which they are safe. Each prompts the user, measures, adds lines to the
 // report, and returns false when the user wants to leave; the force is off between steps. Main thread.
 #pragma once
 
@@ -28,11 +28,12 @@ struct CheckBench {
     owner.perform(task);
     return dialogue.confirm(to_do);
   }
-  /// Adds a line to the report, and what it proves if it is right.
-  void saw(std::string what, std::string expected, std::string found, bool is_right, std::optional<Proof> proof = {}) {
+  /// Adds a line to the report, and what it confirms if it is right.
+  void saw(std::string what, std::string expected, std::string found, bool is_right,
+           std::optional<Evidence> evidence = {}) {
     report.lines.push_back(
         {std::move(what), std::move(expected), std::move(found), is_right ? Verdict::ok : Verdict::wrong});
-    if (is_right && proof) report.proved.push_back(*proof);
+    if (is_right && evidence) report.confirmed.push_back(*evidence);
   }
   void sawNone(const std::string& part) { report.lines.push_back({part, "none", "none", Verdict::not_there}); }
 };

@@ -72,10 +72,10 @@ bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
               fmt::format("{}, moved {:+.1f} mm", std::ranges::find(kWays, *answer, &Way::answer)->name, moved_mm) +
                   (steady ? "" : ", the safety layer delivered only " + newtons(pushed.lately_D_N)),
               is_right);
-    if (*answer != 'n' && std::ranges::count(bench.report.proved, Proof::moves) == 0)
-      bench.report.proved.push_back(Proof::moves);
+    if (*answer != 'n' && std::ranges::count(bench.report.confirmed, Evidence::moves) == 0)
+      bench.report.confirmed.push_back(Evidence::moves);
   }
-  if (sign_is_right) bench.report.proved.push_back(Proof::force_sign);
+  if (sign_is_right) bench.report.confirmed.push_back(Evidence::force_sign);
   return true;
 }
 
@@ -107,7 +107,7 @@ bool checkForceScale(CheckBench& bench, std::vector<ForceReading>& readings) {
   bench.saw("scale of the force", "1.00 ± 0.10",
             fmt::format("{:.3f} ± {:.3f}, offset {:+.2f} N, farthest {:.2f} N off", fit.scale, fit.scale_error,
                         fit.offset_N, fit.worst_N),
-            std::abs(fit.scale - 1.0) <= kScaleTolerance, Proof::force_scale);
+            std::abs(fit.scale - 1.0) <= kScaleTolerance, Evidence::force_scale);
   return true;
 }
 

@@ -1,5 +1,5 @@
-// A simulated owner that does at once what the check asks: moves there at up to 250 mm/s, presses, lets go. Frame D,
-// mm. perform(): one thread; the script: the device's, which must not outlive this object.
+// A simulated owner that does at once what the check requests: moves there at up to 250 mm/s, presses, lets go. Frame
+// D, mm. perform(): one thread; the script: the device's, which must not outlive this object.
 #pragma once
 
 #include <atomic>

@@ -26,9 +26,9 @@ bool checkInkwell(CheckBench& bench) {
   if (!bench.confirm(OwnerTask::hold, "Take it out and hold it in the middle of its room.")) return false;
   const ConstantForceLoop::Seen outside = stateAtRest(bench);
   bench.saw("inkwell says docked", "yes, then no", yesNo(inside.state.docked, outside.state.docked),
-            inside.state.docked && !outside.state.docked, Proof::inkwell);
+            inside.state.docked && !outside.state.docked, Evidence::inkwell);
   const bool is_calibrated = outside.state.calibrated;
-  bench.saw("pose is calibrated", "yes", is_calibrated ? "yes" : "no", is_calibrated, Proof::calibration);
+  bench.saw("pose is calibrated", "yes", is_calibrated ? "yes" : "no", is_calibrated, Evidence::calibration);
   return true;
 }
 
@@ -42,7 +42,7 @@ bool checkDeadman(CheckBench& bench) {
   if (!bench.confirm(OwnerTask::let_go, "Let go of it.")) return false;
   const bool left = stateAtRest(bench).state.held;
   if (!bench.confirm(OwnerTask::hold, "Hold it again.")) return false;
-  bench.saw("deadman feels a hand", "yes, then no", yesNo(held, left), held && !left, Proof::deadman);
+  bench.saw("deadman feels a hand", "yes, then no", yesNo(held, left), held && !left, Evidence::deadman);
   return true;
 }
 
@@ -77,7 +77,7 @@ bool checkAxes(CheckBench& bench) {
   constexpr double kMin_mm = 20.0;
   const bool is_right = found_mm.x > kMin_mm && found_mm.y > kMin_mm && found_mm.z > kMin_mm;
   bench.saw("from corner to corner: right, up, towards you", "more than 20 mm each",
-            fmt::format("{:.0f}, {:.0f}, {:.0f} mm", found_mm.x, found_mm.y, found_mm.z), is_right, Proof::axes);
+            fmt::format("{:.0f}, {:.0f}, {:.0f} mm", found_mm.x, found_mm.y, found_mm.z), is_right, Evidence::axes);
   return true;
 }
 
@@ -90,7 +90,7 @@ bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
   const double found_Hz = static_cast<double>(bench.hand.ticks() - ticks_before) / taken_s;
   const haptics::LoopFigures figures = bench.hand.figures();
   const bool is_right = std::abs(found_Hz - rate_Hz) < 0.02 * rate_Hz;
-  bench.saw("rate", fmt::format("{:.0f} Hz", rate_Hz), fmt::format("{:.1f} Hz", found_Hz), is_right, Proof::rate);
+  bench.saw("rate", fmt::format("{:.0f} Hz", rate_Hz), fmt::format("{:.1f} Hz", found_Hz), is_right, Evidence::rate);
   bench.saw("a tick wakes late", "under 1000 µs",
             fmt::format("{:.0f} µs in the middle, {:.0f} µs at 99 %, {:.0f} µs at worst, {} ticks missed",
                         figures.late_p50_us, figures.late_p99_us, figures.late_max_us, figures.missed),

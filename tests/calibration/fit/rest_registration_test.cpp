@@ -56,22 +56,22 @@ TEST(RestRegistration, ShowsByVerificationThatTheRestHasMoved) {
 }
 
 TEST(RestRegistration, RefusesMarksInAnotherOrder) {
-  auto made_of = touches(0, glm::dquat(1, 0, 0, 0), {0, 0, 0});
-  std::swap(made_of[0].touched_W, made_of[2].touched_W);
-  EXPECT_THROW(registerRest(made_of, {}), CalibrationError);
+  auto fitted_to = touches(0, glm::dquat(1, 0, 0, 0), {0, 0, 0});
+  std::swap(fitted_to[0].touched_W, fitted_to[2].touched_W);
+  EXPECT_THROW(registerRest(fitted_to, {}), CalibrationError);
 }
 
 TEST(RestRegistration, RefusesTooFewOnALineOrNotFinite) {
-  auto made_of = touches(0, glm::dquat(1, 0, 0, 0), {0, 0, 0});
-  EXPECT_THROW(registerRest({made_of[0], made_of[1]}, {}), CalibrationError);
-  auto line = made_of;
+  auto fitted_to = touches(0, glm::dquat(1, 0, 0, 0), {0, 0, 0});
+  EXPECT_THROW(registerRest({fitted_to[0], fitted_to[1]}, {}), CalibrationError);
+  auto line = fitted_to;
   line[2].mark_mm = {40, 0, 0};
   line[2].touched_W.mm = {40, 0, 0};
   EXPECT_THROW(registerRest(line, {}), CalibrationError);
-  auto wild = made_of;
+  auto wild = fitted_to;
   wild[1].touched_W.mm.y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(registerRest(wild, {}), CalibrationError);
-  EXPECT_THROW(registerRest(made_of, wild), CalibrationError);
+  EXPECT_THROW(registerRest(fitted_to, wild), CalibrationError);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Bytes program(std::size_t size) {
   return bytes;
 }
 
-/// Everything the loader wanted, with a boot loader that answers as told.
+/// The loader's requests, and a boot loader with scripted answers.
 struct Conversation {
   std::vector<FtdiRequest> requests;
   std::vector<Bytes> sent;

@@ -40,7 +40,7 @@ bool soon(const Condition& holds) {
   return false;
 }
 
-/// Wants one force; keeps what it was last told.
+/// Requests one force; keeps the last state it was passed.
 class SteadyHand final : public DeviceServo {
  public:
   explicit SteadyHand(const DeviceCapabilities& can) : gate_(can) {}
@@ -181,14 +181,14 @@ TEST_F(FalconOnTheBus, PromptsUntilItIsHomed) {
   unit.runs = true;
   unit.homed = 1;
   FalconSettings settings;
-  int told = 0;
+  int received = 0;
   settings.prompt = [&](const std::string& words) {
     has(words, "pull the Falcon's grip all the way out");
-    if (++told == 5) bus->locked([&] { unit.homed = 7; });
+    if (++received == 5) bus->locked([&] { unit.homed = 7; });
     return true;
   };
   const Falcon falcon(settings);
-  EXPECT_GE(told, 5);
+  EXPECT_GE(received, 5);
   // Red while it waits, and the bit that starts homing.
   EXPECT_EQ(now([&] { return unit.flags; }), 9u);
 }
@@ -198,14 +198,14 @@ TEST_F(FalconOnTheBus, GivesUpHomingAfterItsTimeoutOrWhenCancelled) {
   unit.homed = 3;
   FalconSettings settings;
   settings.clock = time.clock();
-  int told = 0;
+  int received = 0;
   settings.prompt = [&](const std::string&) {
-    ++told;
+    ++received;
     time.pass(30s);
     return true;
   };
   has(refusal(settings), "not homed, start again and pull");
-  EXPECT_EQ(told, 2);
+  EXPECT_EQ(received, 2);
   settings.prompt = [](const std::string&) { return false; };
   has(refusal(settings), "given up");
 }
@@ -461,7 +461,7 @@ TEST_F(FalconOnTheBus, MotorsOffActsAtOnceAndALaterCommandIsExecuted) {
   falcon.stop();
 }
 
-/// Pushes, and hangs in the middle of a tick while told.
+/// Pushes, and hangs in the middle of a tick while requested.
 class HangingServo final : public DeviceServo {
  public:
   explicit HangingServo(const DeviceCapabilities& can) : gate_(can) {}

@@ -73,7 +73,7 @@ void SimulatedFalcon::onOut(std::uint8_t endpoint, std::span<const std::uint8_t>
     } else if (baud_ == 2) {
       if (byte == '<') line_.clear();
       line_ += static_cast<char>(byte);
-      if (byte == '>') obey(line_, t_s);
+      if (byte == '>') execute(line_, t_s);
     }
   }
   if (!runs && baud_ == 0x15 && program.size() >= program_bytes) runs = true;
@@ -98,7 +98,7 @@ void SimulatedFalcon::boot(std::uint8_t byte) {
   }
 }
 
-void SimulatedFalcon::obey(const std::string& packet, double t_s) {
+void SimulatedFalcon::execute(const std::string& packet, double t_s) {
   const bool framed = packet.size() == 16 && packet.front() == '<';
   const bool spelled =
       framed && std::all_of(packet.begin() + 1, packet.end() - 1, [](char c) { return c >= 'A' && c <= 'P'; });

@@ -40,7 +40,7 @@ class SimulatedFalcon : public Device {
 
  private:
   void boot(std::uint8_t byte);
-  void obey(const std::string& packet, double t_s);
+  void execute(const std::string& packet, double t_s);
   void move(double t_s);
   void report();
 

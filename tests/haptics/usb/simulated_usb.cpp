@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A host that asks in vain sleeps a little here, as it would on the kernel's wait queue.
+/// A host whose request cannot be answered yet sleeps briefly here, as on the kernel's wait queue.
 constexpr auto kNothingYet = std::chrono::microseconds(200);
 
 void push16(Bytes& bytes, unsigned value) {

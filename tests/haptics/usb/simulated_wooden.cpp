@@ -72,7 +72,7 @@ void SimulatedWooden::onOut(std::uint8_t, std::span<const std::uint8_t> bytes, d
   std::array<std::int16_t, 7> words{};
   if (bytes.size() != sizeof words) return;
   std::memcpy(words.data(), bytes.data(), sizeof words);
-  told.push_back(words);
+  received.push_back(words);
   last_out_s_ = t_s;
   enabled = reports_ = true;
   mA = {};

@@ -38,7 +38,7 @@ class SimulatedWooden : public Device {
   bool button = false;
 
   // Record.
-  std::vector<std::array<std::int16_t, 7>> told;
+  std::vector<std::array<std::int16_t, 7>> received;
   int largest_mA = 0, watchdog_trips = 0, presets = 0;
   bool enabled = false;
   std::array<std::int16_t, 3> mA{};

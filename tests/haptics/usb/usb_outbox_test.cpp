@@ -33,7 +33,7 @@ Note read(const UsbReport& report) {
   return note;
 }
 
-/// Random senders, resters, clocks that jump, and a line that takes or refuses; every report that goes out is judged.
+/// Random senders, resters, clocks that jump, and a line that takes or refuses; every report that goes out is checked.
 TEST(UsbOutbox, NoForceIsSentAfterARestOrAfterTheLastReport) {
   std::mt19937 generator(17);
   const auto dice = [&](unsigned sides) { return static_cast<unsigned>(generator()) % sides; };
@@ -53,7 +53,7 @@ TEST(UsbOutbox, NoForceIsSentAfterARestOrAfterTheLastReport) {
         box.requestLast(written({kLast}), last_deadline_ns);
         asked_last = true;
       }
-      if (asked_last) box.requestLast(written({kPush}), now_ns + 1'000'000'000);  // who asks later is not heard
+      if (asked_last) box.requestLast(written({kPush}), now_ns + 1'000'000'000);  // a later request is ignored
       const bool was_over = box.isOver();
       const auto report = box.next(now_ns);
       if (!report) continue;
@@ -135,10 +135,10 @@ TEST(UsbOutbox, HoldsWithThreads) {
   for (int i = 0; i < 200'000 || (pushes < 100 && std::chrono::steady_clock::now() < until); ++i) look();
   EXPECT_EQ(stale, 0u);
   EXPECT_GT(pushes, 0u);
-  // Two ask at once; one of them is heard, and nothing after it.
-  std::thread asks([&] { box.requestLast(written({kLast}), 1); });
+  // Two simultaneous last requests: one is sent, and nothing after it.
+  std::thread second_sender([&] { box.requestLast(written({kLast}), 1); });
   box.requestLast(written({kLast}), 1);
-  asks.join();
+  second_sender.join();
   std::vector<Note> after;
   for (int i = 0; i < 100'000; ++i)
     if (const auto report = box.next(0)) {

@@ -20,18 +20,18 @@ using simulated_usb::Bus;
 using simulated_usb::Bytes;
 using simulated_usb::HeldClock;
 
-/// Says the last bytes it was told, a count in front, once per millisecond; remembers everything it was told.
+/// Sends the last bytes it received, a count in front, once per millisecond; keeps everything it received.
 class Echo : public simulated_usb::Device {
  public:
   void onOut(std::uint8_t, std::span<const std::uint8_t> bytes, double) override {
-    told.emplace_back(bytes.begin(), bytes.end());
+    received.emplace_back(bytes.begin(), bytes.end());
   }
   std::optional<Bytes> onIn(std::uint8_t, double t_s) override {
     if (t_s < next_s) return {};
     next_s = hurries ? t_s : t_s + 1e-3;
     Bytes said(report_bytes);
     if (!said.empty()) said[0] = static_cast<std::uint8_t>(++count);
-    if (!told.empty() && said.size() > 1) said[1] = told.back().at(0);
+    if (!received.empty() && said.size() > 1) said[1] = received.back().at(0);
     return said;
   }
   std::optional<Bytes> onControl(const simulated_usb::Setup& setup, std::span<const std::uint8_t> data,
@@ -41,7 +41,7 @@ class Echo : public simulated_usb::Device {
     controlled.assign(data.begin(), data.end());
     return Bytes{};
   }
-  std::vector<Bytes> told;
+  std::vector<Bytes> received;
   Bytes controlled;
   std::size_t report_bytes = 4;
   int count = 0;
@@ -157,7 +157,7 @@ TEST_F(UsbTransportOnTheBus, ChoosesAmongTwinsByPathAndServesBulkPipes) {
   usb.run(echoStream());
   usb.send(report(77), usb.rests());
   EXPECT_TRUE(soon([&] { return usb.newestReport().bytes[1] == 77; }));
-  EXPECT_TRUE(now(echo.told).empty());
+  EXPECT_TRUE(now(echo.received).empty());
 }
 
 TEST_F(UsbTransportOnTheBus, RequestsHaveADeadlineBeforeItRuns) {
@@ -173,7 +173,7 @@ TEST_F(UsbTransportOnTheBus, RequestsHaveADeadlineBeforeItRuns) {
   EXPECT_EQ(usb.control({0xc0, 99, 0, 0}, room, 60s).outcome, UsbOutcome::stalled);
 
   EXPECT_TRUE(usb.write(three, 60s).done());
-  EXPECT_EQ(now(echo.told), std::vector<Bytes>{three});
+  EXPECT_EQ(now(echo.received), std::vector<Bytes>{three});
   Bytes packet(64);
   const UsbExchange heard = usb.read(packet, 60s);
   EXPECT_TRUE(heard.done());
@@ -246,7 +246,7 @@ TEST_F(UsbTransportOnTheBus, CancelsAReportThatIsNotAcceptedAndSendsTheNewest) {
   usb.send(report(10), usb.rests());
   bus->set({});
   ASSERT_TRUE(soon([&] { return usb.newestReport().bytes[1] == 10 && usb.state() == UsbState::ok; }));
-  EXPECT_LE(now(echo.told).size(), 2u);
+  EXPECT_LE(now(echo.received).size(), 2u);
   EXPECT_GE(usb.counters().replaced_out, 5u);
 }
 
@@ -335,18 +335,18 @@ TEST_F(UsbTransportOnTheBus, ARestVoidsEarlierReports) {
   usb.run(echoStream());
   const std::uint32_t before = usb.rests();
   usb.send(report(5), before);
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 1; }));
   usb.rest();
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 2; }));
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 2; }));
   for (int i = 0; i < 20; ++i) {
     usb.send(report(6), before);
     HeldClock::settle(*bus);
   }
   usb.send(report(7), usb.rests());
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 3; }));
-  const std::vector<Bytes> told = now(echo.told);
-  EXPECT_EQ(told[1], Bytes(4, 0));
-  EXPECT_EQ(told[2][0], 7);
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 3; }));
+  const std::vector<Bytes> received = now(echo.received);
+  EXPECT_EQ(received[1], Bytes(4, 0));
+  EXPECT_EQ(received[2][0], 7);
 }
 
 TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsAccepted) {
@@ -355,9 +355,9 @@ TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsAccepted) {
   bus->set({.out_refused = true});
   usb.rest();
   ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 3; }));
-  EXPECT_TRUE(now(echo.told).empty());
+  EXPECT_TRUE(now(echo.received).empty());
   bus->set({});
-  EXPECT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
+  EXPECT_TRUE(soon([&] { return now(echo.received).size() == 1; }));
 }
 
 TEST_F(UsbTransportOnTheBus, RestsByItselfWithoutReports) {
@@ -366,21 +366,21 @@ TEST_F(UsbTransportOnTheBus, RestsByItselfWithoutReports) {
   stream.rest_after = 10ms;
   usb.run(stream);
   usb.send(report(5), usb.rests());
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 1; }));
   time.passAndSettle(9ms, *bus);
-  EXPECT_EQ(now(echo.told).size(), 1u) << "not before its time";
+  EXPECT_EQ(now(echo.received).size(), 1u) << "not before its time";
   time.pass(1ms);
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 2; }));
-  EXPECT_EQ(now(echo.told)[1], Bytes(4, 0));
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 2; }));
+  EXPECT_EQ(now(echo.received)[1], Bytes(4, 0));
   time.passAndSettle(50ms, *bus);
-  EXPECT_EQ(now(echo.told).size(), 2u) << "once is enough";
+  EXPECT_EQ(now(echo.received).size(), 2u) << "once is enough";
   EXPECT_EQ(usb.counters().silences, 1u);
-  // Who speaks again is heard.
+  // A new send restarts the exchange.
   usb.send(report(6), usb.rests());
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 3; }));
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 3; }));
   time.pass(10ms);
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 4; }));
-  EXPECT_EQ(now(echo.told)[2][0], 6);
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() == 4; }));
+  EXPECT_EQ(now(echo.received)[2][0], 6);
 }
 
 TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndNothingAfterIt) {
@@ -396,14 +396,14 @@ TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndNothingAfterIt) {
       usb.newestReport();
     }
   });
-  ASSERT_TRUE(soon([&] { return now(echo.told).size() > 20; }));
+  ASSERT_TRUE(soon([&] { return now(echo.received).size() > 20; }));
   // From two threads at once, as a supervisor and a signal handler might.
   bool taken[2] = {false, false};
   std::thread other([&] { taken[0] = usb.sendLast(report(200), 10s); });
   taken[1] = usb.sendLast(report(200), 10s);
   other.join();
   EXPECT_TRUE(taken[0] && taken[1]);
-  const std::size_t told = now(echo.told).size();
+  const std::size_t received = now(echo.received).size();
   usb.rest();
   EXPECT_TRUE(usb.sendLast(report(100), 10s)) << "the first is what is sent";
   const int sent_then = sent.load();
@@ -412,8 +412,8 @@ TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndNothingAfterIt) {
   over.store(true);
   servo.join();
   usb.stop();
-  EXPECT_EQ(now(echo.told).size(), told);
-  EXPECT_EQ(now(echo.told).back()[0], 200);
+  EXPECT_EQ(now(echo.received).size(), received);
+  EXPECT_EQ(now(echo.received).back()[0], 200);
 }
 
 TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
@@ -431,8 +431,8 @@ TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
   EXPECT_TRUE(usb.sendLast(report(200), 20s));
   helper.join();
   usb.stop();
-  ASSERT_FALSE(now(echo.told).empty());
-  EXPECT_EQ(now(echo.told).back()[0], 200);
+  ASSERT_FALSE(now(echo.received).empty());
+  EXPECT_EQ(now(echo.received).back()[0], 200);
 }
 
 TEST_F(UsbTransportOnTheBus, NothingFollowsALastReportThatWasNotAccepted) {
@@ -452,7 +452,7 @@ TEST_F(UsbTransportOnTheBus, NothingFollowsALastReportThatWasNotAccepted) {
   usb.send(report(9), usb.rests());
   usb.rest();
   time.passAndSettle(50ms, *bus);
-  EXPECT_TRUE(now(echo.told).empty());
+  EXPECT_TRUE(now(echo.received).empty());
 }
 
 TEST_F(UsbTransportOnTheBus, IsGoneForGoodWhenUnplugged) {
@@ -468,7 +468,7 @@ TEST_F(UsbTransportOnTheBus, IsGoneForGoodWhenUnplugged) {
   EXPECT_FALSE(usb.sendLast(report(0), 200ms));
   EXPECT_EQ(usb.state(), UsbState::gone);
   usb.stop();
-  EXPECT_TRUE(another.told.empty());
+  EXPECT_TRUE(another.received.empty());
   // Whoever wants it back opens it again.
   UsbTransport fresh({0x1234, 6});
   fresh.run(echoStream());
@@ -511,10 +511,10 @@ TEST_F(UsbTransportOnTheBus, CanBeQueriedBeforeItRunsAndAfterItStopped) {
   usb.run(echoStream());
   usb.stop();
   usb.stop();
-  const std::size_t told = now(echo.told).size();
+  const std::size_t received = now(echo.received).size();
   usb.send(report(1), usb.rests());
   EXPECT_FALSE(usb.sendLast(report(0), 10s));
-  EXPECT_EQ(now(echo.told).size(), told);
+  EXPECT_EQ(now(echo.received).size(), received);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ class WoodenOnTheBus : public testing::Test {
     bus->locked([&] { value = look(); });
     return value;
   }
-  /// Its owner does as told.
+  /// The owner follows every instruction.
   WoodenSettings obedient() {
     WoodenSettings settings;
     settings.prompt = [this](const std::string& words) {
@@ -105,7 +105,7 @@ class WoodenOnTheBus : public testing::Test {
   }
   /// By this side, not by its own watchdog.
   bool toldToRest() {
-    return now([&] { return unit.told.back() == std::array<std::int16_t, 7>{}; });
+    return now([&] { return unit.received.back() == std::array<std::int16_t, 7>{}; });
   }
   /// In the middle of its workspace.
   void holdInTheMiddle() {
@@ -191,19 +191,19 @@ TEST_F(WoodenOnTheBus, ReportsItsVelocity) {
 
 TEST_F(WoodenOnTheBus, PushesInTheCommandedDirection) {
   WoodenHaptics wooden(obedient());
-  Latest<glm::dvec3> wish(glm::dvec3(0.0));
-  Pusher pusher(wooden, [&](const HandleState&) { return wish.read(); });
+  Latest<glm::dvec3> requested_N(glm::dvec3(0.0));
+  Pusher pusher(wooden, [&](const HandleState&) { return requested_N.read(); });
   wooden.start(pusher, 1000.0);
   for (int axis = 0; axis < 3; ++axis)
     for (double sign : {-1.0, 1.0}) {
       glm::dvec3 force_N(0.0);
       force_N[axis] = sign;
-      wish.publish(glm::dvec3(0.0));
+      requested_N.publish(glm::dvec3(0.0));
       ASSERT_TRUE(soon([&] { return !pushes(); }));
       holdInTheMiddle();
       const glm::dvec3 from_mm = now([&] { return unit.position_mm(); });
       ASSERT_TRUE(soon([&] { return glm::distance(pusher.seen.read().X_DH.translation_mm, from_mm) < 0.1; }));
-      wish.publish(force_N);
+      requested_N.publish(force_N);
       bus->locked([&] { unit.letGo(); });
       // By the straight way: an arm pushed wrongly may fold until it arrives after all.
       double farthest_back_mm = 0.0;
@@ -255,8 +255,8 @@ TEST_F(WoodenOnTheBus, NoCurrentExceedsTheClamp) {
   Pusher pusher(wooden, always({1e6, -1e6, 1e6}));
   wooden.start(pusher, 1000.0);
   ASSERT_TRUE(soon([&] { return now([&] { return unit.largest_mA; }) > 500; }));
-  const std::size_t before = now([&] { return unit.told.size(); });
-  ASSERT_TRUE(soon([&] { return now([&] { return unit.told.size(); }) > before + 30; }));
+  const std::size_t before = now([&] { return unit.received.size(); });
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.received.size(); }) > before + 30; }));
   EXPECT_LE(now([&] { return unit.largest_mA; }), 2000);
 }
 
@@ -291,14 +291,14 @@ TEST_F(WoodenOnTheBus, ReportsWhyItCannotStart) {
   impatient.prompt = [](const std::string&) { return false; };
   EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr("not homed, given up"));
   impatient.clock = time.clock();
-  int told = 0;
+  int received = 0;
   impatient.prompt = [&](const std::string&) {
-    ++told;
+    ++received;
     time.pass(30s);
     return true;
   };
   EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr(kWoodenHomingPrompt));
-  EXPECT_EQ(told, 2);
+  EXPECT_EQ(received, 2);
   EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
 }
 
@@ -326,7 +326,7 @@ TEST_F(WoodenOnTheBus, MotorsOffWorksWhileTheServoHangs) {
     pusher.hang.store(false);
   }
   EXPECT_EQ(wooden.counters().silences, 0u);
-  EXPECT_TRUE(soon([&] { return pushes(); })) << "a later tick is obeyed";
+  EXPECT_TRUE(soon([&] { return pushes(); })) << "a later tick is served";
 }
 
 TEST_F(WoodenOnTheBus, AHangingServoIsRestedAutomatically) {
@@ -365,14 +365,14 @@ TEST_F(WoodenOnTheBus, EndsWithZeroForceAndNothingAfterIt) {
   ASSERT_TRUE(soon([&] { return pusher.hangs.load(); }));
   std::thread stopping([&] { wooden.stop(); });
   EXPECT_TRUE(soon([&] { return toldToRest(); }));
-  const std::size_t told = now([&] { return unit.told.size(); });
+  const std::size_t received = now([&] { return unit.received.size(); });
   pusher.hang.store(false);
   stopping.join();
   wooden.motorsOff();
   wooden.stop();
-  EXPECT_EQ(now([&] { return unit.told.size(); }), told);
+  EXPECT_EQ(now([&] { return unit.received.size(); }), received);
   EXPECT_EQ(wooden.counters().silences, 0u);
-  EXPECT_EQ(now([&] { return unit.told.back(); }), (std::array<std::int16_t, 7>{}));
+  EXPECT_EQ(now([&] { return unit.received.back(); }), (std::array<std::int16_t, 7>{}));
   // The device's own watchdog switches its amplifiers off.
   bus->locked([&] { unit.onTime(1e6); });
   EXPECT_FALSE(now([&] { return unit.enabled; }));

@@ -38,7 +38,7 @@ TEST(CalibrationReport, BeginsWithVerdictAndTheOneSentence) {
   record.verification->verdict = Verdict::red;
   EXPECT_THAT(page(record), HasSubstr("Red: locked"));
   record.verification.reset();
-  EXPECT_THAT(page(record), HasSubstr("Not proven"));
+  EXPECT_THAT(page(record), HasSubstr("Not verified"));
 }
 
 TEST(CalibrationReport, HoldsTheRecordsFigures) {

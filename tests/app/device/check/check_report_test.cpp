@@ -19,7 +19,7 @@ CheckReport goodReport() {
   report.device.provenance = haptics::Provenance::vendor_library;
   report.lines = {{"pushes up", "up", "up, moved +1.6 mm", Verdict::ok},
                   {"deadman", "none", "none", Verdict::not_there}};
-  report.proved = {Proof::moves, Proof::force_sign};
+  report.confirmed = {Evidence::moves, Evidence::force_sign};
   return report;
 }
 

@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-/// Proof by eyes: the same directions, at places of the screen's plane halfway between the crosses of the fit.
+/// Verification by eye: the same directions, at positions of the screen plane halfway between the crosses of the fit.
 void ontoTheScreen(calibration::TargetPlan& plan) {
   constexpr double kOuter = 1.27, kInner = 0.42;
   plan.kind = calibration::TargetKind::cross;
@@ -18,10 +18,10 @@ void ontoTheScreen(calibration::TargetPlan& plan) {
   }
 }
 
-class ProofStep final : public TouchStep {
+class VerificationStep final : public TouchStep {
  public:
   /// `method`: verify8 or check4.
-  ProofStep(WizardContext& context, const char* method) : TouchStep(context), method_(method) {}
+  VerificationStep(WizardContext& context, const char* method) : TouchStep(context), method_(method) {}
   void begin() override {
     const bool by_eyes = !isCheck() && context_.byEyes();
     calibration::TargetPlan plan =
@@ -47,8 +47,8 @@ class ProofStep final : public TouchStep {
   StepResult completed() override {
     WizardOutcome& outcome = context_.outcome;
     outcome.verification.touches = round_->touches();
-    outcome.proof_residuals = calibration::residualsOf(context_.arm, outcome.verification.touches);
-    outcome.errors = calibration::targetErrors(outcome.proof_residuals);
+    outcome.verification_residuals = calibration::residualsOf(context_.arm, outcome.verification.touches);
+    outcome.errors = calibration::targetErrors(outcome.verification_residuals);
     outcome.assessment = calibration::assess(*outcome.errors, outcome.verification_kind);
     const bool good = outcome.assessment->verdict == calibration::Verdict::green;
     if (isCheck() && !good && !outcome.rezero) {
@@ -67,8 +67,10 @@ class ProofStep final : public TouchStep {
 }  // namespace
 
 std::unique_ptr<WizardStep> verifyStep(WizardContext& context) {
-  return std::make_unique<ProofStep>(context, "verify8");
+  return std::make_unique<VerificationStep>(context, "verify8");
 }
-std::unique_ptr<WizardStep> checkStep(WizardContext& context) { return std::make_unique<ProofStep>(context, "check4"); }
+std::unique_ptr<WizardStep> checkStep(WizardContext& context) {
+  return std::make_unique<VerificationStep>(context, "check4");
+}
 
 }  // namespace app

@@ -7,6 +7,7 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
+#include "calibration/fit/touch_checks.h"
 #include "calibration/fit/touches_file.h"
 
 namespace app {
@@ -14,7 +15,7 @@ namespace {
 
 using namespace calibration;
 
-struct ProveOptions {
+struct VerifyOptions {
   std::string rig, observations;
   WizardOption wizard;
   MeasurementInfo info;
@@ -22,18 +23,7 @@ struct ProveOptions {
   bool session_check = false, json = false;
 };
 
-/// A touch used by the fit has the same error at the same target.
-void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals, const std::string& path) {
-  constexpr double kSame_mm = 1e-6;
-  for (const Residual& one : residuals)
-    for (const Residual& seen : record.residuals)
-      if (one.used && seen.used && glm::distance(one.target_W.mm, seen.target_W.mm) < kSame_mm &&
-          glm::distance(one.error_mm.xyz, seen.error_mm.xyz) < kSame_mm)
-        throw UsageError(path + ": touch " + std::to_string(one.id) +
-                         " is one that the rig was fitted to, which verifies nothing, touch other positions");
-}
-
-int prove(const ProveOptions& options) {
+int verify(const VerifyOptions& options) {
   // With a device, a failed check is followed by a re-zero.
   if (options.wizard.isGiven())
     return conclude(
@@ -47,22 +37,22 @@ int prove(const ProveOptions& options) {
   const TouchSet touches = readTouches(options.observations);
   const MeasuredArm arm = armOf(record, touches, options.rig);
   const VerificationKind kind = options.session_check ? VerificationKind::session_check
-                                : record.procedure    ? proofKindOf(record.procedure->method)
+                                : record.procedure    ? verificationKindOf(record.procedure->method)
                                                       : VerificationKind::full;
   const auto residuals = residualsOf(arm, touches.touches);
-  refuseSeen(record, residuals, options.observations);
+  checkUnseen(record.residuals, residuals, options.observations);
   const TargetErrors errors = targetErrors(residuals);
   const Assessment assessment = assess(errors, kind);
 
-  std::fputs(proofText(errors, assessment).c_str(), stderr);
+  std::fputs(verificationText(errors, assessment).c_str(), stderr);
   if (options.session_check && assessment.verdict != Verdict::green)
     std::fputs("molar: re-zero with five touches (molar calibrate rezero); if it stays so, calibrate anew\n", stderr);
-  if (options.json) std::fputs(proofJson(errors, assessment).c_str(), stdout);
+  if (options.json) std::fputs(verificationJson(errors, assessment).c_str(), stdout);
   if (options.session_check) {
     options.keep.note(record, DriftKind::check, errors);
   } else {
     const RigRecord base = record;
-    putProof(record, residuals, kind);
+    putVerification(record, residuals, kind);
     MeasurementInfo info;
     info.operator_code = base.provenance.operator_code;
     if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;
@@ -74,7 +64,7 @@ int prove(const ProveOptions& options) {
 }
 
 void addOne(CommandLine& calibrate, bool session_check) {
-  auto o = std::make_shared<ProveOptions>();
+  auto o = std::make_shared<VerifyOptions>();
   o->session_check = session_check;
   CommandLine& command = session_check
                              ? calibrate.command("check", "Four touches at the start of a session: is it still right?")
@@ -87,12 +77,12 @@ void addOne(CommandLine& calibrate, bool session_check) {
     o->wizard.addTo(command);
     addMeasurementInfo(command, o->info);
   }
-  command.does([o] { return prove(*o); });
+  command.does([o] { return verify(*o); });
 }
 
 }  // namespace
 
-void addCalibrateProofs(CommandLine& calibrate) {
+void addCalibrateVerification(CommandLine& calibrate) {
   addOne(calibrate, false);
   addOne(calibrate, true);
 }
