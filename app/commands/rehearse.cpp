@@ -1,9 +1,11 @@
 // `molar rehearse [PATIENT]`: the rehearsal.
 
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <thread>
 
+#include "app/case/case.h"
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
@@ -43,7 +45,8 @@ struct RehearseOptions {
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string pace = "real";
-  std::string side = "right", second_tool = "mirror";
+  std::string side = "right", second_tool = "mirror", case_name;
+  bool list_cases = false;
   PictureOption picture;
   std::vector<std::string> settings;
   DisplayOption display;
@@ -133,7 +136,22 @@ void reserveCoreForServo() {
   setenv("LP_NUM_THREADS", threads.c_str(), 0);
 }
 
+/// A named case, or the built-in patient's single options; the voxels and the seed are asked for by themselves.
+assets::JawParameters jawOf(const RehearseOptions& options) {
+  assets::JawParameters jaw = options.jaw;
+  jaw.right_side = options.side == "right";
+  if (options.case_name.empty()) return jaw;
+  jaw = caseNamed(options.case_name)->jaw;
+  jaw.spacing_mm = options.jaw.spacing_mm;
+  jaw.seed = options.jaw.seed;
+  return jaw;
+}
+
 int run(RehearseOptions& options) {
+  if (options.list_cases) {
+    std::fputs(caseList().c_str(), stdout);
+    return 0;
+  }
   RehearsalPlan& plan = options.plan;
   const auto tool_of = [&](const std::string& text) {
     const haptics::BurShape head = headFrom(text);
@@ -178,9 +196,7 @@ int run(RehearseOptions& options) {
     refuseUnlessRecordable(options.record, plan.overwrite, {plan.device, plan.second_hand.device});
   if (!options.record.empty()) plan.recording = Recording{options.record, plan.overwrite};
 
-  assets::JawParameters jaw = options.jaw;
-  jaw.right_side = options.side == "right";
-  plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
+  plan.patient = options.patient.empty() ? builtInPatient(jawOf(options)) : assets::loadPatient(options.patient);
   planCut(plan);
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = replaceFace(plan.patient, options.face);
@@ -248,13 +264,16 @@ void addRehearse(CommandLine& molar) {
   command.option("--snapshot-size", o->snapshot_size, "Their size").valueNamed("WxH").showsDefault();
   command.flag("--headless", o->plan.headless, "Without a window");
   command.flag("--force", o->plan.overwrite, "Replace outputs that exist");
+  command.flag("--cases", o->list_cases, "List the named cases of the built-in patient, and end");
+  Option named = command.option("--case", o->case_name, "Built-in patient: a case by its name, see --cases");
+  named.oneOf(caseNames()).excludes(patient);
   const auto built_in = [&](const std::string& name, auto& value, const std::string& help) {
     return command.option(name, value, "Built-in patient: " + help).showsDefault().excludes(patient);
   };
-  built_in("--side", o->side, "right or left").oneOf({"right", "left"});
-  built_in("--winter-angle", o->jaw.winter_angle_deg, "tilt, degrees").from(-79.0, 100.0);
-  built_in("--depth", o->jaw.depth_mm, "crown below the occlusal plane, mm").from(0.0, 8.0);
-  built_in("--canal-distance", o->jaw.mandibular_canal_distance_mm, "root to canal, mm").from(0.3, 6.0);
+  built_in("--side", o->side, "right or left").oneOf({"right", "left"}).excludes(named);
+  built_in("--winter-angle", o->jaw.winter_angle_deg, "tilt, degrees").from(-79.0, 100.0).excludes(named);
+  built_in("--depth", o->jaw.depth_mm, "crown below the occlusal plane, mm").from(0.0, 12.0).excludes(named);
+  built_in("--canal-distance", o->jaw.mandibular_canal_distance_mm, "root to canal, mm").from(0.0, 6.0).excludes(named);
   built_in("--voxel", o->jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
   built_in("--seed", o->jaw.seed, "seed");
   command.footer(keyHelp());

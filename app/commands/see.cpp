@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case/case.h"
 #include "app/case/patient_placement.h"
+#include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/options/picture_option.h"
@@ -35,7 +37,7 @@ struct SeeOptions {
   ViewOption view;
   PictureOption picture;
   std::vector<double> tool_at_mm;
-  std::string patient, out, depth, matrices;
+  std::string patient, case_name, out, depth, matrices;
   int samples = 2;
   bool bone_only = false, panoramic = false, force = false;
 };
@@ -66,12 +68,13 @@ int seePanoramic(const SeeOptions& options) {
 }
 
 int see(const SeeOptions& options) {
-  if (options.volume.given() == !options.patient.empty())
-    throw UsageError("see: give exactly one of --volume FILE and --patient DIR");
+  const bool of_patient = !options.patient.empty() || !options.case_name.empty();
+  if (options.volume.given() == of_patient)
+    throw UsageError("see: give exactly one of --volume FILE, --patient DIR and --case NAME");
   render::Frame frame;
   options.picture.apply(frame);
-  if (frame.layers.slices && options.patient.empty())
-    throw UsageError("--layers slices: they show a patient's CT, use --patient");
+  if (frame.layers.slices && !of_patient)
+    throw UsageError("--layers slices: they show a patient's CT, use --patient or --case");
 
   // Outputs are claimed before the work.
   calibration::OutputFile out(options.out, options.force);
@@ -84,16 +87,17 @@ int see(const SeeOptions& options) {
   SolidVolume volume;
   assets::Patient patient;
   render::Guides guides;
-  if (options.patient.empty()) {
+  if (!of_patient) {
     volume = options.volume.load();
   } else {
-    patient = assets::loadPatient(options.patient);
+    patient = options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
+                                      : assets::loadPatient(options.patient);
     const auto plan = plannedCut(patient, kUsualBur_mm);
     guides = guidesFor(patient, plan ? std::optional(plan->cut) : std::nullopt);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
-  if (options.view.namesRig() && hasNoPatientPose(frame.rig) && !options.patient.empty())
+  if (options.view.namesRig() && hasNoPatientPose(frame.rig) && of_patient)
     frame.rig.X_WP = placePatientAtSite(patient, assets::kFaceAxes_PF);
   frame.tool_visible = false;
   if (!options.tool_at_mm.empty())
@@ -137,7 +141,11 @@ void addSee(CommandLine& molar) {
   auto options = std::make_shared<SeeOptions>();
   CommandLine& command = molar.command("see", "One image without a window: PNG, depths, matrices");
   options->volume.addTo(command);
-  command.option("--patient", options->patient, "Patient folder, instead of --volume").valueNamed("DIR");
+  Option patient = command.option("--patient", options->patient, "Patient folder, instead of --volume");
+  patient.valueNamed("DIR");
+  command.option("--case", options->case_name, "The same of the built-in patient, see molar rehearse --cases")
+      .oneOf(caseNames())
+      .excludes(patient);
   options->view.addTo(command);
   options->picture.addTo(command);
   command.option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")

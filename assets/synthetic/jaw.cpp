@@ -29,9 +29,9 @@ void require(bool fine, std::string_view what, double value, std::string_view ra
 void validate(const JawParameters& p) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   require(within(p.winter_angle_deg, -79.0, 100.0), "Winter angle in degrees", p.winter_angle_deg, "-79 to 100");
-  require(within(p.depth_mm, 0.0, 8.0), "depth in mm", p.depth_mm, "0 to 8");
-  require(within(p.mandibular_canal_distance_mm, 0.3, 6.0), "canal distance in mm", p.mandibular_canal_distance_mm,
-          "0.3 to 6");
+  require(within(p.depth_mm, 0.0, 12.0), "depth in mm", p.depth_mm, "0 to 12");
+  require(within(p.mandibular_canal_distance_mm, 0.0, 6.0), "canal distance in mm", p.mandibular_canal_distance_mm,
+          "0 to 6");
   require(within(p.spacing_mm, 0.15, 1.0), "voxel size in mm", p.spacing_mm, "0.15 to 1");
 }
 

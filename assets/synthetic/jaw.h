@@ -11,14 +11,14 @@
 namespace assets {
 
 /// Part of the cache name; to be incremented with any change of the generated jaw, gingiva or face.
-inline constexpr int kSyntheticPatientRevision = 3;
+inline constexpr int kSyntheticPatientRevision = 4;
 
 struct JawParameters {
   bool right_side = true;
   /// -79..100: below -10 disto-angular, to 10 vertical, from 11 mesio-angular, from 80 horizontal.
   double winter_angle_deg = 45.0;
-  double depth_mm = 3.0;                      ///< 0..8: top of the third molar below the second molar's occlusal plane
-  double mandibular_canal_distance_mm = 2.0;  ///< 0.3..6: third molar to the canal's lumen, nearest points
+  double depth_mm = 8.0;                      ///< 0..12: top of the third molar below the second molar's occlusal plane
+  double mandibular_canal_distance_mm = 1.0;  ///< 0..6: third molar to the canal's lumen, nearest points
   double spacing_mm = 0.25;                   ///< 0.15..1: edge of a voxel
   std::uint64_t seed = 1;                     ///< of noise, trabeculae and irregularities of the bone
 };

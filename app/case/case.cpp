@@ -1,0 +1,104 @@
+#include "app/case/case.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/core.h>
+
+#include "assets/tooth.h"
+
+namespace app {
+namespace {
+
+/// Crown height of the built-in patient's second molar: its cervical line under the occlusal plane, mm.
+constexpr double kSecondMolarCrown_mm = 7.6;
+constexpr double kLevel_mm = 1.0;
+
+constexpr assets::JawParameters jawOf(bool right_side, double winter_angle_deg, double depth_mm, double canal_mm) {
+  return {.right_side = right_side,
+          .winter_angle_deg = winter_angle_deg,
+          .depth_mm = depth_mm,
+          .mandibular_canal_distance_mm = canal_mm};
+}
+
+constexpr std::array kCases{
+    Case{"shallow", jawOf(false, 30.0, 6.5, 3.0), "part of the crown is free of bone: a short gutter is enough"},
+    Case{"usual", {}, "the crown lies under bone against the second molar: its distal half has to be divided off"},
+    Case{"usual-left", jawOf(false, 45.0, 8.0, 1.0), "the mirror image of usual, for the other hand's side"},
+    Case{"canal-touched", jawOf(true, 60.0, 9.5, 0.0), "a root lies against the nerve: no force and no bur below it"},
+    Case{"deep", jawOf(true, 50.0, 11.0, 0.5), "a thick roof of bone: long to expose, little room beside it"},
+    Case{"horizontal", jawOf(true, 90.0, 9.0, 0.8), "the crown must be cut from the roots before anything moves"},
+    Case{"horizontal-left", jawOf(false, 90.0, 9.0, 0.8), "the mirror image of horizontal"},
+    Case{"vertical", jawOf(true, 5.0, 9.0, 1.5),
+         "it stands upright in bone on all sides: the gutter is deep and narrow"},
+    Case{"disto-angular", jawOf(false, -30.0, 8.5, 1.5), "the crown lies under the ramus and its way out is backwards"},
+};
+
+enum class Angulation { disto_angular, vertical, mesio_angular, horizontal };
+
+Angulation angulationOf(const Case& one) {
+  const double angle_deg = one.jaw.winter_angle_deg;
+  if (angle_deg <= -10.5) return Angulation::disto_angular;
+  if (angle_deg < 10.5) return Angulation::vertical;
+  return angle_deg < 79.5 ? Angulation::mesio_angular : Angulation::horizontal;
+}
+
+}  // namespace
+
+std::span<const Case> cases() { return kCases; }
+
+std::vector<std::string> caseNames() {
+  std::vector<std::string> names;
+  for (const Case& one : kCases) names.emplace_back(one.name);
+  return names;
+}
+
+const Case* caseNamed(std::string_view name) {
+  const auto found = std::ranges::find(kCases, name, &Case::name);
+  return found == kCases.end() ? nullptr : &*found;
+}
+
+const Case& usualCase() { return *caseNamed("usual"); }
+
+std::string angulationText(const Case& one) {
+  constexpr std::string_view kNames[] = {"disto-angular", "vertical", "mesio-angular", "horizontal"};
+  return fmt::format("{}, {:g}°", kNames[static_cast<std::size_t>(angulationOf(one))], one.jaw.winter_angle_deg);
+}
+
+std::string depthText(const Case& one) {
+  // Between the second molar and the ramus there is less room than the crown is wide: class II, in this jaw always.
+  return fmt::format("{:g} mm under the occlusal plane, position {} class II", one.jaw.depth_mm,
+                     pellGregoryPosition(one));
+}
+
+std::string canalText(const Case& one) {
+  const double distance_mm = one.jaw.mandibular_canal_distance_mm;
+  return distance_mm > 0.0 ? fmt::format("canal {:g} mm from the root", distance_mm)
+                           : std::string("canal touched by the root");
+}
+
+char pellGregoryPosition(const Case& one) {
+  return one.jaw.depth_mm <= kLevel_mm ? 'A' : one.jaw.depth_mm <= kSecondMolarCrown_mm ? 'B' : 'C';
+}
+
+int pedersonScore(const Case& one) {
+  constexpr int kClassII = 2;
+  constexpr int kByAngulation[] = {4, 3, 1, 2};
+  return kByAngulation[static_cast<std::size_t>(angulationOf(one))] + (pellGregoryPosition(one) - 'A' + 1) + kClassII;
+}
+
+std::string_view difficultyText(const Case& one) {
+  const int score = pedersonScore(one);
+  return score <= 4 ? "slight" : score <= 6 ? "moderate" : "high";
+}
+
+std::string caseList() {
+  std::string text;
+  for (const Case& one : cases())
+    text += fmt::format("{:<16} {}, {}; {}; {}\n{:<16} {} ({} of 10 after Pederson): {}\n", one.name,
+                        assets::toothName(one.fdi()), angulationText(one), depthText(one), canalText(one), "",
+                        difficultyText(one), pedersonScore(one), one.challenge);
+  return text;
+}
+
+}  // namespace app
