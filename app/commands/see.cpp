@@ -152,7 +152,8 @@ void addSee(CommandLine& molar) {
       .wholeFrom(1, 4)
       .showsDefault();
   command
-      .option("--tool-at", options->tool_at_mm, "x,y,z: position of the slices or of the bur, mm in P (default: the operated tooth)")
+      .option("--tool-at", options->tool_at_mm,
+              "x,y,z: position of the slices or of the bur, mm in P (default: the operated tooth)")
       .numbers(3)
       .from(-1e4, 1e4);
   command.flag("--panoramic", options->panoramic, "The jaw unrolled along its arch, as dentists read it");

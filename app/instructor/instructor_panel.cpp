@@ -22,6 +22,7 @@ namespace {
 using Requests = std::vector<ControlRequest>;
 
 constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 118;
+constexpr double kPanoramicShare = 0.22;  ///< of the window's height
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 constexpr float kText_px = 16.0f, kSmall_px = 13.0f, kLarge_px = 26.0f;
@@ -266,6 +267,14 @@ void drawKeys(float top_px, float width_px) {
   ImGui::End();
 }
 
+/// The largest area of a shape in a box, centred at its upper edge.
+ImageArea largestIn(glm::ivec2 corner_px, glm::ivec2 box_px, glm::ivec2 shape_px) {
+  const glm::dvec2 box = glm::max(box_px, glm::ivec2(1)), shape = glm::max(shape_px, glm::ivec2(1));
+  const double scale = std::min(box.x / shape.x, box.y / shape.y);
+  const glm::ivec2 size = glm::max(glm::ivec2(scale * shape), glm::ivec2(1));
+  return {corner_px + glm::ivec2((static_cast<int>(box.x) - size.x) / 2, 0), size};
+}
+
 void stylePanel() {
   ImFontAtlas* const fonts = ImGui::GetIO().Fonts;
   // Latin-1, dashes, and the dot of a recording.
@@ -305,11 +314,15 @@ PanelContext::~PanelContext() { ImGui::DestroyContext(); }
 
 ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px) {
   const glm::ivec2 free =
-      glm::max(window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kKeys_px), glm::ivec2(1));
-  const double scale = std::min(static_cast<double>(free.x) / std::max(1, surgeon_px.x),
-                                static_cast<double>(free.y) / std::max(1, surgeon_px.y));
-  const glm::ivec2 size = glm::max(glm::ivec2(scale * glm::dvec2(surgeon_px)), glm::ivec2(1));
-  return {glm::ivec2(kMargin_px, kHeader_px) + glm::ivec2((free.x - size.x) / 2, 0), size};
+      window_px -
+      glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kKeys_px + static_cast<int>(kPanoramicShare * window_px.y));
+  return largestIn({kMargin_px, kHeader_px}, free, surgeon_px);
+}
+
+ImageArea panoramicArea(glm::ivec2 window_px, glm::ivec2 surgeon_px, glm::ivec2 panoramic_px) {
+  const ImageArea above = imageArea(window_px, surgeon_px);
+  const glm::ivec2 corner{kMargin_px, above.corner_px.y + above.size_px.y + kKeys_px};
+  return largestIn(corner, window_px - corner - glm::ivec2(kPanel_px + kMargin_px, kMargin_px), panoramic_px);
 }
 
 std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px,

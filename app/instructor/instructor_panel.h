@@ -21,12 +21,15 @@ class PanelContext {
   PanelContext& operator=(const PanelContext&) = delete;
 };
 
-/// Area of the surgeon's image in a window of this size: the largest of its shape next to the panel. Px from the top
-/// left.
+/// Area of an image in a window. Px from the top left.
 struct ImageArea {
   glm::ivec2 corner_px{0}, size_px{0};
 };
+/// The surgeon's image in a window of this size: the largest of its shape next to the panel and above the panoramic
+/// view.
 ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px);
+/// The panoramic view: the largest of its shape below the keys.
+ImageArea panoramicArea(glm::ivec2 window_px, glm::ivec2 surgeon_px, glm::ivec2 panoramic_px);
 
 /// Returns the requests since the last drawing. Between ImGui's NewFrame and Render.
 std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px,

@@ -19,6 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kInterval = std::chrono::milliseconds(100);
+constexpr int kLeastPanoramic_px = 60;  ///< a lower one shows nothing
 
 render::Window::Options optionsFor(const render::Window& surgeons, std::optional<int> monitor) {
   render::Window::Options options;
@@ -51,6 +52,7 @@ struct InstructorWindow::Open {
   PanelContext context;
   std::deque<render::WindowEvent> pending;
   std::vector<render::WindowEvent> keys;
+  render::WindowUpload panoramic;
   bool close_requested = false;
   Clock::time_point drawn{};
 };
@@ -110,6 +112,16 @@ void InstructorWindow::reopenAfterReset() {
 
 bool InstructorWindow::isDue() const { return open_ && Clock::now() - open_->drawn >= kInterval; }
 
+void InstructorWindow::showPanoramic(glm::ivec2 window_px, const glm::dvec3& bur_P_mm) {
+  if (!panoramic_) return;
+  const ImageArea area = panoramicArea(window_px, rig_.screen.px, panoramic_->size_px(1.0));
+  const double zoom = static_cast<double>(area.size_px.x) / panoramic_->size_px(1.0).x;
+  if (area.size_px.y < kLeastPanoramic_px) return;
+  open_->panoramic.show(
+      panoramic_->image(zoom, bur_P_mm),
+      {.size_px = area.size_px, .corner_px = {area.corner_px.x, window_px.y - area.corner_px.y - area.size_px.y}});
+}
+
 InstructorWindow::Input InstructorWindow::draw(const RehearsalStatus& status) {
   Open& self = *open_;
   self.feedPending();
@@ -136,6 +148,7 @@ InstructorWindow::Input InstructorWindow::draw(const RehearsalStatus& status) {
                             .corner_px = {area.corner_px.x, px.y - area.corner_px.y - area.size_px.y},
                             .flipped_x = glm::dot(view.right_edge_W.xyz, to_the_right) < 0.0,
                             .flipped_y = view.up_edge_W.xyz.y < 0.0});
+    showPanoramic(px, status.tick.proxy_P.mm);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     input.requests = drawInstructorPanel(status, px, rig_.screen.px);

@@ -15,8 +15,9 @@ constexpr std::chrono::seconds kLatencyInterval{5};
 StatusReporter::StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& view, RunMonitor& monitor,
                                EventLog& event_log)
     : plan_(plan), equipment_(equipment), view_(view), monitor_(monitor), event_log_(event_log) {
-  if (plan.instructor_window)
-    instructor_.emplace(view.display(), plan.rig, plan.monitor.value_or(0), event_log.reporter("display"));
+  if (!plan.instructor_window) return;
+  instructor_.emplace(view.display(), plan.rig, plan.monitor.value_or(0), event_log.reporter("display"));
+  instructor_->setPanoramic(PanoramicPicture::of(plan.patient));
 }
 
 RehearsalStatus StatusReporter::status(const FrameState& state) {

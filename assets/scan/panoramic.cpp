@@ -18,8 +18,7 @@ std::vector<glm::dvec2> equallySpaced(const std::vector<glm::dvec2>& curve, doub
   for (std::size_t n = 0; n + 1 < curve.size(); ++n) {
     const double length_mm = glm::distance(curve[n], curve[n + 1]);
     double at_mm = left_mm;
-    for (; at_mm <= length_mm; at_mm += step_mm)
-      points.push_back(glm::mix(curve[n], curve[n + 1], at_mm / length_mm));
+    for (; at_mm <= length_mm; at_mm += step_mm) points.push_back(glm::mix(curve[n], curve[n + 1], at_mm / length_mm));
     left_mm = at_mm - length_mm;
   }
   return points;
@@ -75,9 +74,8 @@ Panoramic panoramicOf(const CtVolume& ct, const std::vector<glm::dvec2>& curve_P
 
 std::optional<Panoramic::Position> Panoramic::positionOf(const glm::dvec3& p_P_mm) const {
   const glm::dvec2 p{p_P_mm};
-  const auto nearest = std::ranges::min_element(columns_P_mm, {}, [&](const glm::dvec2& c) {
-    return glm::dot(c - p, c - p);
-  });
+  const auto nearest =
+      std::ranges::min_element(columns_P_mm, {}, [&](const glm::dvec2& c) { return glm::dot(c - p, c - p); });
   if (nearest == columns_P_mm.end()) return std::nullopt;
   const double distance_mm = glm::distance(*nearest, p);
   // Beyond an end: the point is not across from it.

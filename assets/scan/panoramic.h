@@ -22,8 +22,8 @@ struct Panoramic {
   double top_P_mm = 0.0;                 ///< superior edge of the image, z
 
   struct Position {
-    glm::dvec2 px;           ///< column and row from the top left corner
-    double from_curve_mm;    ///< horizontal distance from the curve
+    glm::dvec2 px;         ///< column and row from the top left corner
+    double from_curve_mm;  ///< horizontal distance from the curve
   };
   /// Where a point lies in the image: at the nearest column. None beyond its ends.
   std::optional<Position> positionOf(const glm::dvec3& p_P_mm) const;
