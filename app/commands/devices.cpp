@@ -18,6 +18,7 @@
 #include "app/text/terminal_format.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
+#include "calibration/arm/phantom_models.h"
 #include "calibration/output_file.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/simulated_phantom.h"
