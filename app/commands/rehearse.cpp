@@ -54,6 +54,7 @@ struct RehearseOptions {
   std::optional<double> face_window_mm;
   std::optional<int> monitor;
   double loupes = 4.0;
+  bool no_line = false;
 };
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
@@ -185,6 +186,7 @@ int run(RehearseOptions& options) {
   plan.device_options.falcon_scale = [] { return savedFalconScale(defaultFalconScaleFile()); };
   plan.device_options.report = printMessage;
   plan.display = options.display.mode();
+  plan.head_up_line = !options.no_line;
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);
@@ -262,6 +264,8 @@ void addRehearse(CommandLine& molar) {
   command.option("--snapshot", o->plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
   command.option("--first-snapshot", o->plan.first_snapshot, "The same before the first cut");
   command.option("--snapshot-size", o->snapshot_size, "Their size").valueNamed("WxH").showsDefault();
+  command.flag("--no-line", o->no_line, "Without the line of text in the picture (key L shows it)");
+  command.flag("--verbose", o->plan.verbose, "Words for engineers on the terminal; keys 1 to 7 choose the force law");
   command.flag("--headless", o->plan.headless, "Without a window");
   command.flag("--force", o->plan.overwrite, "Replace outputs that exist");
   command.flag("--cases", o->list_cases, "List the named cases of the built-in patient, and end");

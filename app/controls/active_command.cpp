@@ -4,16 +4,13 @@
 
 #include <fmt/core.h>
 
+#include "app/options/bur_name.h"
 #include "app/options/command_settings.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
 
 namespace app {
 namespace {
-
-void refuse(const std::string& where, const std::string& why) {
-  printMessage(where.empty() ? why : where + ": " + why);
-}
 
 /// Set by controls only, neither by file nor procedure.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
@@ -38,6 +35,11 @@ ActiveCommand::ActiveCommand(const haptics::Command& first, std::vector<haptics:
   check(command_);
 }
 
+void ActiveCommand::refuse(const std::string& where, const std::string& why, const std::string& spoken) {
+  printMessage(where.empty() ? why : where + ": " + why);
+  say(spoken.empty() ? why : spoken);
+}
+
 void ActiveCommand::check(const haptics::Command& command) const {
   refuseBeyondServoLimits(command);
   refuseUnlessStable(command, device_damping_Ns_per_mm_, rate_Hz_);
@@ -46,6 +48,10 @@ void ActiveCommand::check(const haptics::Command& command) const {
 bool ActiveCommand::execute(const ControlRequest& request, const std::string& where) {
   switch (request.control) {
     case Control::law:
+      if (static_cast<std::size_t>(request.value) >= haptics::kLaws.size())
+        return refuse(where,
+                      fmt::format("there is no force law {}, only 1 to {}", request.value + 1, haptics::kLaws.size())),
+               true;
       return switchLaw(haptics::kLaws[static_cast<std::size_t>(request.value)].kind, where), true;
     case Control::drill:
       setSwitch(&haptics::Command::drill_enabled, request.value, "drill", "drill unlocked", "drill locked");
@@ -72,6 +78,7 @@ void ActiveCommand::setSwitch(bool haptics::Command::*which, int value, const st
   command_.*which = wanted;
   workstation_->change(command_);
   report(kind, wanted ? when_on : when_off);
+  say(wanted ? when_on : when_off);
 }
 
 void ActiveCommand::undoStroke(const std::string& where) {
@@ -79,7 +86,9 @@ void ActiveCommand::undoStroke(const std::string& where) {
   if (strokes == 0) return refuse(where, "there is no stroke to undo");
   ++command_.undo_serial;
   workstation_->change(command_);
-  report("undo", fmt::format("the newest of {} stroke{} is undone", strokes, strokes == 1 ? "" : "s"));
+  const std::string line = fmt::format("the newest of {} stroke{} is undone", strokes, strokes == 1 ? "" : "s");
+  report("undo", line);
+  say(line);
 }
 
 void ActiveCommand::rearm(const std::string& where) {
@@ -88,6 +97,7 @@ void ActiveCommand::rearm(const std::string& where) {
   ++command_.rearm;
   workstation_->change(command_);
   report("armed again", "the fault is lifted, if its cause is over");
+  say("the fault is lifted, if its cause is over");
 }
 
 void ActiveCommand::switchLaw(haptics::LawKind law, const std::string& where) {
@@ -98,21 +108,26 @@ void ActiveCommand::switchLaw(haptics::LawKind law, const std::string& where) {
 
 void ActiveCommand::changeTool(int to, const std::string& where) {
   if (tray_.size() < 2 && to == kNoValue)
-    return refuse(where, "there is one tool only, name more with --tool to change between them");
+    return refuse(where, "there is one tool only, name more with --tool to change between them",
+                  "there is one tool only");
   const std::size_t next = to != kNoValue ? static_cast<std::size_t>(to) : (in_hand_ + 1) % tray_.size();
   if (next >= tray_.size())
     return refuse(where,
                   fmt::format("there is no tool {}, the tray holds {}, name more with --tool", next + 1, tray_.size()));
   haptics::Command wanted = command_;
   wanted.tool = tray_[next];
-  if (changeLowered(wanted, where, "the old tool stays in the hand")) in_hand_ = next;
+  const std::string name = burName(wanted.tool.head);
+  if (!changeLowered(wanted, where, "the old tool stays in the hand", name)) return;
+  in_hand_ = next;
+  say(name);
 }
 
 /// With gains that the device holds. False: refused.
-bool ActiveCommand::changeLowered(const haptics::Command& wanted, const std::string& where, const char* otherwise) {
+bool ActiveCommand::changeLowered(const haptics::Command& wanted, const std::string& where, const char* otherwise,
+                                  const std::string& tool) {
   try {
     refuseUnlessAdmitted(wanted);
-    apply(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_));
+    apply(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_), tool);
     return true;
   } catch (const UsageError& error) {
     refuse(where, std::string(error.what()) + "; " + otherwise);
@@ -147,12 +162,14 @@ void ActiveCommand::put(const haptics::Command& wanted) {
   workstation_->change(command_);
 }
 
-/// Reports every difference.
-void ActiveCommand::apply(const haptics::Command& wanted) {
+/// Reports every difference, that of a tool by its name.
+void ActiveCommand::apply(const haptics::Command& wanted, const std::string& tool) {
   const std::vector<std::string> changes = changesBetween(command_, wanted);
   if (changes.empty()) return;
   put(wanted);
-  for (const std::string& line : changes) report("parameters", line);
+  if (!tool.empty()) report("tool", tool);
+  for (const std::string& line : changes)
+    if (tool.empty() || !line.starts_with("[tool]")) report("parameters", line);
 }
 
 void ActiveCommand::report(const std::string& kind, const std::string& line) {

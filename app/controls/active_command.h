@@ -5,11 +5,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/controls/control.h"
 #include "app/options/live_parameters.h"
 #include "app/station/workstation.h"
+#include "app/text/message.h"
 #include "haptics/servo/command.h"
 
 namespace app {
@@ -22,6 +24,8 @@ class ActiveCommand {
                 double device_damping_Ns_per_mm, double rate_Hz);
 
   const haptics::Command& inForce() const { return command_; }
+  /// Receives what the surgeon has to know: done or refused, in a few words. None: the terminal alone.
+  void speakTo(ReportLine say) { say_ = std::move(say); }
   /// The receiver of changes. Borrowed.
   void attach(Workstation& workstation) { workstation_ = &workstation; }
 
@@ -43,8 +47,13 @@ class ActiveCommand {
   void check(const haptics::Command& command) const;
   void report(const std::string& kind, const std::string& line);
   void put(const haptics::Command& wanted);
-  void apply(const haptics::Command& wanted);
-  bool changeLowered(const haptics::Command& wanted, const std::string& where, const char* otherwise);
+  void apply(const haptics::Command& wanted, const std::string& tool = {});
+  bool changeLowered(const haptics::Command& wanted, const std::string& where, const char* otherwise,
+                     const std::string& tool = {});
+  void refuse(const std::string& where, const std::string& why, const std::string& spoken = {});
+  void say(const std::string& line) {
+    if (say_) say_(line);
+  }
   void setSwitch(bool haptics::Command::*which, int value, const std::string& kind, const std::string& when_on,
                  const std::string& when_off);
   void undoStroke(const std::string& where);
@@ -57,6 +66,7 @@ class ActiveCommand {
   std::size_t in_hand_ = 0;  ///< of the tray
   double device_damping_Ns_per_mm_, rate_Hz_;
   std::optional<LiveParameters> file_;
+  ReportLine say_;
   Workstation* workstation_ = nullptr;
   bool tool_changed_ = false;
 };

@@ -95,10 +95,14 @@ ControlRequest requestFrom(const std::string& text) {
   return request;
 }
 
-std::vector<KeyMeaning> keyMeanings() {
+std::vector<KeyMeaning> keyMeanings(bool with_laws, bool with_motors) {
   std::vector<KeyMeaning> keys(kMovements.begin(), kMovements.end());
-  for (const ControlMeaning& one : kControls)
-    if (!one.key.empty()) keys.push_back({one.key, one.does});
+  for (const ControlMeaning& one : kControls) {
+    const bool is_of_motors =
+        one.control == Control::stop || one.control == Control::arm || one.control == Control::home;
+    if (one.key.empty() || (one.control == Control::law && !with_laws) || (is_of_motors && !with_motors)) continue;
+    keys.push_back({one.key, one.does});
+  }
   return keys;
 }
 

@@ -13,7 +13,22 @@
 
 namespace app {
 
-enum class Control : std::uint8_t { law, drill, tool, irrigation, undo, snapshot, stop, arm, home, end, layer, face };
+enum class Control : std::uint8_t {
+  law,
+  drill,
+  tool,
+  irrigation,
+  undo,
+  snapshot,
+  stop,
+  arm,
+  home,
+  end,
+  layer,
+  face,
+  line,
+  keys
+};
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
 
@@ -37,8 +52,8 @@ struct ControlMeaning {
   bool is_felt;  ///< changes force, cutting or irrigation: a procedure may reserve it
 };
 
-inline constexpr std::array<ControlMeaning, 12> kControls = {{
-    {Control::law, "law", "1 - 7", "choose the force law", ControlValue::law, true},
+inline constexpr std::array<ControlMeaning, 14> kControls = {{
+    {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
     {Control::irrigation, "irrigation", "I", "irrigation on or off", ControlValue::on_or_off, true},
@@ -50,6 +65,8 @@ inline constexpr std::array<ControlMeaning, 12> kControls = {{
     {Control::end, "end", "Esc", "end", ControlValue::none, false},
     {Control::layer, "layer", "", "show or hide a layer", ControlValue::layer, false},
     {Control::face, "face", "", "how much of the face is seen", ControlValue::percent, false},
+    {Control::line, "line", "L", "line of text in the picture on or off", ControlValue::on_or_off, false},
+    {Control::keys, "keys", "F1, ?", "show or close these keys", ControlValue::on_or_off, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }
@@ -76,7 +93,8 @@ static_assert(requestOf(haptics::HandAction::irrigation) && requestOf(haptics::H
 struct KeyMeaning {
   std::string_view key, does;
 };
-std::vector<KeyMeaning> keyMeanings();
+/// Leaves out what a surgeon does not need (`with_laws`), and what concerns motors where there are none.
+std::vector<KeyMeaning> keyMeanings(bool with_laws = true, bool with_motors = true);
 /// The same as lines of text.
 std::string keyHelp();
 

@@ -11,11 +11,12 @@ namespace {
 constexpr double kWheelNotch_mm = 0.5;
 constexpr double kRotation_rad = calibration::radFromDegrees(3.0);
 
-/// By the table of controls; digits choose laws.
+/// By the table of controls; digits choose laws, also one that does not exist: whoever executes it says so.
 std::optional<ControlRequest> requestOf(render::Key key) {
   if (key == render::Key::escape) return ControlRequest{Control::end};
-  for (std::size_t law = 0; law < haptics::kLaws.size(); ++law)
-    if (key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, static_cast<int>(law)};
+  if (key == render::Key::f1 || key == render::keyOf('/')) return ControlRequest{Control::keys};
+  for (int law = 0; law < 9; ++law)
+    if (key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, law};
   for (const ControlMeaning& one : kControls)
     if (one.key.size() == 1 && key == render::keyOf(one.key.front())) return ControlRequest{one.control};
   return {};

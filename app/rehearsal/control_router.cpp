@@ -9,12 +9,13 @@
 namespace app {
 
 ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command,
-                             RunMonitor& monitor, LiveView& view, EventLog& event_log)
+                             RunMonitor& monitor, LiveView& view, HeadUp& head_up, EventLog& event_log)
     : plan_(plan),
       equipment_(equipment),
       active_command_(active_command),
       monitor_(monitor),
       view_(view),
+      head_up_(head_up),
       event_log_(event_log),
       input_(restingTool()),
       script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {}
@@ -23,12 +24,22 @@ void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& fram
   readWindow();
   executeScript(newest, frame);
   for (const ControlRequest& request : equipment_.takeRequests()) execute(request, frame);
-  for (const ControlRequest& request : input_.takeRequests()) execute(request, frame);
+  executeKeys(frame, plan_.verbose);
+}
+
+/// A learner's left hand does not change physics.
+void ControlRouter::executeKeys(render::Frame& frame, bool may_choose_law) {
+  for (const ControlRequest& request : input_.takeRequests())
+    if (request.control == Control::law && !may_choose_law && !plan_.procedure)
+      head_up_.say("The instructor chooses the force law");
+    else
+      execute(request, frame);
 }
 
 void ControlRouter::handleInstructorInput(const InstructorWindow::Input& input, render::Frame& frame) {
   for (const render::WindowEvent& event : input.keys)
     if (!isTakenByProcedure(event)) input_.take(event, 0.0);
+  executeKeys(frame, true);
   for (const ControlRequest& request : input.requests) execute(request, frame);
 }
 
@@ -54,11 +65,16 @@ void ControlRouter::executeScript(const haptics::Tick& newest, render::Frame& fr
 /// `where`: file and row of a scripted request, for messages.
 void ControlRouter::execute(const ControlRequest& request, render::Frame& frame, const std::string& where) {
   if (request.control == Control::stop) return stopMotors();
+  if (head_up_.execute(request)) return;
+  if (request.control == Control::end && head_up_.closeKeys()) return;
   if (request.control == Control::end) return monitor_.endByUser();
   if ((plan_.procedure && plan_.procedure->take(request)) || active_command_.execute(request, where)) return;
   frame.layers = layersAfter(frame.layers, request);
   if (request.control == Control::snapshot) takeSnapshot(frame);
-  if (request.control == Control::home) equipment_.workstation().setHome();
+  if (request.control == Control::home) {
+    equipment_.workstation().setHome();
+    head_up_.say("the handle is at home");
+  }
 }
 
 void ControlRouter::stopMotors() {
@@ -79,8 +95,10 @@ void ControlRouter::takeSnapshot(const render::Frame& frame) {
     const std::string path = saveNextSnapshot(view_.readImage());
     event_log_.note("snapshot", path);
     printMessage("snapshot " + path);
+    head_up_.say("snapshot " + path);
   } catch (const std::exception& error) {
     printMessage(error.what());
+    head_up_.say(error.what());
   }
 }
 

@@ -11,6 +11,7 @@
 #include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/event_log.h"
+#include "app/rehearsal/head_up.h"
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/rehearsal/run_monitor.h"
@@ -21,7 +22,7 @@ class ControlRouter {
  public:
   /// Borrows all. Throws UsageError naming the row of a script whose request is not possible.
   ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command, RunMonitor& monitor,
-                LiveView& view, EventLog& event_log);
+                LiveView& view, HeadUp& head_up, EventLog& event_log);
 
   const ControlScript& script() const { return script_; }
 
@@ -32,6 +33,7 @@ class ControlRouter {
 
  private:
   void readWindow();
+  void executeKeys(render::Frame& frame, bool may_choose_law);
   void executeScript(const haptics::Tick& newest, render::Frame& frame);
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
   void stopMotors();
@@ -43,6 +45,7 @@ class ControlRouter {
   ActiveCommand& active_command_;
   RunMonitor& monitor_;
   LiveView& view_;
+  HeadUp& head_up_;
   EventLog& event_log_;
   HandInput input_;
   ControlScript script_;

@@ -8,7 +8,8 @@ Equipment::Equipment(RehearsalPlan& plan)
     : source_(
           openPoseSource(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
       rate_Hz_(plan.rate_Hz.value_or(source_.rate_Hz.value_or(1000.0))),
-      damping_Ns_per_mm_(source_.device->capabilities().damping_Ns_per_mm) {
+      damping_Ns_per_mm_(source_.device->capabilities().damping_Ns_per_mm),
+      has_motors_(source_.device->capabilities().has_motors) {
   if (!plan.second_hand.device.empty())
     second_hand_.emplace(plan.second_hand, plan.device_options, plan.patient, plan.rig, plan.ticking);
   if (plan.pedal) pedal_.emplace(*plan.pedal);

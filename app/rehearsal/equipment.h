@@ -25,6 +25,8 @@ class Equipment {
   std::optional<double> duration_s() const { return source_.duration_s; }
   /// Of a scripted pose source.
   const std::vector<TimedRequest>& scriptedRequests() const { return source_.requests; }
+  /// The device pushes: it is armed, and its motors can be switched off.
+  bool hasMotors() const { return has_motors_; }
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
   /// Null unless the mouse is the pose source.
   haptics::MouseDevice* mouse() { return source_.mouse; }
@@ -42,6 +44,7 @@ class Equipment {
  private:
   PoseSource source_;
   double rate_Hz_, damping_Ns_per_mm_;
+  bool has_motors_;
   std::optional<SecondHand> second_hand_;
   std::optional<haptics::FootPedal> pedal_;
   std::optional<Workstation> workstation_;

@@ -38,6 +38,7 @@ void LiveView::open() {
   const auto renderer_of_current_bone = [this](render::Backend backend) {
     auto renderer = newRenderer({.backend = backend}, plan_.patient.ct.solid);
     if (bone_ != nullptr) uploader_.uploadAllAgain(*bone_, *renderer);
+    overlay_is_new_ = true;
     return renderer;
   };
   display_.emplace(displayOf(plan_), renderer_of_current_bone, report_);
@@ -61,8 +62,19 @@ void LiveView::show(const render::Frame& frame) {
   display();
   render::Frame drawn = frame;
   if (quality_->overridesFrame()) drawn.quality = quality_->quality();
+  updateOverlay(drawn);
   display_->show(drawn);
   ++frames_;
+}
+
+/// Where the site is seen decides the edge of the text.
+void LiveView::updateOverlay(const render::Frame& frame) {
+  calibration::Rig rig = frame.rig;
+  rig.screen.px = display_->imageSize_px(rig);
+  render::FrameRenderer& renderer = display_->renderer();
+  if (!head_up_line_.update(head_up_, headUpPlace(rig, display_->mode(), frame)) && !overlay_is_new_) return;
+  renderer.setOverlay(head_up_line_.panels());
+  overlay_is_new_ = false;
 }
 
 void LiveView::waitUntilShown() {

@@ -6,11 +6,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "app/device/second_hand.h"
 #include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/view/brick_upload.h"
+#include "app/view/head_up_line.h"
 #include "app/view/motion_to_photon.h"
 #include "app/view/quality_choice.h"
 #include "app/view/snapshot.h"
@@ -34,6 +36,8 @@ class LiveView {
     quality_->settle([&] { show(frame); });
   }
   void show(const render::Frame& frame);
+  /// The text over the frames shown from now on.
+  void setHeadUp(HeadUpContent content) { head_up_ = std::move(content); }
   /// Until no frame is queued; the pose read next is the newest that can be displayed.
   void waitUntilShown();
   /// Bricks carved until now, for the next frame.
@@ -58,6 +62,7 @@ class LiveView {
 
  private:
   void open();
+  void updateOverlay(const render::Frame& frame);
   std::unique_ptr<render::FrameRenderer> newRenderer(const render::RenderOptions& options,
                                                      std::span<const std::uint8_t> solid) const;
 
@@ -70,6 +75,9 @@ class LiveView {
   BrickUploader uploader_;
   std::optional<SurgeonDisplay> display_;
   std::optional<QualityChoice> quality_;
+  HeadUpContent head_up_;
+  HeadUpLine head_up_line_;
+  bool overlay_is_new_ = true;  ///< to the renderer
   MotionToPhoton latency_;
   std::optional<Clock::time_point> pose_read_;
   std::uint64_t frames_ = 0;

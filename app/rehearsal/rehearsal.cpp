@@ -35,7 +35,8 @@ class Rehearsal {
                         equipment_.rate_Hz()),
         duration_s_(plan_.seconds ? plan_.seconds : equipment_.duration_s()),
         monitor_(duration_s_),
-        router_(plan_, equipment_, active_command_, monitor_, view_, event_log_),
+        head_up_(plan_.head_up_line, plan_.verbose),
+        router_(plan_, equipment_, active_command_, monitor_, view_, head_up_, event_log_),
         view_(plan_, active_command_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
               event_log_.reporter("display")),
         pace_(plan_.ticking, equipment_, view_, router_.script(), duration_s_),
@@ -46,6 +47,7 @@ class Rehearsal {
     if (plan_.recording) plan_.recording->calibration = plan_.calibration;
     equipment_.connect(plan_, active_command_.inForce());
     active_command_.attach(station());
+    active_command_.speakTo([this](const std::string& line) { head_up_.say(line); });
     view_.attach(station().bone());
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
@@ -92,6 +94,7 @@ class Rehearsal {
       printMessage("recording to " + *temporary + " until it is closed, then replacing " + plan_.recording->path);
     double first_frame_s = 0.0;
     if (pace_.isRealTime()) {
+      view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
       view_.show(frame_);
       first_frame_s = secondsSince(plan_.begun);
       view_.settleQuality(frame_);
@@ -129,7 +132,16 @@ class Rehearsal {
     if (pace_.isRealTime()) view_.uploadBone();
   }
 
+  HeadUp::Values headUpValues() const {
+    return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
+                        monitor_.recordingEnded()),
+            {},
+            plan_.procedure ? plan_.procedure->messages().to_surgeon : std::string()};
+  }
+
   void draw() {
+    // Also without display: warnings are counted.
+    view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
     if (pace_.isRealTime()) view_.show(frame_);
     const bool in_stroke = newest_.drilling || newest_.depth_mm > 0.0;
     if (view_.adaptQuality(in_stroke)) event_log_.note("quality", view_.qualityText());
@@ -153,6 +165,7 @@ class Rehearsal {
   ActiveCommand active_command_;
   std::optional<double> duration_s_;
   RunMonitor monitor_;
+  HeadUp head_up_;
   ControlRouter router_;
   std::optional<StereoSnapshot> first_, last_;
   LiveView view_;

@@ -44,6 +44,8 @@ class RunMonitor {
   /// News to report.
   std::vector<Notice> takeNotices(const StationHealth& health, const haptics::Tick& newest);
 
+  /// Early.
+  bool recordingEnded() const { return recording_ended_; }
   void describe(RehearsalStatus& status) const;
 
  private:

@@ -88,6 +88,11 @@ void SurgeonDisplay::makeCurrent() {
   if (windows_) windows_->first().makeCurrent();
 }
 
+glm::ivec2 SurgeonDisplay::imageSize_px(const calibration::Rig& rig) {
+  const glm::ivec2 window_px = window() != nullptr ? window()->framebufferSize_px() : glm::ivec2(0);
+  return render::isInterleaved(mode()) && window_px.x > 0 && window_px.y > 0 ? window_px : rig.screen.px;
+}
+
 void SurgeonDisplay::show(render::Frame frame) {
   frame.display = mode();
   frame.eyes_swapped = options_.eyes_swapped;
@@ -95,8 +100,8 @@ void SurgeonDisplay::show(render::Frame frame) {
     const glm::ivec2 window_px = window()->framebufferSize_px();
     if (window_px.x <= 0 || window_px.y <= 0) return;  // minimised
     // Scaling would mix the eyes' lines.
+    frame.rig.screen.px = imageSize_px(frame.rig);
     if (render::isInterleaved(mode())) {
-      frame.rig.screen.px = window_px;
       frame.output_at_px = window()->positionOnPanel_px();
     }
   }

@@ -46,6 +46,8 @@ class SurgeonDisplay {
   /// Latest known time of presenting the newest frame.
   Clock::time_point presentedAt() const { return presented_at_; }
 
+  /// Size of the image that a frame with this rig gets: interleaved displays draw the window's own pixels.
+  glm::ivec2 imageSize_px(const calibration::Rig& rig);
   render::DisplayMode mode() const { return windows_ ? windows_->mode() : options_.windows.mode; }
   render::Backend backend() const { return *options_.backend; }
   /// Null: headless.

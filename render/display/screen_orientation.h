@@ -29,6 +29,13 @@ struct ScreenOrientation {
     if (flip_y) box.corner_px.y = image_px.y - box.corner_px.y - box.size_px.y;
     return box;
   }
+  /// The inverse of imageBox.
+  constexpr PixelBox seenBox(PixelBox box, glm::ivec2 image_px) const {
+    if (flip_x) box.corner_px.x = image_px.x - box.corner_px.x - box.size_px.x;
+    if (flip_y) box.corner_px.y = image_px.y - box.corner_px.y - box.size_px.y;
+    if (!transposed) return box;
+    return {{box.corner_px.y, box.corner_px.x}, {box.size_px.y, box.size_px.x}};
+  }
   friend constexpr bool operator==(const ScreenOrientation&, const ScreenOrientation&) = default;
 };
 

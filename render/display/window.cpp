@@ -15,7 +15,8 @@ namespace {
 static_assert(static_cast<int>(Key::space) == GLFW_KEY_SPACE && static_cast<int>(Key::escape) == GLFW_KEY_ESCAPE &&
               static_cast<int>(Key::end) == GLFW_KEY_END && static_cast<int>(Key::erase) == GLFW_KEY_DELETE &&
               static_cast<int>(Key::left) == GLFW_KEY_LEFT && static_cast<int>(Key::page_down) == GLFW_KEY_PAGE_DOWN &&
-              static_cast<int>(Key::left_alt) == GLFW_KEY_LEFT_ALT && keyOf('A') == static_cast<Key>(GLFW_KEY_A));
+              static_cast<int>(Key::f1) == GLFW_KEY_F1 && static_cast<int>(Key::left_alt) == GLFW_KEY_LEFT_ALT &&
+              keyOf('A') == static_cast<Key>(GLFW_KEY_A));
 
 MouseButton buttonOf(int glfw_button) {
   if (glfw_button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::left;

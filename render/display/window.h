@@ -33,6 +33,7 @@ enum class Key : int {
   page_down,
   home,
   end,
+  f1 = 290,
   left_shift = 340,
   left_control,
   left_alt,

@@ -1,0 +1,25 @@
+#include "app/options/bur_name.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/core.h>
+
+namespace app {
+namespace {
+
+// In the order of haptics::ShapeKind.
+constexpr std::array<std::string_view, 4> kShapes{"round", "round-end fissure", "fissure", "cone"};
+constexpr double kSameSize = 0.02;  ///< tenths of a millimetre
+
+}  // namespace
+
+std::string burName(const haptics::BurShape& head) {
+  const double diameter_mm = 2.0 * head.radius_mm, tenths = 10.0 * diameter_mm;
+  const std::string_view shape = kShapes[static_cast<std::size_t>(head.kind)];
+  if (std::abs(tenths - std::round(tenths)) > kSameSize) return fmt::format("{} {:.2f} mm", shape, diameter_mm);
+  return fmt::format("{} {:.1f} mm, ISO {:03}", shape, diameter_mm, std::lround(tenths));
+}
+
+}  // namespace app

@@ -1,0 +1,65 @@
+#include "app/rehearsal/head_up.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/options/bur_name.h"
+#include "haptics/tool/spindle.h"
+
+namespace app {
+namespace {
+
+constexpr double kSaid_s = 2.0, kReading_s_per_letter = 0.06;
+constexpr double kTurning_rpm = 200.0;
+
+/// "40,000 rpm" in steps of 500, "drill off", "drill locked".
+std::string driveText(double rpm, bool enabled) {
+  if (rpm < kTurning_rpm) return enabled ? "drill off" : "drill locked";
+  const long rounded = 500 * std::lround(rpm / 500.0);
+  return rounded < 1000 ? fmt::format("{} rpm", rounded) : fmt::format("{},{:03} rpm", rounded / 1000, rounded % 1000);
+}
+
+}  // namespace
+
+bool HeadUp::execute(const ControlRequest& request) {
+  bool* const shown = request.control == Control::keys   ? &keys_shown_
+                      : request.control == Control::line ? &line_shown_
+                                                         : nullptr;
+  if (shown == nullptr) return false;
+  *shown = request.value == kNoValue ? !*shown : request.value != 0;
+  return true;
+}
+
+HeadUpContent HeadUp::content(const Values& values, Time now) {
+  const haptics::Tick& tick = values.situation.tick;
+  const haptics::Command& command = values.situation.command;
+  HeadUpContent content;
+  content.line_shown = line_shown_;
+  content.bur = burName(command.tool.head);
+  const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
+  content.drive = driveText(rpm, command.drill_enabled);
+  content.turning = rpm >= kTurning_rpm;
+  content.irrigating = command.irrigating;
+  content.force_N = glm::length(tick.commanded_force_P_N.xyz);
+  content.force_share = content.force_N / std::max(0.1, command.safety.peak_force_N);
+  content.gap_mm = values.gap_mm;
+  if (tick.depth_mm > 0.0) content.gap_mm = 0.0;
+  content.time_s = tick.t_s + tick.dt_s;
+  content.task = values.task;
+  if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);
+
+  if (!said_.line.empty() && !said_.until) {
+    const double shown_s = std::max(kSaid_s, kReading_s_per_letter * static_cast<double>(said_.line.size()));
+    said_.until = now + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(shown_s));
+  }
+  if (said_.until && now >= *said_.until) said_ = {};
+  content.said = said_.line;
+  if (keys_shown_)
+    for (const KeyMeaning& key : keyMeanings(with_laws_, values.situation.has_motors))
+      content.keys.emplace_back(key.key, key.does);
+  return content;
+}
+
+}  // namespace app

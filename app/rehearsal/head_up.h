@@ -1,0 +1,49 @@
+// What the surgeon's picture says (app/view/head_up_line): built from the newest tick and the command in force, with
+// the line just said, the warnings, and the sheet of keys when it is open. Main thread, once a frame; some
+// microseconds.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "app/controls/control.h"
+#include "app/rehearsal/warnings.h"
+#include "app/view/head_up_line.h"
+
+namespace app {
+
+class HeadUp {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// `with_laws`: the sheet of keys names those of the force laws.
+  HeadUp(bool line_shown, bool with_laws) : line_shown_(line_shown), with_laws_(with_laws) {}
+
+  /// Shown for two seconds from the next frame, a long line for the time that reading it takes.
+  void say(const std::string& line) { said_ = {line, {}}; }
+  /// Executes the controls of the picture's text: line and keys. False: another control.
+  bool execute(const ControlRequest& request);
+  /// True if the sheet of keys was open: Esc closes it and does nothing else.
+  bool closeKeys() { return std::exchange(keys_shown_, false); }
+
+  struct Values {
+    Situation situation;
+    std::optional<double> gap_mm;
+    std::string task;  ///< of a procedure
+  };
+  HeadUpContent content(const Values& values, Time now);
+
+  const Warnings& warnings() const { return warnings_; }
+
+ private:
+  struct Said {
+    std::string line;
+    std::optional<Time> until;  ///< none: not shown yet
+  };
+  bool line_shown_, with_laws_, keys_shown_ = false;
+  Said said_;
+  Warnings warnings_;
+};
+
+}  // namespace app

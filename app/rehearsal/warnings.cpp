@@ -1,0 +1,215 @@
+#include "app/rehearsal/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "assets/soft_tissue.h"
+#include "assets/tooth.h"
+#include "haptics/safety/trips.h"
+#include "haptics/tool/bur_shape.h"
+
+namespace app {
+namespace {
+
+using assets::SoftTissue;
+using haptics::Fault;
+using haptics::SafetyState;
+
+constexpr double kStays_s = 0.8;       ///< after the cause is over
+constexpr double kNearCanal_mm = 2.0;  ///< nerve at risk below it (reference/extraction)
+constexpr double kShaftForce_N = 0.1;  ///< of a contact without the head
+constexpr std::uint8_t kUsuallyHeld = assets::bitOf(SoftTissue::gingiva) | assets::bitOf(SoftTissue::flap);
+
+using Words = std::string;  ///< empty: the warning does not apply
+
+std::string sentence(std::string_view what, std::string_view next) {
+  return std::string(what) + " " + std::string(next);
+}
+
+bool isOffForGood(SafetyState state) { return state == SafetyState::off || state == SafetyState::fault; }
+
+Words forceIsOff(const Situation& s) {
+  if (!s.has_motors || !isOffForGood(s.tick.state)) return {};
+  const haptics::StateText& text = haptics::textOf(s.tick.state);
+  return sentence(text.what, text.next);
+}
+
+Words noForceYet(const Situation& s) {
+  if (!s.has_motors || s.tick.state == SafetyState::active || isOffForGood(s.tick.state)) return {};
+  const haptics::StateText& text = haptics::textOf(s.tick.state);
+  return sentence(text.what, text.next);
+}
+
+Words notRecording(const Situation& s) { return s.recording_ended ? "Not recording any more" : ""; }
+
+Words canalOpened(const Situation& s) {
+  const bool inside =
+      assets::Tissue{s.tick.contact_tissue} == assets::Tissue::mandibular_canal && s.tick.overlap_mm3 > 0.0;
+  return inside && s.tick.drilling ? "Mandibular canal opened" : "";
+}
+
+Words burOnSoftTissue(const Situation& s) {
+  if (s.tick.soft.bur_cuts == SoftTissue::none) return {};
+  return fmt::format("Bur cuts the {}", assets::properties(s.tick.soft.bur_cuts).name);
+}
+
+Words neighbourTouched(const Situation& s) {
+  if (!s.neighbour) return {};
+  return fmt::format("{} touched", assets::toothName(*s.neighbour));
+}
+
+Words dry(const Situation& s) {
+  const bool cuts = s.tick.drilling && s.tick.depth_mm > 0.0;
+  return cuts && !s.command.irrigating ? "Cutting dry: water on with I" : "";
+}
+
+Words canalNear(const Situation& s) {
+  if (!s.canal_mm || *s.canal_mm >= kNearCanal_mm) return {};
+  return fmt::format("Nerve {:.1f} mm", std::max(0.0, *s.canal_mm));
+}
+
+Words softTissuePressed(const Situation& s) {
+  if ((s.tick.soft.tissues & ~kUsuallyHeld) == 0 || s.tick.soft.bur_cuts != SoftTissue::none) return {};
+  std::string names;
+  for (std::size_t n = 1; n < assets::kSoftTissueCount; ++n) {
+    const auto tissue = static_cast<SoftTissue>(n);
+    if ((assets::bitOf(tissue) & ~kUsuallyHeld) == 0 || !assets::contains(s.tick.soft.tissues, tissue)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(assets::properties(tissue).name);
+  }
+  if (!names.empty()) names.front() = static_cast<char>(names.front() - 'a' + 'A');
+  return names.empty() ? names : names + " touched";
+}
+
+Words drillHeldBack(const Situation& s) {
+  switch (s.tick.drill_inhibit) {
+    case haptics::DrillInhibit::tool_embedded:
+      return "Withdraw the bur: no force until it is out of the bone";
+    case haptics::DrillInhibit::pedal_held:
+      return "Release the pedal to drill again";
+    default:
+      return {};
+  }
+}
+
+Words forceLimited(const Situation& s) {
+  if (!s.has_motors) return {};
+  if (has(s.tick.faults, Fault::hot)) return "Motors warm: press less or rest";
+  if (has(s.tick.faults, Fault::too_fast | Fault::braked)) return "Move more slowly";
+  return has(s.tick.faults, Fault::clamped | Fault::joints) ? "Force at the device's limit: press less" : "";
+}
+
+Words neckTouches(const Situation& s) {
+  const bool force_without_head = s.tick.depth_mm <= 0.0 && glm::length(s.tick.law_force_P_N.xyz) > kShaftForce_N;
+  return force_without_head && !s.tick.soft.touches() ? "The bur's neck touches" : "";
+}
+
+struct Row {
+  const char* name;  ///< in the summary
+  bool danger;
+  Words (*words)(const Situation&);
+};
+
+// The most important first.
+constexpr std::array<Row, 12> kTable = {{
+    {"force off", true, forceIsOff},
+    {"mandibular canal opened", true, canalOpened},
+    {"bur on soft tissue", true, burOnSoftTissue},
+    {"neighbour tooth touched", true, neighbourTouched},
+    {"recording ended", true, notRecording},
+    {"no force yet", false, noForceYet},
+    {"within 2 mm of the nerve", false, canalNear},
+    {"cutting dry", false, dry},
+    {"soft tissue touched", false, softTissuePressed},
+    {"drill held back", false, drillHeldBack},
+    {"force limited", false, forceLimited},
+    {"neck of the bur touched", false, neckTouches},
+}};
+
+double distance_mm(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const double length2 = glm::dot(b - a, b - a);
+  const double share = length2 > 0.0 ? std::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0.0;
+  return glm::length(p - (a + share * (b - a)));
+}
+
+/// Ends of the head's axis inside which its balls of `radius_mm` lie.
+std::pair<glm::dvec3, glm::dvec3> axisOf(const haptics::Tick& tick, const haptics::BurShape& head) {
+  const double half_mm = std::max(0.0, haptics::halfHeight_mm(head) - head.radius_mm);
+  const glm::dvec3 along = tick.hand.X_PT.rotation * glm::dvec3(0.0, 0.0, half_mm);
+  return {tick.proxy_P.mm - along, tick.proxy_P.mm + along};
+}
+
+/// A tooth other than the operated one within the head and half a voxel.
+std::optional<int> neighbourAt(const haptics::Tick& tick, const haptics::BurShape& head,
+                               const assets::Patient& patient) {
+  const assets::CtVolume& ct = patient.ct;
+  if (ct.tooth.empty() || tick.depth_mm <= 0.0) return {};
+  const auto [from, to] = axisOf(tick, head);
+  const double reach_mm = head.radius_mm + 0.5 * ct.grid.spacing_mm;
+  const glm::ivec3 low = glm::max(glm::ivec3(glm::floor(ct.grid.indexFromPoint(glm::min(from, to) - reach_mm))), 0);
+  const glm::ivec3 end =
+      glm::min(glm::ivec3(glm::ceil(ct.grid.indexFromPoint(glm::max(from, to) + reach_mm))) + 1, ct.grid.size);
+  std::optional<int> touched;
+  assets::forVoxels(low, end, [&](glm::ivec3 ijk) {
+    const std::size_t v = ct.grid.index(ijk);
+    const int fdi = ct.tooth[v];
+    if (fdi == 0 || fdi == patient.operatedTooth() || ct.solid[v] < assets::kHalfSolid) return;
+    if (distance_mm(ct.grid.centre_P_mm(ijk), from, to) <= reach_mm) touched = fdi;
+  });
+  return touched;
+}
+
+std::optional<double> canalDistance_mm(const haptics::Tick& tick, const haptics::BurShape& head,
+                                       const assets::Patient& patient) {
+  const std::vector<glm::dvec3>& line = patient.mandibular_canal_P_mm;
+  if (line.size() < 2) return {};
+  const auto [from, to] = axisOf(tick, head);
+  double nearest_mm = 1e9;
+  for (const glm::dvec3& p : {from, 0.5 * (from + to), to})
+    for (std::size_t n = 1; n < line.size(); ++n)
+      nearest_mm = std::min(nearest_mm, distance_mm(p, line[n - 1], line[n]));
+  return nearest_mm - head.radius_mm - patient.mandibular_canal_radius_mm;
+}
+
+}  // namespace
+
+Situation situationOf(const haptics::Tick& tick, const haptics::Command& command, const assets::Patient& patient,
+                      bool has_motors, bool recording_ended) {
+  const haptics::BurShape& head = command.tool.head;
+  return {tick,
+          command,
+          has_motors,
+          recording_ended,
+          assets::isTooth(tick.contact_tissue) ? neighbourAt(tick, head, patient) : std::nullopt,
+          canalDistance_mm(tick, head, patient)};
+}
+
+std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
+  static_assert(kTable.size() == kRows);
+  std::vector<HeadUpWarning> shown;
+  const double now_s = now.tick.t_s;
+  for (std::size_t n = 0; n < kTable.size(); ++n) {
+    State& state = states_[n];
+    if (now_s < state.last_s) state.last_s = -1e9;
+    const bool was_shown = now_s - state.last_s <= kStays_s;
+    if (std::string words = kTable[n].words(now); !words.empty()) {
+      if (!was_shown) ++state.times;
+      state.words = std::move(words);
+      state.last_s = now_s;
+    }
+    if (now_s - state.last_s <= kStays_s) shown.push_back({state.words, kTable[n].danger});
+  }
+  std::ranges::stable_partition(shown, &HeadUpWarning::danger);
+  return shown;
+}
+
+std::vector<Warnings::Count> Warnings::counts() const {
+  std::vector<Count> counts;
+  for (std::size_t n = 0; n < kTable.size(); ++n)
+    if (states_[n].times > 0) counts.push_back({kTable[n].name, states_[n].times});
+  return counts;
+}
+
+}  // namespace app

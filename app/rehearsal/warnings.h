@@ -1,0 +1,52 @@
+// Warnings for the surgeon, in the picture: one table of conditions on the newest tick, words and order. A warning
+// stays a moment after its cause is over, so that a touch of a few milliseconds can be read. Main thread, once a frame;
+// some microseconds.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "app/view/head_up_line.h"
+#include "assets/patient.h"
+#include "haptics/servo/command.h"
+#include "haptics/servo/tick.h"
+
+namespace app {
+
+/// What the conditions are about.
+struct Situation {
+  const haptics::Tick& tick;
+  const haptics::Command& command;
+  bool has_motors = false;
+  bool recording_ended = false;    ///< early
+  std::optional<int> neighbour;    ///< FDI number of another tooth that the bur touches
+  std::optional<double> canal_mm;  ///< from the bur's surface to the mandibular canal; below 0 inside
+};
+
+/// `tick` newest. Cost: the voxels around the bur, while it touches a tooth.
+Situation situationOf(const haptics::Tick& tick, const haptics::Command& command, const assets::Patient& patient,
+                      bool has_motors, bool recording_ended);
+
+class Warnings {
+ public:
+  /// The most important first. `tick` may be older than that of the last call (a replay), which begins again.
+  std::vector<HeadUpWarning> update(const Situation& now);
+  /// How often a warning began, in the order of the table: for the summary.
+  struct Count {
+    std::string name;
+    int times = 0;
+  };
+  std::vector<Count> counts() const;
+
+ private:
+  static constexpr std::size_t kRows = 12;
+  struct State {
+    double last_s = -1e9;
+    std::string words;
+    int times = 0;
+  };
+  std::array<State, kRows> states_;
+};
+
+}  // namespace app

@@ -1,0 +1,236 @@
+#include "app/view/head_up_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "render/display/eye_projection.h"
+
+namespace app {
+namespace {
+
+constexpr double kTextOfHeight = 0.026, kMinText_px = 11.0;
+constexpr double kFewerLines = 1.25;  ///< larger letters where an eye gets half the lines
+constexpr double kLowSite = 0.62;     ///< of the height: below, the text goes to the upper edge
+constexpr double kPlateOfText = 1.7;  ///< height of the line's plate
+constexpr int kForceSteps = 24;
+constexpr double kShowGapBelow_mm = 10.0;
+
+/// Cells of the line from left to right, and which go first where even small letters do not fit.
+enum class Cells { bur, drive, water, force, gap, time };
+struct CellWidth {
+  Cells cell;
+  double widths;  ///< heights of the text
+  int importance;
+};
+constexpr std::array<CellWidth, 6> kCells = {{{Cells::bur, 13.0, 4},
+                                              {Cells::drive, 7.2, 1},
+                                              {Cells::water, 6.3, 3},
+                                              {Cells::force, 10.5, 5},
+                                              {Cells::gap, 6.8, 6},
+                                              {Cells::time, 4.4, 2}}};
+
+struct LineShape {
+  double text_px = 0.0, width_px = 0.0;
+  int least_important = 1;  ///< of the cells shown
+};
+
+LineShape lineShape(const HeadUpPlace& place) {
+  const double wanted = place.magnification * kTextOfHeight * place.screen_px.y;
+  const double free_px = 0.97 * (place.screen_px.x - place.reserved_left_px);
+  for (LineShape shape;; ++shape.least_important) {
+    double widths = 0.0;
+    for (const CellWidth& cell : kCells) widths += cell.importance >= shape.least_important ? cell.widths : 0.0;
+    shape.text_px = std::min(wanted, free_px / widths);
+    shape.width_px = widths * shape.text_px;
+    if (shape.text_px >= std::min(wanted, kMinText_px) || shape.least_important == static_cast<int>(kCells.size()))
+      return shape;
+  }
+}
+
+// Light on a dark plate: legible on bone, teeth and gingiva; amber and red differ in lightness too.
+constexpr Ink kPlate{0.05, 0.06, 0.08, 0.62}, kSheet{0.05, 0.06, 0.08, 0.9}, kWhite{0.96, 0.97, 0.98},
+    kDim{0.66, 0.7, 0.75}, kBlueWater{0.55, 0.78, 0.98}, kCalm{0.52, 0.82, 0.6}, kAmberPlate{0.96, 0.7, 0.16, 0.94},
+    kRedPlate{0.78, 0.1, 0.09, 0.94}, kAmberBar{0.97, 0.72, 0.2}, kRedBar{0.95, 0.3, 0.25}, kBlack{0.06, 0.05, 0.04},
+    kTrough{1.0, 1.0, 1.0, 0.2};
+
+/// A plate with cut corners.
+void plate(const Drawing& drawing, const glm::dvec2& size, double corner, const Ink& ink) {
+  const double radius = std::min(corner, 0.3 * std::min(size.x, size.y));
+  const glm::dvec2 inner = size - 2.0 * radius;
+  drawing.polygon({{radius, 0.0},
+                   {radius + inner.x, 0.0},
+                   {size.x, radius},
+                   {size.x, size.y - radius},
+                   {radius + inner.x, size.y},
+                   {radius, size.y},
+                   {0.0, size.y - radius},
+                   {0.0, radius}},
+                  ink);
+}
+
+void drop(const Drawing& drawing, const glm::dvec2& centre, double radius, const Ink& ink) {
+  std::vector<glm::dvec2> outline{{centre.x, centre.y - 1.9 * radius}};
+  for (int n = 0; n <= 16; ++n) {
+    const double angle = (-0.15 + 1.3 * n / 16.0) * 3.14159265358979;
+    outline.push_back(centre + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  drawing.polygon(outline, ink);
+}
+
+std::string gapText(double gap_mm) { return gap_mm <= 0.0 ? "contact" : fmt::format("gap {:.1f} mm", gap_mm); }
+
+}  // namespace
+
+HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, const render::Frame& frame) {
+  const render::ScreenOrientation orientation = render::screenOrientation(rig);
+  HeadUpPlace place;
+  place.screen_px = orientation.viewerSize(rig.screen.px);
+  // The slices' column is 0.025 + 0.3 of the height.
+  if (frame.layers.slices) place.reserved_left_px = static_cast<int>(0.34 * place.screen_px.y);
+  const glm::ivec2 eye_px = render::eyeImageSize(mode, rig.screen.px);
+  if (eye_px != rig.screen.px || render::isInterleaved(mode)) place.magnification = kFewerLines;
+  const render::EyeView view = render::eyeView(rig, render::Eye::cyclopean);
+  const glm::dvec4 clip = view.clip_from_W * glm::dvec4((rig.X_WP * frame.site_P).mm, 1.0);
+  const glm::ivec2 site(glm::dvec2(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w) *
+                        glm::dvec2(rig.screen.px));
+  place.at_top = orientation.seenBox({site, {0, 0}}, rig.screen.px).corner_px.y > kLowSite * place.screen_px.y;
+  return place;
+}
+
+double headUpTextHeight_px(const HeadUpPlace& place) { return lineShape(place).text_px; }
+
+std::string headUpTimeText(double time_s) {
+  const auto seconds = static_cast<long>(std::max(0.0, time_s));
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const HeadUpPlace& place) const {
+  std::vector<Cell> cells;
+  const LineShape shape = lineShape(place);
+  const double text = shape.text_px, high = std::round(kPlateOfText * text);
+  const double free = place.screen_px.x - place.reserved_left_px;
+  const double edge = std::round(0.4 * text);
+  double y = place.at_top ? edge : place.screen_px.y - edge - high;
+  // The cells of the line touch each other.
+  double x = place.reserved_left_px + std::round(0.5 * std::max(0.0, free - shape.width_px));
+  const auto in_line = [&](Cells which, const std::string& content, auto draw) {
+    const CellWidth& cell = kCells[static_cast<std::size_t>(which)];
+    if (cell.importance < shape.least_important) return;
+    const double end = x + cell.widths * text;
+    const glm::ivec2 corner(std::lround(x), std::lround(y)), size(std::lround(end) - std::lround(x), std::lround(high));
+    cells.push_back({content, corner, size, [=](const Drawing& to) {
+                       to.box({0.0, 0.0}, size, kPlate);
+                       draw(to, glm::dvec2(size));
+                     }});
+    x = end;
+  };
+  if (c.line_shown) {
+    in_line(Cells::bur, c.bur, [=, bur = c.bur](const Drawing& to, const glm::dvec2& size) {
+      to.text(bur, {0.6 * text, 0.5 * size.y}, text, kWhite, Align::left, true);
+    });
+    in_line(Cells::drive, c.drive + (c.turning ? " turning" : ""),
+            [=, drive = c.drive, ink = c.turning ? kWhite : kDim](const Drawing& to, const glm::dvec2& size) {
+              to.text(drive, 0.5 * size, text, ink, Align::centre, true);
+            });
+    in_line(Cells::water, c.irrigating ? "water" : "dry",
+            [=, on = c.irrigating](const Drawing& to, const glm::dvec2& size) {
+              drop(to, {0.7 * text, 0.6 * size.y}, 0.32 * text, on ? kBlueWater : kDim);
+              to.text(on ? "water on" : "water off", {1.3 * text, 0.5 * size.y}, text, on ? kBlueWater : kDim,
+                      Align::left, true);
+            });
+    const int steps = static_cast<int>(std::lround(kForceSteps * std::clamp(c.force_share, 0.0, 1.0)));
+    const std::string newtons = fmt::format("{:.1f} N", c.force_N);
+    in_line(Cells::force, fmt::format("{} {}", steps, newtons), [=](const Drawing& to, const glm::dvec2& size) {
+      const double share = static_cast<double>(steps) / kForceSteps, bar = size.x - 4.3 * text;
+      const glm::dvec2 corner{0.5 * text, 0.5 * size.y - 0.3 * text};
+      to.box(corner, {bar, 0.6 * text}, kTrough);
+      to.box(corner, {share * bar, 0.6 * text}, share < 0.7 ? kCalm : share < 0.97 ? kAmberBar : kRedBar);
+      to.text(newtons, {size.x - 0.5 * text, 0.5 * size.y}, text, kWhite, Align::right, true);
+    });
+    const bool near = c.gap_mm && *c.gap_mm < kShowGapBelow_mm;
+    const std::string gap = near ? gapText(*c.gap_mm) : "";
+    in_line(Cells::gap, gap, [=](const Drawing& to, const glm::dvec2& size) {
+      if (!gap.empty()) to.text(gap, 0.5 * size, text, kWhite, Align::centre, true);
+    });
+    const std::string time = headUpTimeText(c.time_s);
+    in_line(Cells::time, time, [=](const Drawing& to, const glm::dvec2& size) {
+      to.text(time, {size.x - 0.6 * text, 0.5 * size.y}, text, kWhite, Align::right, true);
+    });
+  }
+
+  // Towards the middle: warnings, the task, then what was just said.
+  const auto stacked = [&](const std::string& words, double height, const Ink& ink, const Ink& ground) {
+    if (words.empty()) return;
+    const double limit = 0.94 * free;
+    Drawing measure(glm::ivec2(1), 1.0);
+    const double size = std::min(height, height * limit / (measure.textWidth(words, height, true) + 2.0 * height));
+    const glm::dvec2 box{std::ceil(measure.textWidth(words, size, true) + 1.6 * size), std::ceil(1.6 * size)};
+    const double step = box.y + std::round(0.25 * text);
+    if (!c.line_shown && cells.empty())
+      y += place.at_top ? 0.0 : high - box.y;
+    else
+      y += place.at_top ? (cells.empty() ? 0.0 : static_cast<double>(cells.back().size_px.y) + std::round(0.25 * text))
+                        : -step;
+    const glm::ivec2 corner(place.reserved_left_px + static_cast<int>(0.5 * (free - box.x)), std::lround(y));
+    cells.push_back({words + (ground.red > 0.5 ? " !" : ""), corner, glm::ivec2(box), [=](const Drawing& to) {
+                       plate(to, box, 0.5 * size, ground);
+                       to.text(words, 0.5 * box, size, ink, Align::centre, true);
+                     }});
+  };
+  for (std::size_t n = 0; n < std::min<std::size_t>(2, c.warnings.size()); ++n)
+    stacked(c.warnings[n].words, 1.3 * text, c.warnings[n].danger ? kWhite : kBlack,
+            c.warnings[n].danger ? kRedPlate : kAmberPlate);
+  stacked(c.task, 1.15 * text, kWhite, kPlate);
+  stacked(c.said, text, kWhite, kPlate);
+
+  if (!c.keys.empty()) {
+    const std::size_t rows = (c.keys.size() + 1) / 2;
+    const double letters = std::min(1.05 * text, 0.9 * place.screen_px.y / (1.75 * (static_cast<double>(rows) + 4.0)));
+    const double row_px = 1.75 * letters;
+    const glm::dvec2 size = glm::floor(
+        glm::dvec2(std::min(46.0 * letters, 0.97 * place.screen_px.x), row_px * (static_cast<double>(rows) + 3.6)));
+    const glm::ivec2 corner(0.5 * (glm::dvec2(place.screen_px) - size));
+    std::string content = "keys";
+    for (const auto& [key, does] : c.keys) content += "\n" + key + "\t" + does;
+    cells.push_back(
+        {content, corner, glm::ivec2(size), [=, keys = c.keys](const Drawing& to) {
+           plate(to, size, 0.8 * letters, kSheet);
+           to.text("Keys and mouse", {1.2 * letters, 1.3 * row_px}, 1.25 * letters, kWhite, Align::left, true);
+           to.text("F1 or Esc closes", {size.x - 1.2 * letters, 1.3 * row_px}, letters, kDim, Align::right, true);
+           for (std::size_t n = 0; n < keys.size(); ++n) {
+             const double left = (n < rows ? 0.0 : 0.5 * size.x) + 1.2 * letters;
+             const double middle = (static_cast<double>(n % rows) + 2.8) * row_px;
+             to.text(keys[n].first, {left, middle}, letters, kBlueWater, Align::left, true);
+             const double room = 0.5 * size.x - 7.2 * letters;
+             const double wide = to.textWidth(keys[n].second, letters, true);
+             to.text(keys[n].second, {left + 5.6 * letters, middle}, letters * std::min(1.0, room / wide), kWhite,
+                     Align::left, true);
+           }
+         }});
+  }
+  return cells;
+}
+
+bool HeadUpLine::update(const HeadUpContent& content, const HeadUpPlace& place) {
+  const std::vector<Cell> wanted = cells(content, place);
+  bool changed = wanted.size() != drawn_.size();
+  drawn_.resize(wanted.size());
+  panels_.resize(wanted.size());
+  for (std::size_t n = 0; n < wanted.size(); ++n) {
+    const Cell& cell = wanted[n];
+    const std::string as =
+        fmt::format("{},{} {}x{} {}", cell.corner_px.x, cell.corner_px.y, cell.size_px.x, cell.size_px.y, cell.content);
+    if (as == drawn_[n]) continue;
+    const Drawing drawing(cell.size_px, 1.0, Drawing::Ground::clear);
+    cell.draw(drawing);
+    panels_[n] = {drawing.picture(), cell.corner_px, ++serial_};
+    drawn_[n] = as;
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace app

@@ -1,0 +1,21 @@
+#include "app/options/bur_name.h"
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+using haptics::ShapeKind;
+
+TEST(BurName, IsShapeDiameterAndIsoSize) {
+  EXPECT_EQ(burName({ShapeKind::sphere, 1.5, 0.0}), "round 3.0 mm, ISO 030");
+  EXPECT_EQ(burName({ShapeKind::sphere, 1.15, 0.0}), "round 2.3 mm, ISO 023");
+  EXPECT_EQ(burName({ShapeKind::cylinder, 0.8, 4.5}), "fissure 1.6 mm, ISO 016");
+  EXPECT_EQ(burName({ShapeKind::capsule, 0.6, 4.0}), "round-end fissure 1.2 mm, ISO 012");
+  EXPECT_EQ(burName({ShapeKind::cone, 1.0, 5.0}), "cone 2.0 mm, ISO 020");
+}
+
+TEST(BurName, HasNoIsoSizeBetweenTenths) { EXPECT_EQ(burName({ShapeKind::sphere, 0.925, 0.0}), "round 1.85 mm"); }
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,83 @@
+#include "app/rehearsal/head_up.h"
+
+#include <gtest/gtest.h>
+
+#include "haptics/tool/spindle.h"
+
+namespace app {
+namespace {
+
+using std::chrono::milliseconds;
+
+struct Picture {
+  HeadUp head_up{true, false};
+  haptics::Tick tick;
+  haptics::Command command;
+  HeadUp::Time now{};
+
+  Picture() { tick.dt_s = 0.001; }
+  HeadUpContent at(milliseconds later, bool has_motors = false) {
+    return head_up.content({{tick, command, has_motors, false, {}, {}}, 3.0, ""}, now + later);
+  }
+};
+
+TEST(HeadUp, SaysALineForTwoSecondsFromItsFirstFrame) {
+  Picture picture;
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "");
+  picture.head_up.say("irrigation on");
+  EXPECT_EQ(picture.at(milliseconds(500)).said, "irrigation on");
+  EXPECT_EQ(picture.at(milliseconds(2499)).said, "irrigation on");
+  EXPECT_EQ(picture.at(milliseconds(2500)).said, "");
+  picture.head_up.say(std::string(60, 'x'));
+  EXPECT_NE(picture.at(milliseconds(3000)).said, "");
+  EXPECT_NE(picture.at(milliseconds(6500)).said, "") << "longer to read";
+  EXPECT_EQ(picture.at(milliseconds(6700)).said, "");
+}
+
+TEST(HeadUp, ShowsTheKeysOfTheTableUntilF1OrEsc) {
+  Picture picture;
+  EXPECT_TRUE(picture.at(milliseconds(0)).keys.empty());
+  EXPECT_TRUE(picture.head_up.execute({Control::keys}));
+  const auto keys = picture.at(milliseconds(0), true).keys;
+  const auto has = [&](std::string_view key) {
+    return std::ranges::any_of(keys, [&](const auto& one) { return one.first == key; });
+  };
+  for (const ControlMeaning& one : kControls)
+    EXPECT_EQ(has(one.key), !one.key.empty() && one.control != Control::law) << one.name;
+  EXPECT_LT(picture.at(milliseconds(0)).keys.size(), keys.size()) << "nobody with a mouse is told of motors";
+  EXPECT_TRUE(picture.head_up.closeKeys());
+  EXPECT_FALSE(picture.head_up.closeKeys()) << "Esc then has its own meaning";
+  EXPECT_TRUE(picture.at(milliseconds(0)).keys.empty());
+}
+
+TEST(HeadUp, SwitchesTheLine) {
+  Picture picture;
+  EXPECT_TRUE(picture.at(milliseconds(0)).line_shown);
+  EXPECT_TRUE(picture.head_up.execute({Control::line}));
+  EXPECT_FALSE(picture.at(milliseconds(0)).line_shown);
+  EXPECT_TRUE(picture.head_up.execute({Control::line, 0}));
+  EXPECT_FALSE(picture.at(milliseconds(0)).line_shown);
+  EXPECT_FALSE(picture.head_up.execute({Control::undo})) << "another control";
+}
+
+TEST(HeadUp, NamesBurSpeedAndForce) {
+  Picture picture;
+  picture.command.tool.head = {haptics::ShapeKind::sphere, 1.5, 0.0};
+  picture.command.safety.peak_force_N = 4.0;
+  picture.tick.commanded_force_P_N = {{0.0, 1.0, 0.0}};
+  picture.tick.spindle_rad_per_s = haptics::radPerSecond(-39'800.0);
+  HeadUpContent content = picture.at(milliseconds(0));
+  EXPECT_EQ(content.bur, "round 3.0 mm, ISO 030");
+  EXPECT_EQ(content.drive, "40,000 rpm");
+  EXPECT_DOUBLE_EQ(content.force_share, 0.25);
+  EXPECT_EQ(content.gap_mm, 3.0);
+  picture.tick.depth_mm = 0.1;
+  picture.tick.spindle_rad_per_s = 0.0;
+  picture.command.drill_enabled = false;
+  content = picture.at(milliseconds(0));
+  EXPECT_EQ(content.gap_mm, 0.0) << "contact";
+  EXPECT_EQ(content.drive, "drill locked");
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,137 @@
+#include "app/view/head_up_line.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/display/camera.h"
+
+namespace app {
+namespace {
+
+HeadUpContent atWork() {
+  HeadUpContent content;
+  content.bur = "round-end fissure 1.6 mm, ISO 016";
+  content.drive = "40,000 rpm";
+  content.turning = true;
+  content.force_N = 1.2;
+  content.force_share = 0.4;
+  content.gap_mm = 3.2;
+  content.time_s = 65.4;
+  content.said = "snapshot /home/surgeon/cases/molar-snapshot-12.png";
+  content.warnings = {
+      {"Lower right second molar touched", true}, {"Cutting dry: water on with I", false}, {"third", false}};
+  return content;
+}
+
+/// Frames whose site is in the middle of the picture, as rigs and desktop have it.
+render::Frame frameOf(glm::ivec2 px, double rise_mm = 0.0) {
+  render::Frame frame;
+  frame.rig =
+      render::cameraRig({.eye_P_mm = {0, -300, 0}, .look_at_P_mm = {0, 0, 0}, .up_P = {0, 0, 1}, .fov_y_rad = 0.3}, px);
+  frame.site_P = {glm::dvec3(0, 0, rise_mm)};
+  return frame;
+}
+
+bool overlap(const render::OverlayPanel& a, const render::OverlayPanel& b) {
+  return a.corner_px.x < b.corner_px.x + b.image.w && b.corner_px.x < a.corner_px.x + a.image.w &&
+         a.corner_px.y < b.corner_px.y + b.image.h && b.corner_px.y < a.corner_px.y + a.image.h;
+}
+
+// For every screen and every position of the site: inside the picture, apart from each other, away from the site.
+TEST(HeadUpLine, IsInThePictureAndNeverOverTheSite) {
+  for (const glm::ivec2 px :
+       {glm::ivec2(1280, 800), glm::ivec2(640, 400), glm::ivec2(1920, 1080), glm::ivec2(800, 1280)})
+    for (const double rise_mm : {-22.0, -8.0, 0.0, 20.0})
+      for (const bool slices : {false, true})
+        for (const auto mode : {render::DisplayMode::mono, render::DisplayMode::row_interleaved}) {
+          render::Frame frame = frameOf(px, rise_mm);
+          frame.layers.slices = slices;
+          HeadUpLine line;
+          ASSERT_TRUE(line.update(atWork(), headUpPlace(frame.rig, mode, frame)));
+          ASSERT_EQ(line.panels().size(), px.x < 1000 && (slices || px.x < 700) ? line.panels().size() : 9u)
+              << "six cells, two warnings, what was said";
+          ASSERT_GE(line.panels().size(), 5u) << "gap and force at least";
+          // The camera's picture is 2 * 300 * tan(0.15) mm high.
+          const double site_y = px.y * (0.5 - rise_mm / (600.0 * std::tan(0.15)));
+          for (std::size_t n = 0; n < line.panels().size(); ++n) {
+            const render::OverlayPanel& panel = line.panels()[n];
+            EXPECT_GE(panel.corner_px.x, 0);
+            EXPECT_GE(panel.corner_px.y, 0);
+            EXPECT_LE(panel.corner_px.x + panel.image.w, px.x);
+            EXPECT_LE(panel.corner_px.y + panel.image.h, px.y);
+            const double above = panel.corner_px.y - site_y, below = site_y - panel.corner_px.y - panel.image.h;
+            EXPECT_GT(std::max(above, below), 0.12 * px.y) << "panel " << n << " of " << px.x << " at " << rise_mm;
+            if (slices) {
+              EXPECT_GE(panel.corner_px.x, static_cast<int>(0.325 * px.y)) << "on the slices";
+            }
+            for (std::size_t m = 0; m < n; ++m) EXPECT_FALSE(overlap(panel, line.panels()[m])) << n << " and " << m;
+          }
+        }
+}
+
+TEST(HeadUpLine, DrawsOnlyWhatChanged) {
+  const render::Frame frame = frameOf({1280, 800});
+  const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
+  HeadUpLine line;
+  HeadUpContent content = atWork();
+  line.update(content, place);
+  EXPECT_FALSE(line.update(content, place));
+  content.force_share += 1e-4;  // less than a step of the bar
+  content.time_s += 0.4;        // the same second
+  EXPECT_FALSE(line.update(content, place));
+  const std::vector<render::OverlayPanel> before = line.panels();
+  content.time_s += 1.0;
+  EXPECT_TRUE(line.update(content, place));
+  int changed = 0;
+  for (std::size_t n = 0; n < before.size(); ++n) changed += before[n].serial != line.panels()[n].serial;
+  EXPECT_EQ(changed, 1);
+}
+
+TEST(HeadUpLine, IsSwitchedOffWhileWarningsStay) {
+  const render::Frame frame = frameOf({1280, 800});
+  const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
+  HeadUpLine line;
+  HeadUpContent content = atWork();
+  content.line_shown = false;
+  line.update(content, place);
+  EXPECT_EQ(line.panels().size(), 3u);
+  content.warnings.clear();
+  content.said.clear();
+  EXPECT_TRUE(line.update(content, place));
+  EXPECT_TRUE(line.panels().empty());
+}
+
+TEST(HeadUpLine, ShowsTheGapBelowTenMillimetres) {
+  const render::Frame frame = frameOf({1280, 800});
+  const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
+  const auto gap_cell = [&](std::optional<double> gap_mm) {
+    HeadUpLine line;
+    HeadUpContent content;
+    content.gap_mm = gap_mm;
+    line.update(content, place);
+    return line.panels()[4].image.rgba;
+  };
+  EXPECT_EQ(gap_cell(10.5), gap_cell({}));
+  EXPECT_NE(gap_cell(9.5), gap_cell({}));
+  EXPECT_NE(gap_cell(0.0), gap_cell(0.1)) << "contact";
+}
+
+TEST(HeadUpLine, LettersAreLargerWhereAnEyeGetsFewerLines) {
+  const render::Frame frame = frameOf({1280, 800});
+  const auto height = [&](render::DisplayMode mode) {
+    return headUpTextHeight_px(headUpPlace(frame.rig, mode, frame));
+  };
+  EXPECT_GT(height(render::DisplayMode::row_interleaved), 1.2 * height(render::DisplayMode::mono));
+  EXPECT_GT(height(render::DisplayMode::top_bottom), 1.2 * height(render::DisplayMode::mono));
+  EXPECT_DOUBLE_EQ(height(render::DisplayMode::anaglyph), height(render::DisplayMode::mono));
+}
+
+TEST(HeadUpLine, TimeIsMinutesAndSeconds) {
+  EXPECT_EQ(headUpTimeText(0.0), "0:00");
+  EXPECT_EQ(headUpTimeText(65.9), "1:05");
+  EXPECT_EQ(headUpTimeText(3600.0), "60:00");
+}
+
+}  // namespace
+}  // namespace app
