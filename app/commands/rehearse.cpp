@@ -42,7 +42,7 @@ struct RehearseOptions {
   RehearsalPlan plan;
   std::string patient, pedal = "auto", falcon_firmware, record, face;
   RigOption rig;
-  std::vector<std::string> tools{"sphere:1.5"};
+  std::vector<std::string> tools{"sphere:1.5", "sphere:1", "cylinder:0.8,4.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string pace = "real";
   std::string side = "right", second_tool = "mirror", case_name;

@@ -1,4 +1,4 @@
-// State of a rehearsal, as plain values, for the status line and the instructor's window. Made twice a second, with an
+// State of a rehearsal, as plain values, for the instructor's window and the summary. Made twice a second, with an
 // instructor ten times. Pure; any thread.
 #pragma once
 
@@ -45,8 +45,5 @@ struct RehearsalStatus {
 
 /// "drilling", "drill off", "drill locked".
 const char* drillText(const RehearsalStatus& status);
-
-/// One line for the window's title.
-std::string statusLine(const RehearsalStatus& status);
 
 }  // namespace app

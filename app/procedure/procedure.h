@@ -13,7 +13,7 @@
 
 namespace app {
 
-/// One line each; empty: none. The surgeon's is shown in the window title, unless the safety layer has a message; the
+/// One line each; empty: none. The surgeon's is shown in the picture; the
 /// instructor's in the instructor's window.
 struct ProcedureMessages {
   std::string to_surgeon, to_instructor;

@@ -48,7 +48,10 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;
   content.time_s = tick.t_s + tick.dt_s;
   content.task = values.task;
-  if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);
+  if (tick.dt_s > 0.0) {
+    content.warnings = warnings_.update(values.situation);
+    times_.add(tick, command);
+  }
 
   if (!said_.line.empty() && !said_.until) {
     const double shown_s = std::max(kSaid_s, kReading_s_per_letter * static_cast<double>(said_.line.size()));

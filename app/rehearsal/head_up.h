@@ -35,6 +35,7 @@ class HeadUp {
   HeadUpContent content(const Values& values, Time now);
 
   const Warnings& warnings() const { return warnings_; }
+  const WorkTimes& times() const { return times_; }
 
  private:
   struct Said {
@@ -44,6 +45,7 @@ class HeadUp {
   bool line_shown_, with_laws_, keys_shown_ = false;
   Said said_;
   Warnings warnings_;
+  WorkTimes times_;
 };
 
 }  // namespace app

@@ -155,6 +155,8 @@ class Rehearsal {
       view_.takeSnapshot(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
                          station().bone().solidInGridOrder());
     RehearsalFigures figures = status_reporter_->figures(state());
+    figures.times = head_up_.times();
+    figures.warnings = head_up_.warnings().counts();
     if (plan_.recording) figures.recording = recorded;
     return figures;
   }

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 
 #include "app/device/trip_reporter.h"
+#include "app/options/bur_name.h"
+#include "app/view/head_up_line.h"
 
 namespace app {
 namespace {
@@ -32,6 +34,75 @@ std::string steppedText(const RehearsalStatus& last) {
                      last.servo_rate_Hz);
 }
 
+/// "12.3 mm³ (cortical bone 8.1, trabecular bone 4.2)"; empty: nothing to speak of.
+template <class Belongs>
+std::string removedText(const RehearsalFigures& f, const Belongs& belongs) {
+  double sum_mm3 = 0.0;
+  std::string parts;
+  for (std::size_t l = 0; l < f.removed_mm3.size(); ++l) {
+    if (!belongs(static_cast<std::uint8_t>(l))) continue;
+    sum_mm3 += f.removed_mm3[l];
+    if (f.removed_mm3[l] >= 0.05)
+      parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", assets::kTissues[l].name, f.removed_mm3[l]);
+  }
+  return parts.empty() ? "" : fmt::format("{:.1f} mm³ ({})", sum_mm3, parts);
+}
+
+std::string surgeonsText(const RehearsalFigures& f) {
+  std::string text = "Rehearsal\n";
+  const auto line = [&](const char* name, const std::string& words) {
+    if (!words.empty()) text += fmt::format("  {:16} {}\n", name, words);
+  };
+  line("patient", f.last.patient_title);
+  line("bur", burName(f.last.command.tool.head));
+  const std::string cutting = f.times.cutting_s < 1.0 ? ""
+                              : f.times.dry_s < 1.0
+                                  ? fmt::format(", cutting {}", headUpTimeText(f.times.cutting_s))
+                                  : fmt::format(", cutting {}, {} of it without water",
+                                                headUpTimeText(f.times.cutting_s), headUpTimeText(f.times.dry_s));
+  line("time", headUpTimeText(f.last.tick.t_s + f.last.tick.dt_s) + cutting);
+  const auto is_bone = [](std::uint8_t label) { return !assets::isTooth(label) && assets::isHard(label); };
+  const auto is_soft = [&](std::uint8_t label) { return !assets::isTooth(label) && !is_bone(label); };
+  const std::string bone = removedText(f, is_bone);
+  line("bone removed", bone.empty() ? "none" : bone);
+  line("tooth removed", removedText(f, assets::isTooth));
+  line("other removed", removedText(f, is_soft));
+  std::string warnings;
+  for (const Warnings::Count& count : f.warnings)
+    warnings += fmt::format("{}{} {}", warnings.empty() ? "" : ", ", count.name,
+                            count.times == 1 ? std::string("once") : fmt::format("{} times", count.times));
+  line("warnings", warnings.empty() ? "none" : warnings);
+  if (f.recording) {
+    std::string recorded = f.recording->file.empty() ? "nothing" : f.recording->file;
+    if (f.recording->lost > 0) recorded += fmt::format(", {} ticks lost", f.recording->lost);
+    if (f.recording->trouble) recorded += "; " + *f.recording->trouble;
+    line("recorded in", recorded);
+  }
+  return text;
+}
+
+std::string engineersText(const RehearsalFigures& f) {
+  std::string text = "  calibration      " + calibrationText(f.last.calibration) + "\n";
+  text += fmt::format("  duration         {:.1f} s\n", f.last.tick.t_s + f.last.tick.dt_s);
+  text +=
+      fmt::format("  removed          {:.1f} mm³\n", std::accumulate(f.removed_mm3.begin(), f.removed_mm3.end(), 0.0));
+  text += f.ticking == Ticking::realtime ? timeText(f.last) : steppedText(f.last);
+  text += fmt::format("  safety           {}\n", tripsText(f.last.trips));
+  if (f.has_motors && f.last.servo.watchdog_trips > 0)
+    text += fmt::format("  supervisor       switched the motors off {} times: no tick for 50 ms\n",
+                        f.last.servo.watchdog_trips);
+  if (f.ticking == Ticking::realtime) {
+    text += fmt::format("  frames           {}, one every {:.0f} ms, the first after {:.1f} s\n", f.frames, f.frame_ms,
+                        f.first_frame_s);
+    text += fmt::format("  display          {}, quality: {}\n", f.last.display, f.last.quality);
+  }
+  if (f.latency && f.slow_latency)
+    text += fmt::format("  latency          {}, 95 % below {:.0f} ms\n", latencyText(*f.latency),
+                        f.slow_latency->total_ms());
+  if (f.recording) text += fmt::format("  recorded         {} ticks, {} lost\n", f.recording->ticks, f.recording->lost);
+  return text;
+}
+
 }  // namespace
 
 std::string punctualityText(const haptics::LoopFigures& servo) {
@@ -43,32 +114,8 @@ std::string punctualityText(const haptics::LoopFigures& servo) {
 }
 
 std::string summaryText(const RehearsalFigures& f) {
-  std::string text = "Rehearsal\n";
-  text += fmt::format("  patient          {}\n", f.last.patient_title);
-  text += fmt::format("  bur              {} mm\n", f.last.bur);
-  text += "  calibration      " + calibrationText(f.last.calibration) + "\n";
-  text += fmt::format("  duration         {:.1f} s\n", f.last.tick.t_s + f.last.tick.dt_s);
-  text +=
-      fmt::format("  removed          {:.1f} mm³\n", std::accumulate(f.removed_mm3.begin(), f.removed_mm3.end(), 0.0));
-  for (std::size_t l = 0; l < f.removed_mm3.size(); ++l)
-    if (f.removed_mm3[l] >= 0.05)
-      text += fmt::format("    {:14} {:.1f} mm³\n", assets::kTissues[l].name, f.removed_mm3[l]);
-  text += f.ticking == Ticking::realtime ? timeText(f.last) : steppedText(f.last);
-  text += fmt::format("  safety           {}\n", tripsText(f.last.trips));
-  if (f.last.servo.watchdog_trips > 0)
-    text += fmt::format("  supervisor       switched the motors off {} times: no tick for 50 ms\n",
-                        f.last.servo.watchdog_trips);
-  if (f.ticking == Ticking::realtime) {
-    text += fmt::format("  frames           {}, one every {:.0f} ms, the first after {:.1f} s\n", f.frames, f.frame_ms,
-                        f.first_frame_s);
-    text += fmt::format("  display          {}, quality: {}\n", f.last.display, f.last.quality);
-  }
-  if (f.latency && f.slow_latency)
-    text += fmt::format("  latency          {}, 95 % below {:.0f} ms\n", latencyText(*f.latency),
-                        f.slow_latency->total_ms());
-  if (f.recording)
-    text += fmt::format("  recorded         {} ticks, {} lost, in {}{}{}\n", f.recording->ticks, f.recording->lost,
-                        f.recording->file, f.recording->trouble ? "; " : "", f.recording->trouble.value_or(""));
+  std::string text = surgeonsText(f);
+  if (f.for_engineers) text += "\n" + engineersText(f);
   return text;
 }
 

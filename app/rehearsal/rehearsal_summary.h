@@ -1,12 +1,15 @@
-// Results of a rehearsal, as one screen of text with units. Carries the case's title, no personal data. Pure.
+// Results of a rehearsal, as one screen of text with units: what a surgeon asks, then, after an empty line, what an
+// engineer asks. Carries the case's title, no personal data. Pure.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/device/pose_source.h"
 #include "app/instructor/rehearsal_status.h"
+#include "app/rehearsal/warnings.h"
 #include "app/session/recorder.h"
 #include "app/view/motion_to_photon.h"
 #include "assets/tissue.h"
@@ -17,6 +20,10 @@ namespace app {
 struct RehearsalFigures {
   RehearsalStatus last;  ///< at the end
   std::array<double, assets::kTissueCount> removed_mm3{};
+  WorkTimes times;
+  std::vector<Warnings::Count> warnings;
+  bool for_engineers = true;  ///< servo, display and latency as well
+  bool has_motors = true;
   Ticking ticking = Ticking::realtime;
   std::uint64_t frames = 0;
   double frame_ms = 0.0;                                 ///< mean time between frames

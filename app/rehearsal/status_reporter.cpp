@@ -59,7 +59,7 @@ void StatusReporter::update(Time now, const FrameState& state) {
     latency_noted_ = now;
     event_log_.note("latency", latencyText(view_.latency().now()));
   }
-  window->setTitle(statusLine(status(state)));
+  window->setTitle(plan_.patient.title);
 }
 
 InstructorWindow::Input StatusReporter::updateInstructor(const FrameState& state) {
@@ -82,6 +82,8 @@ void StatusReporter::reportEnd(Ending ending) {
 RehearsalFigures StatusReporter::figures(const FrameState& state) {
   RehearsalFigures figures;
   figures.ticking = plan_.ticking;
+  figures.for_engineers = plan_.verbose || plan_.headless;
+  figures.has_motors = equipment_.hasMotors();
   figures.last = status(state);
   figures.last.trips = equipment_.workstation().trips();
   figures.removed_mm3 = equipment_.workstation().bone().removedByTissue_mm3();

@@ -1,4 +1,4 @@
-// Reports the state of a rehearsal: to the surgeon by the window's title and to the event log (news of safety, device,
+// Reports the state of a rehearsal: to the event log (news of safety, device,
 // recording and latency) twice a second, to the instructor ten times a second, to all at the end. Main thread, once a
 // frame; microseconds while nothing is due.
 #pragma once

@@ -28,6 +28,21 @@ struct Situation {
 Situation situationOf(const haptics::Tick& tick, const haptics::Command& command, const assets::Patient& patient,
                       bool has_motors, bool recording_ended);
 
+/// Time with the bur in bone or tooth, from frame to frame: of a stroke within one frame's time. The session has it by
+/// tick (app/session/metrics.h).
+struct WorkTimes {
+  double cutting_s = 0.0, dry_s = 0.0;
+  double last_s = 0.0;  ///< of the tick before
+
+  void add(const haptics::Tick& tick, const haptics::Command& command) {
+    const double since_s = tick.t_s - last_s;
+    last_s = tick.t_s;
+    if (since_s <= 0.0 || !tick.drilling || tick.depth_mm <= 0.0) return;
+    cutting_s += since_s;
+    if (!command.irrigating) dry_s += since_s;
+  }
+};
+
 class Warnings {
  public:
   /// The most important first. `tick` may be older than that of the last call (a replay), which begins again.

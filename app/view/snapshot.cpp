@@ -29,7 +29,7 @@ std::string saveNextSnapshot(const render::Image& image) {
     path = "molar-snapshot-" + std::to_string(n) + ".png";
   calibration::OutputFile file(path, false);
   savePng(image, file);
-  return path;
+  return std::filesystem::absolute(path).string();
 }
 
 StereoSnapshot::StereoSnapshot(const std::string& path, bool overwrite)

@@ -10,7 +10,7 @@
 
 namespace app {
 
-/// Saves as the first free name of `molar-snapshot-1.png`, …; returns it.
+/// Saves as the first free name of `molar-snapshot-1.png`, …; returns its full path.
 std::string saveNextSnapshot(const render::Image& image);
 
 void savePng(const render::Image& image, calibration::OutputFile& file);

@@ -12,30 +12,6 @@ RehearsalStatus atWork() {
   return status;
 }
 
-TEST(RehearsalStatus, LineShowsTheState) {
-  const std::string line = statusLine(atWork());
-  EXPECT_EQ(line.find("Molar   12.3 s   agus   force 0.00 N"), 0u) << line;
-  EXPECT_NE(line.find("drill off"), std::string::npos);
-}
-
-TEST(RehearsalStatus, LineShowsTheProceduresMessage) {
-  RehearsalStatus status = atWork();
-  status.to_surgeon = "trial 2 of at most 40";
-  status.to_instructor = "trial 2, felt: A";
-  EXPECT_EQ(statusLine(status), "Molar   trial 2 of at most 40");
-  status.recording = RecordingState::ended_early;
-  EXPECT_EQ(statusLine(status), "Molar   NOT RECORDING   trial 2 of at most 40");
-  status.tick.state = haptics::SafetyState::fault;
-  EXPECT_EQ(statusLine(status).find("trial"), std::string::npos) << "safety first";
-}
-
-TEST(RehearsalStatus, LineWarnsWhenRecordingEnded) {
-  RehearsalStatus status = atWork();
-  EXPECT_EQ(statusLine(status).find("NOT RECORDING"), std::string::npos);
-  status.recording = RecordingState::ended_early;
-  EXPECT_NE(statusLine(status).find("NOT RECORDING"), std::string::npos);
-}
-
 TEST(RehearsalStatus, ShowsTheDrillState) {
   RehearsalStatus status = atWork();
   EXPECT_STREQ(drillText(status), "drill off");

@@ -16,20 +16,59 @@ TEST(RehearsalSummary, ExitsWithOneWhereARecordingIsNotWhole) {
   EXPECT_EQ(exitStatus(figures), 1);
 }
 
-TEST(RehearsalSummary, ShowsTheStateAtTheEnd) {
+RehearsalFigures afterWork() {
   RehearsalFigures figures;
   figures.last.patient_title = "block of bone";
-  figures.last.bur = "sphere:1.5";
-  figures.last.tick.t_s = 11.999;
+  figures.last.command.tool.head = {haptics::ShapeKind::sphere, 1.5, 0.0};
+  figures.last.tick.t_s = 71.999;
   figures.last.tick.dt_s = 0.001;
   figures.last.quality = "as requested";
   figures.removed_mm3[1] = 4.0;
+  figures.removed_mm3[4] = 0.5;
+  figures.times = {31.0, 12.0};
+  figures.warnings = {{"cutting dry", 3}, {"neighbour tooth touched", 1}};
   figures.recording = RecordingSummary{12000, 3, std::nullopt, "s.molar.new"};
-  const std::string text = summaryText(figures);
-  for (const char* line : {"patient          block of bone\n", "bur              sphere:1.5 mm\n",
-                           "duration         12.0 s\n", "removed          4.0 mm³\n", "quality: as requested\n",
-                           "recorded         12000 ticks, 3 lost, in s.molar.new\n"})
-    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  return figures;
+}
+
+TEST(RehearsalSummary, AnswersTheSurgeonFirst) {
+  RehearsalFigures figures = afterWork();
+  figures.for_engineers = false;
+  EXPECT_EQ(summaryText(figures),
+            "Rehearsal\n"
+            "  patient          block of bone\n"
+            "  bur              round 3.0 mm, ISO 030\n"
+            "  time             1:12, cutting 0:31, 0:12 of it without water\n"
+            "  bone removed     4.0 mm³ (cortical bone 4.0)\n"
+            "  tooth removed    0.5 mm³ (enamel 0.5)\n"
+            "  warnings         cutting dry 3 times, neighbour tooth touched once\n"
+            "  recorded in      s.molar.new, 3 ticks lost\n");
+}
+
+TEST(RehearsalSummary, EngineersFiguresFollowAfterALine) {
+  RehearsalFigures figures = afterWork();
+  figures.last.servo.watchdog_trips = 2;
+  const std::string text = summaryText(figures), engineers = text.substr(text.find("\n\n"));
+  for (const char* line : {"duration         72.0 s\n", "removed          4.5 mm³\n", "quality: as requested\n",
+                           "recorded         12000 ticks, 3 lost\n", "switched the motors off 2 times"})
+    EXPECT_NE(engineers.find(line), std::string::npos) << line << text;
+  figures.has_motors = false;
+  EXPECT_EQ(summaryText(figures).find("motors"), std::string::npos) << "there are none";
+}
+
+TEST(WorkTimes, CountCuttingAndCuttingWithoutWater) {
+  WorkTimes times;
+  haptics::Command command;
+  haptics::Tick tick;
+  for (int n = 1; n <= 100; ++n) {
+    tick.t_s = 0.1 * n;
+    tick.drilling = n > 20;
+    tick.depth_mm = n > 40 ? 0.1 : 0.0;
+    command.irrigating = n <= 70;
+    times.add(tick, command);
+  }
+  EXPECT_NEAR(times.cutting_s, 6.0, 1e-9);
+  EXPECT_NEAR(times.dry_s, 3.0, 1e-9);
 }
 
 }  // namespace
