@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   app::CommandLine molar(
       "Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one.",
       std::string(app::programBuild()));
+  molar.example("molar rehearse", "the mouse is the handpiece; keys are listed by molar rehearse --help");
   for (const auto add : app::kCommands) add(molar);
   const int status = molar.run(argc, argv);
   if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && !isReaderGone())

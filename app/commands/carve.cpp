@@ -164,7 +164,8 @@ int carve(const CarveOptions& options) {
 
 void addCarve(CommandLine& molar) {
   auto options = std::make_shared<CarveOptions>();
-  CommandLine& command = molar.command("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON");
+  CommandLine& command =
+      molar.command("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON").forEngineers();
   options->volume.addTo(command);
   command.option("--tool", options->tool, headHelp()).required();
   command.option("--erosion", options->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();

@@ -23,12 +23,13 @@ void addMetrics(CommandLine& molar);
 void addExport(CommandLine& molar);
 void addLaws(CommandLine& molar);
 void addPsychophysics(CommandLine& molar);
+void addHelp(CommandLine& molar);
 void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse, addImport,    addInspect,       addFeel,   addCarve,     addSee,
-                                   addDisplay,  addCalibrate, addDevices,       addDoctor, addReplay,    addMetrics,
-                                   addExport,   addLaws,      addPsychophysics, addManual, addCompletion};
+inline constexpr auto kCommands = {addRehearse, addImport,    addInspect,       addFeel,   addCarve,  addSee,
+                                   addDisplay,  addCalibrate, addDevices,       addDoctor, addReplay, addMetrics,
+                                   addExport,   addLaws,      addPsychophysics, addHelp,   addManual, addCompletion};
 
 }  // namespace app

@@ -139,7 +139,7 @@ void addDevices(CommandLine& molar) {
   auto json = std::make_shared<bool>(false);
   auto o = std::make_shared<CheckOptions>();
   o->falcon_scale = defaultFalconScaleFile();
-  CommandLine& devices = molar.command("devices", "What is plugged in and what drives it; proving a unit");
+  CommandLine& devices = molar.command("devices", "What is plugged in and what drives it; test of a unit");
   devices.flag("--json", *json, "For programs");
   CommandLine& command = devices.command("check", "Test a unit, ten minutes with a kitchen balance: a report");
   command.option("ADDRESS", o->address, "As molar devices lists it, or simulated:omni [the first real one]");

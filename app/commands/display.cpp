@@ -141,6 +141,7 @@ int display(const DisplayOptions& options) {
     PatternShow(options, rig).run(options.seconds);
     return 0;
   }
+  refuseUnlessPng("--out", options.out);
   if (render::outputCount(options.display.mode()) > 1)
     throw UsageError("--out: " + std::string(render::nameOf(options.display.mode())) +
                      " has two outputs, choose a display with one");

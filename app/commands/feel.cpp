@@ -121,7 +121,8 @@ int feel(const FeelOptions& options) {
 
 void addFeel(CommandLine& molar) {
   auto options = std::make_shared<FeelOptions>();
-  CommandLine& command = molar.command("feel", "A force law on given poses, no device: CSV of forces, frame P");
+  CommandLine& command =
+      molar.command("feel", "A force law on given poses, no device: CSV of forces, frame P").forEngineers();
   options->volume.addTo(command);
   command.option("--tool", options->tool, headHelp()).required();
   command.option("--shaft", options->shaft, kShaftHelp).showsDefault();

@@ -16,6 +16,8 @@
 #include "app/report/chart.h"
 #include "app/report/law_curves.h"
 #include "app/text/command_line.h"
+#include "app/text/list.h"
+#include "app/text/message.h"
 #include "assets/toml_reader.h"
 #include "calibration/output_file.h"
 #include "haptics/contact/law_parameters.h"
@@ -102,6 +104,7 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
   BurIndentation press;
   press.head = headFrom(options.tool);
   press.deepest_mm = press.head.radius_mm;
+  refuseUnlessPng("--plot", options.plot);
   calibration::OutputFile file(options.plot, options.force);
 
   Chart chart;
@@ -145,6 +148,7 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
   stiffness.y_range = glm::dvec2(softest < -0.05 * top ? std::max(softest, -0.5 * top) : 0.0, top);
   chart.panels = {force, stiffness};
   drawChart(chart, file);
+  printMessage("figure of " + joined(laws, [](const haptics::LawName* law) { return law->key; }) + ": " + options.plot);
 }
 
 int laws(const LawsOptions& options) {
@@ -164,7 +168,8 @@ int laws(const LawsOptions& options) {
 
 void addLaws(CommandLine& molar) {
   auto o = std::make_shared<LawsOptions>();
-  CommandLine& command = molar.command("laws", "Force laws: parameters, units, ranges, sources; F(h) and K(h)");
+  CommandLine& command =
+      molar.command("laws", "Force laws: parameters, units, ranges, sources; F(h) and K(h)").forEngineers();
   command.option("--law", o->laws, "Which, or all").separatedByCommas().showsDefault();
   Option plot = command.option("--plot", o->plot, "Draw force and stiffness over depth, .png").valueNamed("FILE");
   command.flag("--json", o->json, "For programs").excludes(plot);

@@ -139,7 +139,7 @@ int see(const SeeOptions& options) {
 
 void addSee(CommandLine& molar) {
   auto options = std::make_shared<SeeOptions>();
-  CommandLine& command = molar.command("see", "One image without a window: PNG, depths, matrices");
+  CommandLine& command = molar.command("see", "One image without a window: PNG, depths, matrices").forEngineers();
   options->volume.addTo(command);
   Option patient = command.option("--patient", options->patient, "Patient folder, instead of --volume");
   patient.valueNamed("DIR");

@@ -63,4 +63,13 @@ std::optional<haptics::PedalChoice> pedalFrom(const std::string& text) {
   return choice;
 }
 
+void refuseUnlessPlugged(const haptics::PedalChoice& choice) {
+  if (choice.wanted == "auto" || !haptics::pedalsMeant(choice.wanted).empty()) return;
+  std::string present;
+  for (const haptics::FoundPedal& pedal : haptics::findPedals())
+    present += (present.empty() ? "" : ", ") + pedal.traits.name;
+  refuse(choice.wanted, present.empty() ? "no pedal is plugged in, plug it in or leave --pedal out"
+                                        : "no such pedal is plugged in, choose one of " + present);
+}
+
 }  // namespace app

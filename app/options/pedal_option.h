@@ -17,5 +17,7 @@ inline constexpr const char* kPedalHelp =
 
 /// None for "none". Throws UsageError for an unknown action or switch or an invalid file.
 std::optional<haptics::PedalChoice> pedalFrom(const std::string& text);
+/// Throws UsageError if a pedal that was named is not there, with those that are. "auto" waits for one.
+void refuseUnlessPlugged(const haptics::PedalChoice& choice);
 
 }  // namespace app

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "app/text/list.h"
 #include "app/text/parse_number.h"
+#include "app/text/suggestion.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -18,6 +20,17 @@ SettingMap::const_iterator settingOf(const std::string& key, const SettingMap& s
   const auto found = settings.find(key);
   if (found != settings.end() || key.empty()) return found;
   return std::find_if(settings.begin(), settings.end(), [&](const auto& one) { return formerKey(one.first) == key; });
+}
+
+/// The closest key, or the places that list them: there are some fifty.
+std::string unknownSetting(const std::string& text, const SettingMap& settings) {
+  std::vector<std::string> keys;
+  for (const auto& [key, setting] : settings) keys.push_back(key);
+  constexpr std::size_t kFew = 8;
+  const std::string suggestion = didYouMean(text.substr(0, text.find('=')), keys);
+  return "--set " + text + ": no such setting" + (suggestion.empty() ? "," : suggestion) + " use key=value" +
+         (keys.size() <= kFew ? " with one of " + joined(keys)
+                              : "; molar laws lists the keys of force laws, app/options/feel.toml all");
 }
 
 }  // namespace
@@ -33,9 +46,7 @@ void applySettings(const std::vector<std::string>& texts, const SettingMap& sett
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     const auto found = settingOf(text.substr(0, equals), settings);
-    if (equals == std::string::npos || found == settings.end())
-      throw UsageError("--set " + text + ": no such setting, use key=value with one of " +
-                       joined(settings, [](const auto& one) { return one.first; }));
+    if (equals == std::string::npos || found == settings.end()) throw UsageError(unknownSetting(text, settings));
     const std::string& key = found->first;
     if (!seen.insert(key).second) throw UsageError("--set " + key + ": given twice, give it once");
     const auto value = parseNumber<double>(std::string_view(text).substr(equals + 1));
@@ -46,6 +57,11 @@ void applySettings(const std::vector<std::string>& texts, const SettingMap& sett
                                    setting.high, setting.unit.empty() ? "" : " ", setting.unit));
     *setting.value = *value;
   }
+}
+
+void refuseUnlessPng(const std::string& option, const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".png")
+    throw UsageError(option + " " + path + ": images are PNG, end the name in .png");
 }
 
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {

@@ -24,6 +24,9 @@ std::string_view formerKey(std::string_view key);
 /// Applies every `key=value`; unknown keys, duplicates and values out of range are refused.
 void applySettings(const std::vector<std::string>& texts, const SettingMap& settings);
 
+/// Refuses an image of another format.
+void refuseUnlessPng(const std::string& option, const std::string& path);
+
 /// Refuses an output that is one of the inputs: --force must not overwrite what is being read.
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs);
 

@@ -1,5 +1,6 @@
 #include "app/options/tool_text.h"
 
+#include <optional>
 #include <vector>
 
 #include <fmt/core.h>
@@ -17,6 +18,7 @@ using haptics::ShapeKind;
 struct Measure {
   const char* name;
   double min_mm, max_mm;
+  double factor = 1.0;  ///< to the radius: 0.5 of a diameter
 };
 
 struct Form {
@@ -24,12 +26,24 @@ struct Form {
   ShapeKind kind;
   const char* pattern;
   std::vector<Measure> measures;
+
+  /// By diameter, as dentists do; sessions and settings files name the shape and its radius.
+  bool isOrdered() const { return measures.front().factor != 1.0; }
 };
 
-const Measure kRadius{"radius", 0.1, 20.0};
+const Measure kRadius{"radius", 0.1, 20.0}, kDiameter{"diameter", 0.2, 40.0, 0.5};
+
+/// "iso023" is a largest diameter of 2.3 mm: ISO 6360-1 gives it in tenths of a millimetre, three digits.
+std::optional<double> isoDiameter_mm(std::string_view text) {
+  if (!text.starts_with("iso") || text.size() != 6) return {};
+  const auto tenths = parseNumber<int>(text.substr(3));
+  return tenths && *tenths > 0 ? std::optional(*tenths / 10.0) : std::nullopt;
+}
 
 const std::vector<Form>& forms() {
   static const std::vector<Form> kKnown = {
+      {"round", ShapeKind::sphere, "round:D", {kDiameter}},
+      {"fissure", ShapeKind::cylinder, "fissure:D,L", {kDiameter, {"length", 0.1, 40.0}}},
       {"sphere", ShapeKind::sphere, "sphere:R", {kRadius}},
       {"capsule", ShapeKind::capsule, "capsule:R,L", {kRadius, {"length", 0.0, 40.0}}},
       {"cylinder", ShapeKind::cylinder, "cylinder:R,L", {kRadius, {"length", 0.1, 40.0}}},
@@ -45,12 +59,13 @@ std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>
   for (const std::string_view part : split(text)) {
     if (values.size() == measures.size()) throw UsageError(option + ": there are too many numbers" + give);
     const Measure& measure = measures[values.size()];
-    const auto value = parseNumber<double>(part);
+    const auto value =
+        measure.factor != 1.0 && part.starts_with("iso") ? isoDiameter_mm(part) : parseNumber<double>(part);
     if (!value) throw UsageError(option + ": the " + measure.name + " is not a number" + give);
     if (*value < measure.min_mm || *value > measure.max_mm)
       throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", option, measure.name, measure.min_mm,
                                    measure.max_mm));
-    values.push_back(*value);
+    values.push_back(measure.factor * *value);
   }
   if (values.size() < measures.size())
     throw UsageError(option + ": the " + measures[values.size()].name + " is missing" + give);
@@ -69,7 +84,8 @@ std::string headForms() {
 
 std::map<ShapeKind, std::string_view> headKinds() {
   std::map<ShapeKind, std::string_view> kinds;
-  for (const Form& form : forms()) kinds[form.kind] = form.key;
+  for (const Form& form : forms())
+    if (!form.isOrdered()) kinds[form.kind] = form.key;
   return kinds;
 }
 
@@ -94,7 +110,7 @@ haptics::Shaft shaftFrom(const std::string& text) {
 
 std::string textOf(const BurShape& head) {
   for (const Form& form : forms())
-    if (form.kind == head.kind)
+    if (form.kind == head.kind && !form.isOrdered())
       return fmt::format("{}:{}", form.key, head.radius_mm) +
              (form.measures.size() > 1 ? fmt::format(",{}", head.length_mm) : "");
   return "unknown";

@@ -1,5 +1,7 @@
-// Tools as text: heads `sphere:R`, `capsule:R,L` (L the cylindrical part), `cylinder:R,L`, `cone:R,L` (R at the base, L
-// high) and shafts `R,L`, all in mm. Start-up only. Throws UsageError with the accepted forms.
+// Tools as text, as a dentist orders them: `round:D`, `fissure:D,L` (D the diameter in mm or an ISO 6360 size as iso023
+// = 2.3 mm, L the length of the head); or by shape: heads `sphere:R`, `capsule:R,L` (L the cylindrical part),
+// `cylinder:R,L`, `cone:R,L` (R at the base, L high) and shafts `R,L`, all in mm. Start-up only. Throws UsageError with
+// the accepted forms.
 #pragma once
 
 #include <map>
@@ -12,9 +14,11 @@ namespace app {
 
 inline constexpr const char* kShaftHelp = "Shaft above the head, felt and never cutting: R,L (mm) or none";
 
-/// "sphere:R, capsule:R,L, … or cone:R,L"
+/// "round:D, fissure:D,L, sphere:R, … or cone:R,L"
 std::string headForms();
-inline std::string headHelp() { return "Cutting head: " + headForms() + " (mm)"; }
+inline std::string headHelp() {
+  return "Cutting head: " + headForms() + "; D diameter in mm or ISO size (iso023 is 2.3 mm), R radius, L length, mm";
+}
 
 /// "sphere", "capsule", …
 std::map<haptics::ShapeKind, std::string_view> headKinds();

@@ -1,4 +1,4 @@
-// Commands and options as data, from which manual pages and shell completion are generated.
+// Commands and options as data, from which help, manual pages and shell completion are generated.
 #pragma once
 
 #include <string>
@@ -8,7 +8,9 @@ namespace app {
 
 struct OptionHelp {
   std::string names;          ///< "--out", "-h,--help", or the name of a positional argument
-  std::string value;          ///< "FILE", "UINT"; empty: no value
+  std::string value;          ///< "FILE", "NUMBER"; empty: no value
+  std::string range;          ///< "0.1 to 86400"; empty: any
+  std::string group;          ///< title in the help
   std::string default_value;  ///< empty: none, or described in `about`
   std::string about;
   std::vector<std::string> choices;  ///< empty: any
@@ -16,8 +18,14 @@ struct OptionHelp {
   bool is_positional = false;
 };
 
+struct CommandExample {
+  std::string line, about;
+};
+
 struct CommandHelp {
   std::string name, about, footer;
+  std::string group;  ///< title in the program's help
+  std::vector<CommandExample> examples;
   std::vector<OptionHelp> options;
   std::vector<CommandHelp> commands;
 };

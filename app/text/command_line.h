@@ -58,6 +58,12 @@ class CommandLine {
   /// Lives as long as this one.
   CommandLine& command(const std::string& name, const std::string& about);
   void requireCommand();
+  /// Listed apart, after the commands for surgeons and technicians.
+  CommandLine& forEngineers();
+  /// Title in the help over the options that are added from here on.
+  void optionGroup(const std::string& title) { option_group_ = title; }
+  /// At the top of the help.
+  void example(const std::string& line, const std::string& about) { examples_.push_back({line, about}); }
 
   /// `value` must outlive run() and is set if the option is given. Text, number or list, also as std::optional.
   template <class Value>
@@ -68,23 +74,31 @@ class CommandLine {
   /// Below the options.
   void footer(const std::string& text);
 
-  /// Help of all commands and options added so far.
+  /// Help of all commands and options added so far, as data.
   CommandHelp help() const;
 
   /// `action` returns the exit status.
   void does(std::function<int()> action) { action_ = std::move(action); }
 
-  /// Runs the chosen command, or prints help or version. Throws UsageError for invalid options, and what the action
-  /// throws.
+  /// Runs the chosen command, or prints help (also without any argument) or version. Throws UsageError for invalid
+  /// options, with the closest name for a mistyped one, and what the action throws.
   int run(int argc, const char* const* argv);
 
  private:
   explicit CommandLine(CLI::App& app);
 
+  Option grouped(CLI::Option* option) const;
+  /// The innermost command that was given, and its name: "molar calibrate fit".
+  const CommandLine& chosen(std::string& name) const;
+  void refuseUnknownCommand(int argc, const char* const* argv) const;
+  [[noreturn]] void refuseParse(const std::string& what, const std::vector<std::string>& unexpected) const;
+
   std::unique_ptr<CLI::App> program_;  ///< of the program itself
   CLI::App& app_;
   std::vector<std::unique_ptr<CommandLine>> commands_;
   std::function<int()> action_;
+  std::string group_ = "Commands", option_group_ = "Options";
+  std::vector<CommandExample> examples_;
 };
 
 }  // namespace app

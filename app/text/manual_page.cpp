@@ -65,6 +65,7 @@ std::string entryOf(const OptionHelp& option) {
   if (!option.is_positional && !option.value.empty()) head += " " + italic(option.value);
   std::string about = option.about;
   if (!option.choices.empty()) about += (about.empty() ? "One of " : ". One of ") + joined(option.choices);
+  if (!option.range.empty()) about += ", " + option.range;
   if (!option.default_value.empty()) about += " [" + option.default_value + "]";
   return entry(head, about);
 }
@@ -82,6 +83,8 @@ std::string manualPage(const std::string& name, const CommandHelp& command, cons
     for (const CommandHelp& each : command.commands)
       page += entry("\\fB" + escaped(dashed(name + " " + each.name)) + "\\fR(1)", each.about);
   }
+  if (!command.examples.empty()) page += heading("EXAMPLES");
+  for (const CommandExample& example : command.examples) page += entry(bold(example.line), example.about);
   page += heading("OPTIONS");
   for (const bool by_place : {true, false})
     for (const OptionHelp& option : command.options)

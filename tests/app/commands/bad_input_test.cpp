@@ -18,14 +18,24 @@ class BadInput : public ProgramTest {
 };
 
 TEST_F(BadInput, CommandLineIsOneLine) {
-  expectRefusal("");
   expectRefusal("nonsense");
+  expectRefusal("reherse", "did you mean rehearse?");
+  expectRefusal("rehearse --recrod s.molar", "did you mean --record?");
+  expectRefusal("laws --plot a.jpg", "end the name in .png");
+  expectRefusal("rehearse --pedal nowhere", "plugged in");
   expectRefusal("feel");
   expectRefusal("feel --nonsense 3");
   expectRefusal("rehearse --display hologram --headless");
   expectRefusal("rehearse --headless", "--device scripted");
   expectRefusal("rehearse --seconds -1 --headless --device scripted");
   expectRefusal("see --out " + at("a.png"), "exactly one");
+}
+
+TEST_F(BadInput, TheProgramAloneHelps) {
+  const ProgramOutput said = molar("");
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("Start with\n  molar rehearse\n"), std::string::npos);
+  EXPECT_NE(molar("help calibrate fit").out.find("--held-out FILE"), std::string::npos);
 }
 
 TEST_F(BadInput, FilesAreNamed) {
@@ -52,7 +62,7 @@ TEST_F(BadInput, FilesAreNamed) {
 
 TEST_F(BadInput, OptionsHaveRanges) {
   expectRefusal(feel("v.nrrd", "p.csv", "--set stiffness_N_per_mm=nan"), "stiffness_N_per_mm");
-  expectRefusal(feel("v.nrrd", "p.csv", "--set colour=1"), "stiffness_N_per_mm");
+  expectRefusal(feel("v.nrrd", "p.csv", "--set colour=1"), "molar laws lists");
   expectRefusal(feel("v.nrrd", "p.csv", "--law spring"));
   expectRefusal(feel("v.nrrd", "p.csv", "--served --set stiffness_N_per_mm=50"), "stiffness");
   expectRefusal("rehearse --headless --device scripted --tool sphere:10", "bur radius");

@@ -38,7 +38,7 @@ TEST_F(LawsCommand, DrawsForceAndStiffness) {
 TEST_F(LawsCommand, RefusesUnknownNames) {
   expectRefusal("laws --law spring", "agus");
   expectRefusal("laws --plot " + at("a.png") + " --tool hammer:1", "hammer");
-  expectRefusal("laws --plot " + at("a.png") + " --law agus --set colour=1", "stiffness_N_per_mm");
+  expectRefusal("laws --plot " + at("a.png") + " --law agus --set colour=1", "no such setting");
   EXPECT_EQ(fileCount(), 0u);
 }
 

@@ -19,16 +19,27 @@ TEST(ToolText, ReadsEveryHead) {
   EXPECT_EQ(headFrom("cone:1,3"), (BurShape{ShapeKind::cone, 1.0, 3.0}));
 }
 
+TEST(ToolText, ReadsBursAsDentistsOrderThem) {
+  EXPECT_EQ(headFrom("round:3.0"), headFrom("sphere:1.5"));
+  EXPECT_EQ(headFrom("round:iso023"), headFrom("sphere:1.15"));
+  EXPECT_EQ(headFrom("fissure:1.6,6"), headFrom("cylinder:0.8,6"));
+  EXPECT_EQ(headFrom("fissure:iso012,4"), headFrom("cylinder:0.6,4"));
+  for (const char* bad :
+       {"round:iso23", "round:iso000", "round:iso", "sphere:iso023", "fissure:1.6", "fissure:1,iso023"})
+    EXPECT_THROW(headFrom(bad), UsageError) << bad;
+}
+
 TEST(ToolText, WritesTheFormItReads) {
   for (const char* text : {"sphere:2", "capsule:0.8,4", "cylinder:0.6,4.5", "cone:1,3"})
     EXPECT_EQ(textOf(headFrom(text)), text);
 }
 
 TEST(ToolText, RefusesInvalidHeads) {
-  for (const char* bad : {"",           "sphere",      "sphere:",      "sphere:0",      "sphere:-1",      "sphere:nan",
-                          "sphere:99",  "sphere:2,3",  "sphere:2,",    "cone:1",        "cone:1,",        "cone:1,0",
-                          "cone:1,2,3", "cylinder:,4", "cylinder:1;4", "capsule:1,-2",  "capsule:1,inf",  "disc:1,2",
-                          "Sphere:1",   "sphere: 1",   "capsule:1, 2", "cylinder:1,41", "cylinder:0.05,4"})
+  for (const char* bad : {"",           "sphere",      "sphere:",      "sphere:0",      "sphere:-1",       "sphere:nan",
+                          "sphere:99",  "sphere:2,3",  "sphere:2,",    "cone:1",        "cone:1,",         "cone:1,0",
+                          "cone:1,2,3", "cylinder:,4", "cylinder:1;4", "capsule:1,-2",  "capsule:1,inf",   "disc:1,2",
+                          "Sphere:1",   "sphere: 1",   "capsule:1, 2", "cylinder:1,41", "cylinder:0.05,4", "round:0.1",
+                          "round:41"})
     EXPECT_THROW(headFrom(bad), UsageError) << bad;
 }
 

@@ -29,10 +29,10 @@ std::string offered(const std::string& words) {
 TEST(ShellCompletion, OffersCommandsThenOptionsThenChoices) {
   EXPECT_EQ(offered("surgery c"), "cut close\n");
   EXPECT_EQ(offered("surgery \"\""), "cut close -h --help --version\n");
-  EXPECT_EQ(offered("surgery cut --"), "--help --out --mode --quick\n");
+  EXPECT_EQ(offered("surgery cut --"), "--out --mode --quick --help\n");
   EXPECT_EQ(offered("surgery cut somebody --mode d"), "dvr\n");
   EXPECT_EQ(offered("surgery close \"\""), "stitch -h --help\n");
-  EXPECT_EQ(offered("surgery close stitch -"), "-h --help --most\n");
+  EXPECT_EQ(offered("surgery close stitch -"), "--most -h --help\n");
 }
 
 TEST(ShellCompletion, LeavesFilesToTheShell) {
