@@ -7,11 +7,15 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "app/device/trip_reporter.h"
+#include "app/options/bur_name.h"
 #include "app/options/picture_option.h"
+#include "app/report/markup.h"
+#include "app/view/head_up_line.h"
 #include "assets/tissue.h"
 #include "haptics/contact/law_parameters.h"
 #include "render/quality_ladder.h"
@@ -94,6 +98,7 @@ void drawState(const RehearsalStatus& s) {
   else
     textIn(text_font, kQuiet, "not recorded");
   if (!s.to_instructor.empty()) textIn(text_font, kAccent, s.to_instructor);
+  if (!s.said.empty()) textIn(text_font, kInk, s.said);
   if (haptics::has(s.tick.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force))
     textIn(text_font, kBad, "pose or device fault: the force goes to zero");
 }
@@ -101,11 +106,23 @@ void drawState(const RehearsalStatus& s) {
 void drawTool(const RehearsalStatus& s) {
   heading("Tool");
   const double force_N = glm::length(s.tick.commanded_force_P_N.xyz), peak_N = s.command.safety.peak_force_N;
-  row("Bur", s.bur + " mm");
+  row("Bur", burName(s.command.tool.head));
+  row("Irrigation", s.command.irrigating ? "on" : "off", s.command.irrigating ? kInk : kWarn);
   row("Force on the hand", fmt::format("{:.2f} of {:.1f} N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
   bar(force_N / peak_N, force_N > 0.95 * peak_N ? kWarn : kAccent);
   row("Depth in the surface", fmt::format("{:.2f} mm", s.tick.depth_mm));
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
+  const auto& removed_mm3 = s.tick.removed_total_mm3;
+  row("Removed", fixedText(std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0), 1) + " mm³");
+  const std::string dry = s.dry_s >= 1.0 ? ", " + headUpTimeText(s.dry_s) + " dry" : "";
+  row("Cutting", headUpTimeText(s.cutting_s) + dry, dry.empty() ? kInk : kWarn);
+}
+
+/// "stiffness_N_per_mm" as "stiffness": the unit stands behind the value.
+std::string nameWithoutUnit(std::string_view key) {
+  std::string name(key.substr(0, key.find("_N")));
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 void drawLaw(const RehearsalStatus& s, Requests& requests) {
@@ -126,7 +143,7 @@ void drawLaw(const RehearsalStatus& s, Requests& requests) {
     for (const haptics::LawParameter& p : haptics::lawParameters()) {
       if (p.law && *p.law != s.command.law.kind) continue;
       if ((p.unit.empty() && p.key.starts_with("stiffness_")) != of_tissues) continue;
-      row(std::string(p.key).c_str(), fmt::format("{:.4g} {}", p.of(s.command.law), p.unit));
+      row(nameWithoutUnit(p.key).c_str(), fmt::format("{:.4g} {}", p.of(s.command.law), p.unit));
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(p.meaning).c_str());
     }
   };

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "app/instructor/instructor_panel.h"
+#include "app/instructor/window_place.h"
 #include "render/display/eye_projection.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_image.h"
@@ -21,10 +22,12 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kInterval = std::chrono::milliseconds(100);
 constexpr int kLeastPanoramic_px = 60;  ///< a lower one shows nothing
 
-render::Window::Options optionsFor(const render::Window& surgeons, std::optional<int> monitor) {
+render::Window::Options optionsFor(const render::Window& surgeons, std::optional<int> monitor,
+                                   const std::optional<render::DesktopBox>& place) {
   render::Window::Options options;
   options.title = "Molar, instructor";
-  options.size_px = {1360, 900};
+  options.size_px = place ? place->size_px : kUsualInstructor_px;
+  if (place) options.at_px = place->at_px;
   options.monitor = monitor;
   options.wait_for_refresh = false;
   options.focused = false;
@@ -32,15 +35,25 @@ render::Window::Options optionsFor(const render::Window& surgeons, std::optional
   return options;
 }
 
+/// Its middle can be seen.
+bool isOnAMonitor(const render::DesktopBox& place) {
+  const glm::ivec2 middle = place.at_px + place.size_px / 2;
+  return std::ranges::any_of(render::monitors(), [&](const render::Monitor& one) {
+    return glm::all(glm::greaterThanEqual(middle, one.at_px)) && glm::all(glm::lessThan(middle, one.at_px + one.px));
+  });
+}
+
 }  // namespace
 
 /// The window with its panel, while it is open.
 struct InstructorWindow::Open {
-  Open(const render::Window& surgeons, std::optional<int> monitor) : window(optionsFor(surgeons, monitor)) {
+  Open(const render::Window& surgeons, std::optional<int> monitor, const std::optional<render::DesktopBox>& place)
+      : window(optionsFor(surgeons, monitor, place)) {
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
       throw render::GpuError("instructor's window: OpenGL cannot draw its panel, continue without --instructor");
   }
   ~Open() {
+    rememberPlace(instructorWindowFile(), window.desktopBox());
     window.makeCurrent();
     ImGui_ImplOpenGL3_Shutdown();
   }
@@ -98,8 +111,16 @@ void InstructorWindow::open() {
   if (display_.window() == nullptr) return;
   const int next = after_monitor_ + (display_.mode() == render::DisplayMode::two_windows ? 2 : 1);
   const bool exists = next < static_cast<int>(render::monitors().size());
+  const std::optional<int> monitor = exists ? std::optional(next) : std::nullopt;
+  // Where it was left, unless that is over the picture; else on the next monitor, or beside the picture.
+  const render::DesktopBox picture = display_.window()->desktopBox();
+  std::optional<render::DesktopBox> place = rememberedPlace(instructorWindowFile());
+  if (place && (!areApart(*place, picture) || !isOnAMonitor(*place))) place.reset();
+  if (!place && !monitor) place = placeBeside(picture, display_.window()->panelBox());
+  if (!place && !monitor)
+    report_("instructor's window: there is no room beside the picture, use a second monitor or a smaller --size");
   try {
-    open_ = std::make_unique<Open>(*display_.window(), exists ? std::optional(next) : std::nullopt);
+    open_ = std::make_unique<Open>(*display_.window(), monitor, place);
   } catch (const render::GpuError& error) {
     report_(error.what());
   }

@@ -19,7 +19,6 @@ enum class RecordingState { none, running, ended_early };
 
 struct RehearsalStatus {
   std::string patient_title;
-  std::string bur;      ///< as in --tool
   std::string display;  ///< as in --display
   haptics::Tick tick;   ///< the newest
   haptics::Command command;
@@ -38,6 +37,8 @@ struct RehearsalStatus {
   int quality_step = 0;
   bool quality_is_held = false;  ///< chosen by the user
   render::Layers layers;
+  double cutting_s = 0.0, dry_s = 0.0;  ///< time with the bur in bone or tooth, and that without water
+  std::string said;                     ///< to the surgeon, last
   RecordingState recording = RecordingState::none;
   std::string recording_path;
   std::string to_surgeon, to_instructor;  ///< messages of a procedure

@@ -21,7 +21,12 @@ class HeadUp {
   HeadUp(bool line_shown, bool with_laws) : line_shown_(line_shown), with_laws_(with_laws) {}
 
   /// Shown for two seconds from the next frame, a long line for the time that reading it takes.
-  void say(const std::string& line) { said_ = {line, {}}; }
+  void say(const std::string& line) {
+    said_ = {line, {}};
+    last_said_ = line;
+  }
+  /// Also after it is gone from the picture.
+  const std::string& lastSaid() const { return last_said_; }
   /// Executes the controls of the picture's text: line and keys. False: another control.
   bool execute(const ControlRequest& request);
   /// True if the sheet of keys was open: Esc closes it and does nothing else.
@@ -44,6 +49,7 @@ class HeadUp {
   };
   bool line_shown_, with_laws_, keys_shown_ = false;
   Said said_;
+  std::string last_said_;
   Warnings warnings_;
   WorkTimes times_;
 };

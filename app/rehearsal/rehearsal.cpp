@@ -85,7 +85,7 @@ class Rehearsal {
  private:
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
-  StatusReporter::FrameState state() const { return {newest_, active_command_.inForce(), frame_.layers}; }
+  StatusReporter::FrameState state() const { return {newest_, active_command_.inForce(), frame_.layers, head_up_}; }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
   double showFirstFrame() {

@@ -29,10 +29,12 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
     s.recording = RecordingState::running;
     s.recording_path = plan_.recording->path;
   }
-  s.bur = textOf(state.in_force.tool.head);
   s.tick = state.newest;
   s.command = state.in_force;
   s.layers = state.layers;
+  s.cutting_s = state.head_up.times().cutting_s;
+  s.dry_s = state.head_up.times().dry_s;
+  s.said = state.head_up.lastSaid();
   if (plan_.procedure) {
     const ProcedureMessages messages = plan_.procedure->messages();
     s.to_surgeon = messages.to_surgeon;

@@ -8,6 +8,7 @@
 #include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/event_log.h"
+#include "app/rehearsal/head_up.h"
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/rehearsal/rehearsal_summary.h"
@@ -28,6 +29,7 @@ class StatusReporter {
     const haptics::Tick& newest;
     const haptics::Command& in_force;
     const render::Layers& layers;
+    const HeadUp& head_up;
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

@@ -112,6 +112,7 @@ Window::Impl::Impl(const Options& options) : owns_library(options.share_with == 
     glfwGetMonitorPos(monitor, &corner.x, &corner.y);
     glfwSetWindowPos(window, corner.x, corner.y);
   }
+  if (!options.full_screen && options.at_px) glfwSetWindowPos(window, options.at_px->x, options.at_px->y);
   glfwMakeContextCurrent(window);
   glfwSwapInterval(options.wait_for_refresh ? 1 : 0);
   listen();
@@ -192,6 +193,20 @@ glm::ivec2 Window::framebufferSize_px() const {
   glm::ivec2 px{0};
   glfwGetFramebufferSize(impl_->window, &px.x, &px.y);
   return px;
+}
+
+DesktopBox Window::desktopBox() const {
+  DesktopBox box;
+  glfwGetWindowPos(impl_->window, &box.at_px.x, &box.at_px.y);
+  glfwGetWindowSize(impl_->window, &box.size_px.x, &box.size_px.y);
+  return box;
+}
+
+DesktopBox Window::panelBox() const {
+  DesktopBox box;
+  GLFWmonitor* const panel = impl_->panel();
+  if (panel != nullptr) glfwGetMonitorWorkarea(panel, &box.at_px.x, &box.at_px.y, &box.size_px.x, &box.size_px.y);
+  return box;
 }
 
 glm::ivec2 Window::positionOnPanel_px() const {

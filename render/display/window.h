@@ -65,6 +65,12 @@ struct CloseRequested {};
 
 using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, CloseRequested>;
 
+/// On the desktop, px from its top left.
+struct DesktopBox {
+  glm::ivec2 at_px{0}, size_px{0};
+  friend bool operator==(const DesktopBox&, const DesktopBox&) = default;
+};
+
 struct Monitor {
   std::string name;
   glm::ivec2 at_px{0}, px{0};  ///< on the desktop, from its top left
@@ -80,8 +86,9 @@ class Window {
     std::string title = "Molar";
     glm::ivec2 size_px{1280, 800};
     bool full_screen = false;
-    std::optional<int> monitor = {};  ///< index of monitors(); full screen without it: the primary one
-    bool wait_for_refresh = true;     ///< vsync
+    std::optional<glm::ivec2> at_px = {};  ///< of the desktop; none: the system's choice
+    std::optional<int> monitor = {};       ///< index of monitors(); full screen without it: the primary one
+    bool wait_for_refresh = true;          ///< vsync
     bool visible = true;
     bool focused = true;                 ///< takes the keyboard focus when it opens
     bool quad_buffer = false;            ///< left and right back buffers
@@ -102,6 +109,10 @@ class Window {
   void present();
   void setTitle(const std::string& title);
   glm::ivec2 framebufferSize_px() const;
+  /// Where it is on the desktop, without its frame.
+  DesktopBox desktopBox() const;
+  /// That of the panel that shows most of it.
+  DesktopBox panelBox() const;
   /// Top left of the framebuffer on the panel that shows most of it, px from the panel's top left.
   glm::ivec2 positionOnPanel_px() const;
   /// Refresh rate of that panel.

@@ -143,7 +143,12 @@ TEST_F(InstructorPanel, FadesTheFaceByDragging) {
 }
 
 TEST_F(InstructorPanel, ShowsEveryFigure) {
-  status_.bur = "sphere:1.5";
+  status_.command.tool.head = {haptics::ShapeKind::sphere, 1.5, 0.0};
+  status_.tick.removed_total_mm3[1] = 12.34;
+  status_.cutting_s = 75.0;
+  status_.dry_s = 8.0;
+  status_.command.irrigating = false;
+  status_.said = "irrigation off: the bur cuts dry";
   status_.device = "scripted hand";
   status_.display = "mono";
   status_.quality = "third resolution";
@@ -179,7 +184,11 @@ TEST_F(InstructorPanel, ShowsEveryFigure) {
                             "12:34",
                             "recording s.molar",
                             "trial 3, felt: A",
-                            "sphere:1.5 mm",
+                            "round 3.0 mm, ISO 030",
+                            "Irrigation off",
+                            "Removed 12.3 mm",
+                            "Cutting 1:15, 0:08 dry",
+                            "irrigation off: the bur cuts dry",
                             "1.23 of 3.3 N",
                             "0.37 mm",
                             "0.77 N/mm",
