@@ -5,7 +5,7 @@
 
 namespace app {
 
-GuidedProcedure::GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, bool robot) : run_(run) {
+GuidedProcedure::GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, bool robot) : run_(run), robot_(robot) {
   if (run.device == nullptr && !run.practice)
     throw UsageError("calibrate: no device, give one or use --device practice:D");
   if (!run.windows && (!robot || run.device != nullptr))

@@ -35,6 +35,8 @@ class GuidedProcedure {
   /// Handles window events of a page seen through `rig`.
   void takeEvents(const calibration::Rig& rig);
   std::optional<TrueStylus> trueStylus() { return source_ ? source_->seen() : std::nullopt; }
+  /// Mouse and keys hold a practice stylus.
+  bool isPractisedByHand() const { return run_.practice && run_.device == nullptr && !robot_; }
   double shownFor_s() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
 
   std::optional<Sounds> sounds_;
@@ -46,6 +48,7 @@ class GuidedProcedure {
 
  private:
   const GuidedRun& run_;
+  bool robot_;
   Clock::time_point began_ = Clock::now();
 };
 

@@ -18,6 +18,8 @@ constexpr double kLine = 13.5, kLarge = 17.0;
 constexpr double kTitleTop = -146.0, kSentenceBottom = -93.0, kMessageTop = -90.0, kFieldTop = -62.0,
                  kFieldBottom = 62.0;
 constexpr double kTiltTop = 64.0, kProgressTop = 83.0, kHelpBottom = 146.0, kHelpRow = 17.5, kHelpKey = 112.0;
+/// Practice on a desk is read from near: smaller than the rest, below it.
+constexpr double kKeysTop = 140.5, kKeysLine = 7.5;
 
 /// A page in the measures of a 24-inch screen; `u` mm of the page per mm there.
 struct Sheet {
@@ -86,14 +88,14 @@ void drawProgress(const Sheet& sheet, double share) {
   sheet.box({sheet.left(), kProgressTop}, {std::clamp(share, 0.0, 1.0) * sheet.width(), 4.0}, kWantedInk);
 }
 
-void drawHelp(const Sheet& sheet, const ButtonHelp& help) {
+void drawHelp(const Sheet& sheet, const ButtonHelp& help, double bottom) {
   struct Row {
     const char* key;
     const std::string& does;
   };
   const std::array rows{Row{"HOLD STILL", help.hold_still}, Row{"PRESS", help.short_press},
                         Row{"LONG PRESS", help.long_press}};
-  double y = kHelpBottom;
+  double y = bottom;
   for (const Row& row : rows) y -= row.does.empty() ? 0.0 : kHelpRow;
   for (const Row& row : rows) {
     if (row.does.empty()) continue;
@@ -195,7 +197,8 @@ void drawText(const ScreenPage& page, const WizardView& view) {
   const Sheet sheet{page, 0.5 * std::min(page.size_mm().x / kHalfWidth, page.size_mm().y / kHalfHeight)};
   page.fill(kGroundInk);
   drawHead(sheet, view);
-  drawHelp(sheet, view.button);
+  drawHelp(sheet, view.button, view.practice_keys.empty() ? kHelpBottom : kKeysTop - 1.0);
+  sheet.line(view.practice_keys, {0.0, kKeysTop}, sheet.width(), kKeysLine, kQuietInk, Align::centre);
   if (!view.numbers.empty()) return drawNumbers(sheet, view.numbers);
 
   drawMessage(sheet, view.message);
@@ -230,7 +233,7 @@ std::string textOf(const WizardView& view) {
   for (const std::string& fact : view.facts) add(fact);
   for (const std::string& choice : view.choices) add(choice);
   add(view.marked ? std::to_string(*view.marked) : "-");
-  add(view.button.short_press), add(view.button.long_press), add(view.button.hold_still);
+  add(view.practice_keys), add(view.button.short_press), add(view.button.long_press), add(view.button.hold_still);
   add(std::to_string(static_cast<int>(view.message.tone)) + view.message.text);
   add(std::to_string(static_cast<int>(view.figure)) + ' ' + std::to_string(view.bar_mm));
   add(view.progress ? std::to_string(*view.progress) : "-");

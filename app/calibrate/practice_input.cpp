@@ -8,7 +8,8 @@
 namespace app {
 namespace {
 
-constexpr double kNotch_mm = 1.0, kTilt_rad = calibration::radFromDegrees(3.0);
+constexpr double kNotch_mm = 1.0, kTilt_rad = calibration::radFromDegrees(3.0),
+                 kTiltPerPixel_rad = calibration::radFromDegrees(0.3);
 /// A target within this distance attracts the tip.
 constexpr double kAttraction_mm = 3.5;
 
@@ -27,6 +28,17 @@ void PracticeInput::take(const render::WindowEvent& event, const glm::dvec3& acr
   if (towards_W_.z < 0.0) towards_W_ = -towards_W_;
   if (const auto* moved = std::get_if<render::PointerMoved>(&event)) {
     if (moved->button == render::MouseButton::left) pose_.tip_W.mm += moved->by_px.x * across_W - moved->by_px.y * up_W;
+    if (moved->button == render::MouseButton::middle) {
+      middle_moved_ = true;
+      tilt(up_W_, kTiltPerPixel_rad * moved->by_px.x);
+      tilt(glm::cross(up_W_, towards_W_), kTiltPerPixel_rad * moved->by_px.y);
+    }
+  } else if (const auto* button = std::get_if<render::ButtonPressed>(&event)) {
+    if (button->button == render::MouseButton::right) pose_.button = button->down;
+    if (button->button == render::MouseButton::middle) {
+      if (!button->down && !middle_moved_) pose_.in_inkwell = !pose_.in_inkwell;
+      middle_moved_ = false;
+    }
   } else if (const auto* wheel = std::get_if<render::WheelTurned>(&event)) {
     pose_.tip_W.mm -= kNotch_mm * wheel->notches * towards_W_;
   } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {

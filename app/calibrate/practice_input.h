@@ -1,6 +1,7 @@
 // Mouse and keyboard as input for a practice stylus: drag moves the tip in the plane of the screen, the wheel moves it
-// by 1 mm in depth, arrows tilt it by 3 degrees, the space bar is its button, H puts it into the inkwell or takes it
-// out. A near target attracts the tip, with the error of a pit or an eye. Frame W, mm. UI thread.
+// by 1 mm in depth, arrows tilt it by 3 degrees, a drag with the
+// middle button by 0.3 degrees a pixel, space bar and right button are its button, H or a middle click puts it into the
+// inkwell or takes it out. A near target attracts the tip, with the error of a pit or an eye. Frame W, mm. UI thread.
 #pragma once
 
 #include <random>
@@ -10,6 +11,11 @@
 #include "render/display/window.h"
 
 namespace app {
+
+/// The line on every page of a practice.
+inline constexpr const char* kPracticeKeys =
+    "drag moves · wheel in/out · arrows or middle drag tilt · Space or right button = button · H or middle click = "
+    "inkwell · Esc = leave";
 
 class PracticeInput {
  public:
@@ -28,6 +34,7 @@ class PracticeInput {
   // The target that attracts the tip, and the error there.
   glm::dvec3 held_W_{0.0}, off_mm_{0.0};
   bool is_held_ = false;
+  bool middle_moved_ = false;  ///< since the middle button went down: a drag, no click
 };
 
 }  // namespace app

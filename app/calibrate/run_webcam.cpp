@@ -100,6 +100,7 @@ class WebcamShow : GuidedProcedure {
   /// The instruction, hidden while a pattern is on the screen.
   void showPage() {
     view_ = WizardView{};
+    if (isPractisedByHand()) view_.practice_keys = kPracticeKeys;
     view_.title = "Webcam";
     view_.sentence = procedure_.sentence();
     view_.message = {procedure_.answer(), WizardView{}.message.tone};

@@ -50,6 +50,7 @@ class WizardShow : GuidedProcedure {
     source_->takeInto(samples_, view_);
     for (const StylusSample& sample : samples_) wizard_.update(sample);
     view_ = wizard_.takeView();
+    if (isPractisedByHand()) view_.practice_keys = kPracticeKeys;
     if (sounds_)
       for (const WizardSound sound : view_.sounds) sounds_->play(sound);
     show();

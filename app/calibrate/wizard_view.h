@@ -70,7 +70,8 @@ struct WizardView {
   std::vector<std::string> choices;
   std::optional<std::size_t> marked;  ///< of the choices
   ButtonHelp button;
-  ShownMessage message;  ///< the last one; empty text: none
+  std::string practice_keys;  ///< how mouse and keys move a practice stylus; empty: a real one
+  ShownMessage message;       ///< the last one; empty text: none
 
   bool inkwell = false;  ///< the stylus belongs in its inkwell now
   WizardFigure figure = WizardFigure::none;

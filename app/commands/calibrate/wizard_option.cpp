@@ -25,12 +25,21 @@ volatile std::sig_atomic_t interrupted = 0;
 
 RigLocation placeOf(const MeasurementInfo& info) { return {info.rig_id, info.serial, info.mount}; }
 
+/// A practice device is used at a plain monitor: upright, without the workstation's mirror. The device stays where it
+/// stands on the workstation, so that all targets are within its reach.
+Rig practiceDesk(const Rig& workstation) {
+  Rig desk = desktopRig(workstation.screen.px);
+  desk.device = workstation.device;
+  desk.X_WD = workstation.X_WD;
+  return desk;
+}
+
 }  // namespace
 
 Option WizardOption::addTo(CommandLine& command) {
   Option device = command.option("--device", device_,
                                  "Stylus: openhaptics[:NAME], or practice:D[:SEED], a simulated one on which nothing "
-                                 "can break (mouse moves it, space is its button)");
+                                 "can break, at a plain monitor unless --rig has a mirror (keys on every page)");
   Option robot = command.flag("--robot", robot_, "A robot holds the practice stylus and does what the pages say");
   command.flag("--hurried", hurried_, "The robot takes no time").needs(robot);
   command.flag("--headless", headless_, "The robot without a window").needs(robot);
@@ -56,6 +65,7 @@ WizardOption::Stylus WizardOption::stylus(MeasurementInfo& info) const {
   DeviceIdentity hand;
   if (stylus.practice) {
     hand = deviceIdentity(device_, nullptr);
+    stylus.practice->nominal = practiceDesk(stylus.practice->nominal);
   } else if (robot_) {
     throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
   } else if (haptics::isDeviceAddress(device_)) {
@@ -75,7 +85,8 @@ WizardOption::Stylus WizardOption::stylus(MeasurementInfo& info) const {
   return stylus;
 }
 
-/// The rig to start from: as named, else the current one of this device, else the nominal workstation.
+/// The rig to start from: as named, else the current one of this device, else the nominal workstation, or for practice
+/// a plain monitor.
 RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, const RigStore& store,
                                const MeasurementInfo& info) const {
   RigRecord record;

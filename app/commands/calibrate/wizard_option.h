@@ -35,7 +35,7 @@ class WizardOption {
     MeasurementInfo info;  ///< with what the device says of itself
   };
   /// Leads through touches. `rig`: named by the user, or empty: the current one of this device in the store, else the
-  /// mirrored workstation. Throws as runWizard, readRigRecord.
+  /// mirrored workstation, or for a practice stylus a plain monitor. Throws as runWizard, readRigRecord.
   GuidedOutcome guide(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
                       const calibration::RigStore& store, MeasurementInfo info) const;
 
