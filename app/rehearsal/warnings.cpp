@@ -1,6 +1,7 @@
 #include "app/rehearsal/warnings.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -79,7 +80,6 @@ Words softTissuePressed(const Situation& s) {
     if ((assets::bitOf(tissue) & ~kUsuallyHeld) == 0 || !assets::contains(s.tick.soft.tissues, tissue)) continue;
     names += (names.empty() ? "" : ", ") + std::string(assets::properties(tissue).name);
   }
-  if (!names.empty()) names.front() = static_cast<char>(names.front() - 'a' + 'A');
   return names.empty() ? names : names + " touched";
 }
 
@@ -195,6 +195,7 @@ std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
     if (now_s < state.last_s) state.last_s = -1e9;
     const bool was_shown = now_s - state.last_s <= kStays_s;
     if (std::string words = kTable[n].words(now); !words.empty()) {
+      words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
       if (!was_shown) ++state.times;
       state.words = std::move(words);
       state.last_s = now_s;
