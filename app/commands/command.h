@@ -20,6 +20,7 @@ void addDevices(CommandLine& molar);
 void addDoctor(CommandLine& molar);
 void addReplay(CommandLine& molar);
 void addMetrics(CommandLine& molar);
+void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
 void addLaws(CommandLine& molar);
 void addPsychophysics(CommandLine& molar);
@@ -28,8 +29,9 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse, addImport,    addInspect,       addFeel,   addCarve,  addSee,
-                                   addDisplay,  addCalibrate, addDevices,       addDoctor, addReplay, addMetrics,
-                                   addExport,   addLaws,      addPsychophysics, addHelp,   addManual, addCompletion};
+inline constexpr auto kCommands = {addRehearse,      addImport,  addInspect,   addFeel,      addCarve,
+                                   addSee,           addDisplay, addCalibrate, addDevices,   addDoctor,
+                                   addReplay,        addMetrics, addSessions,  addExport,    addLaws,
+                                   addPsychophysics, addHelp,    addManual,    addCompletion};
 
 }  // namespace app

@@ -10,6 +10,7 @@
 #include "app/commands/command.h"
 #include "app/options/volume_option.h"
 #include "app/session/replay.h"
+#include "app/session/session_folder.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -115,14 +116,17 @@ int exportSurface(const ExportOptions& options) {
 void addExport(CommandLine& molar) {
   auto options = std::make_shared<ExportOptions>();
   CommandLine& command = molar.command("export", "Bone and teeth as a surface, .stl (mm, LPS) or .glb (metres)");
-  command.option("SESSION", options->session, "Session file: the bone at its end");
+  command.option("SESSION", options->session, "Session file, or last: the bone at its end");
   command.option("--to", options->to_s, "At this time, s").from(0.0, 1e9);
   command.option("--patient", options->patient, "Patient folder, instead of SESSION").valueNamed("DIR");
   options->volume.addTo(command);
   command.option("--tissue", options->tissue, "all, bone or tooth").oneOf({"all", "bone", "tooth"}).showsDefault();
   command.option("--out", options->out, "Surface, .stl or .glb").required();
   command.flag("--force", options->force, "Replace the output if it exists");
-  command.does([options] { return exportSurface(*options); });
+  command.does([options] {
+    options->session = sessionNamed(options->session);
+    return exportSurface(*options);
+  });
 }
 
 }  // namespace app

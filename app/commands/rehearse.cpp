@@ -20,8 +20,11 @@
 #include "app/options/picture_option.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
+#include "app/rehearsal/continuation.h"
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
+#include "app/session/session_error.h"
+#include "app/session/session_folder.h"
 #include "app/station/case_reach.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
@@ -40,7 +43,8 @@ constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
   RehearsalPlan plan;
-  std::string patient, pedal = "auto", falcon_firmware, record, face;
+  std::string patient, pedal = "auto", falcon_firmware, record, continued, face;
+  bool no_record = false;
   RigOption rig;
   std::vector<std::string> tools{"round:3.0", "round:2.0", "fissure:1.6,4.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
@@ -148,12 +152,54 @@ assets::JawParameters jawOf(const RehearseOptions& options) {
   return jaw;
 }
 
+/// "replay:last" with the file.
+std::string withSessionNamed(const std::string& device) {
+  constexpr std::string_view kReplay = "replay:";
+  return device.starts_with(kReplay) ? std::string(kReplay) + sessionNamed(device.substr(kReplay.size())) : device;
+}
+
+/// A rehearsal is recorded, whatever its hand. Without a folder for it the rehearsal goes on, and says so.
+std::optional<Recording> defaultRecording(int fdi) {
+  try {
+    const std::filesystem::path folder = usualSessionFolder();
+    makeSessionFolder(folder);
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    Recording recording{newSessionPath(folder, now.time_since_epoch().count(), fdi)};
+    recording.by_default = true;
+    return recording;
+  } catch (const SessionError& error) {
+    printMessage(std::string("not recording, the rehearsal goes on: ") + error.what());
+    return {};
+  }
+}
+
+/// What was chosen on the command line stays; the rest is as it was at the end of the former session.
+void goOn(RehearseOptions& options, const Continuation& former) {
+  RehearsalPlan& plan = options.plan;
+  static const RehearseOptions kUntouched;
+  const haptics::Command chosen = std::exchange(plan.command, former.command);
+  plan.command.safety = chosen.safety;
+  if (options.law != kUntouched.law) plan.command.law = chosen.law;
+  if (options.erosion != kUntouched.erosion) plan.command.erosion = chosen.erosion;
+  if (options.tools != kUntouched.tools || !options.shaft.empty()) {
+    plan.command.tool = chosen.tool;
+  } else if (!former.setup.tray.empty()) {
+    plan.other_tools = former.setup.tray;
+    std::erase(plan.other_tools, plan.command.tool);
+  }
+  applyTo(plan.command, options.settings);
+  plan.remarks.insert(plan.remarks.end(), former.remarks.begin(), former.remarks.end());
+}
+
 int run(RehearseOptions& options) {
   if (options.list_cases) {
     std::fputs(caseList().c_str(), stdout);
     return 0;
   }
   RehearsalPlan& plan = options.plan;
+  plan.device = withSessionNamed(plan.device);
+  plan.second_hand.device = withSessionNamed(plan.second_hand.device);
+  std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) {
     const haptics::BurShape head = headFrom(text);
     return haptics::Tool{head, options.shaft.empty() ? haptics::standardShaft(head) : shaftFrom(options.shaft)};
@@ -198,9 +244,29 @@ int run(RehearseOptions& options) {
   if (!options.record.empty())
     refuseUnlessRecordable(options.record, plan.overwrite, {plan.device, plan.second_hand.device});
   if (!options.record.empty()) plan.recording = Recording{options.record, plan.overwrite};
+  if (!options.continued.empty()) {
+    former = continuationOf(sessionNamed(options.continued));
+    goOn(options, *former);
+  }
 
-  plan.patient = options.patient.empty() ? builtInPatient(jawOf(options)) : assets::loadPatient(options.patient);
+  assets::JawParameters jaw = jawOf(options);
+  if (former && former->setup.built_in) jaw = *former->setup.built_in;
+  if (former && !former->setup.built_in && options.patient.empty())
+    throw UsageError("--continue " + former->path +
+                     ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +
+                     options.continued);
+  plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
   planCut(plan);
+  if (former) former->applyTo(plan.patient);
+  if (!plan.recording && !options.no_record)
+    plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
+  if (plan.recording) {
+    SessionSetup& setup = plan.recording->setup;
+    if (options.patient.empty()) setup.built_in = jaw;
+    setup.tray = plan.other_tools;
+    setup.tray.insert(setup.tray.begin(), plan.command.tool);
+    if (former) setup.former = former->setup.former;
+  }
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = replaceFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
@@ -274,7 +340,14 @@ void addRehearse(CommandLine& molar) {
       .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
   command.flag("--no-line", o->no_line, "Without the line of text in the picture (key L shows it)");
   command.optionGroup("Output");
-  command.option("--record", o->record, "Session file to write").valueNamed("FILE");
+  Option record =
+      command.option("--record", o->record, "Session file to write [a new one in the data folder, see molar sessions]")
+          .valueNamed("FILE");
+  command.flag("--no-record", o->no_record, "Record nothing").excludes(record);
+  command
+      .option("--continue", o->continued,
+              "Go on where this session ended: its bone, case and tools. last: the newest; undo begins anew")
+      .valueNamed("SESSION");
   command.option("--seconds", o->plan.seconds, "End after this time").from(0.1, 86400.0);
   command.option("--snapshot", o->plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
   command.option("--first-snapshot", o->plan.first_snapshot, "The same before the first cut");

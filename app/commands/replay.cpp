@@ -7,6 +7,7 @@
 #include "app/commands/command.h"
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
+#include "app/session/session_folder.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "assets/scan/image_file.h"
@@ -43,25 +44,28 @@ int bringBack(const ReplayOptions& options) {
 void addReplay(CommandLine& molar) {
   auto options = std::make_shared<ReplayOptions>();
   CommandLine& command = molar.command("replay", "Run a recorded session again");
-  command.option("SESSION", options->session, "Session file").required();
+  command.option("SESSION", options->session, kSessionHelp).required();
   Option check = command.flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
   Option to = command.option("--to", options->to_s, "Stop at this time, s").from(0.0, 1e9);
   Option out = command.option("--out", options->out, "Write the bone as it then was, .nrrd");
   out.excludes(check);
   to.needs(out);
   command.flag("--force", options->force, "Replace the output if it exists");
-  command.does([options] { return options->out.empty() ? verifySession(options->session) : bringBack(*options); });
+  command.does([options] {
+    options->session = sessionNamed(options->session);
+    return options->out.empty() ? verifySession(options->session) : bringBack(*options);
+  });
 }
 
 void addMetrics(CommandLine& molar) {
   auto session = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   CommandLine& command = molar.command("metrics", "Measures of a recorded session, as text or JSON");
-  command.option("SESSION", *session, "Session file").required();
+  command.option("SESSION", *session, kSessionHelp).required();
   command.flag("--json", *as_json, "All measures as JSON");
   command.footer(measuresHelp());
   command.does([session, as_json] {
-    const SessionMetrics metrics = metricsOf(*session);
+    const SessionMetrics metrics = metricsOf(sessionNamed(*session));
     std::fputs((*as_json ? metricsJson(metrics) + "\n" : metricsText(metrics)).c_str(), stdout);
     return 0;
   });

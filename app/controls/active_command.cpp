@@ -16,6 +16,7 @@ namespace {
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.irrigating = from.irrigating;
   to.undo_serial = from.undo_serial;
+  to.redo_serial = from.redo_serial;
   to.rearm = from.rearm;
 }
 
@@ -63,7 +64,8 @@ bool ActiveCommand::execute(const ControlRequest& request, const std::string& wh
                 "irrigation off: the bur cuts dry");
       return true;
     case Control::undo:
-      return undoStroke(where), true;
+    case Control::redo:
+      return moveStroke(request.control, where), true;
     case Control::arm:
       return rearm(where), true;
     default:
@@ -81,14 +83,39 @@ void ActiveCommand::setSwitch(bool haptics::Command::*which, int value, const st
   say(wanted ? when_on : when_off);
 }
 
-void ActiveCommand::undoStroke(const std::string& where) {
-  const unsigned strokes = workstation_->newestTick().strokes;
-  if (strokes == 0) return refuse(where, "there is no stroke to undo");
-  ++command_.undo_serial;
+void ActiveCommand::moveStroke(Control control, const std::string& where) {
+  const bool undoes = control == Control::undo;
+  const haptics::Tick tick = workstation_->newestTick();
+  // Presses while one is under way count from where that will end.
+  int strokes = tick.strokes, undone = tick.undone_strokes;
+  if (stroke_change_) {
+    const int sign = stroke_change_->control == Control::undo ? 1 : -1;
+    strokes = stroke_change_->strokes_before - sign * stroke_change_->requests;
+    undone = stroke_change_->undone_before + sign * stroke_change_->requests;
+  }
+  if ((undoes ? strokes : undone) <= 0)
+    return refuse(where, undoes ? "there is no stroke to undo" : "there is no undone stroke to redo");
+  ++(undoes ? command_.undo_serial : command_.redo_serial);
   workstation_->change(command_);
-  const std::string line = fmt::format("the newest of {} stroke{} is undone", strokes, strokes == 1 ? "" : "s");
-  report("undo", line);
+  if (!stroke_change_ || stroke_change_->control != control)
+    stroke_change_ = StrokeChange{control, strokes, undone, 0, 0, tick.restored_total_mm3};
+  ++stroke_change_->requests;
+  stroke_change_->command_serial = workstation_->commandSerial();
+}
+
+void ActiveCommand::followStrokes(const haptics::Tick& newest) {
+  if (!stroke_change_ || newest.command_serial < stroke_change_->command_serial ||
+      newest.drill_inhibit == haptics::DrillInhibit::undo_running)
+    return;
+  const double restored_mm3 = newest.restored_total_mm3 - stroke_change_->restored_before_mm3;
+  const auto strokes = [](unsigned count) { return fmt::format("{} stroke{}", count, count == 1 ? "" : "s"); };
+  const bool undoes = stroke_change_->control == Control::undo;
+  const std::string line =
+      undoes ? fmt::format("{:.1f} mm³ taken back, {} left", restored_mm3, strokes(newest.strokes))
+             : fmt::format("{:.1f} mm³ cut again, {} left to redo", -restored_mm3, strokes(newest.undone_strokes));
+  report(undoes ? "undo" : "redo", line);
   say(line);
+  stroke_change_.reset();
 }
 
 void ActiveCommand::rearm(const std::string& where) {

@@ -29,12 +29,14 @@ class ActiveCommand {
   /// The receiver of changes. Borrowed.
   void attach(Workstation& workstation) { workstation_ = &workstation; }
 
-  /// Executes law, drill, tool (the next of the tray, cyclic), irrigation, undo (of the newest stroke left) and arm
-  /// (clears a latched fault whose cause is over); returns false for all others. `where`: file and row of a script, for
+  /// Executes law, drill, tool (the next of the tray, cyclic), irrigation, undo, redo and arm (clears a latched
+  /// fault whose cause is over); returns false for all others. `where`: file and row of a script, for
   /// refusals.
   bool execute(const ControlRequest& request, const std::string& where = {});
+  /// Once a frame: reports an undo or redo when the servo has done it, with its volume and what is left.
+  void followStrokes(const haptics::Tick& newest);
   void pollSettingsFile(LiveParameters::Clock::time_point now);
-  /// A procedure's command, unchecked and unreported; irrigation, undo and rearm stay as they are.
+  /// A procedure's command, unchecked and unreported; irrigation, undo, redo and rearm stay as they are.
   void adopt(const haptics::Command& command);
 
   /// Tools to change between, in order.
@@ -56,7 +58,7 @@ class ActiveCommand {
   }
   void setSwitch(bool haptics::Command::*which, int value, const std::string& kind, const std::string& when_on,
                  const std::string& when_off);
-  void undoStroke(const std::string& where);
+  void moveStroke(Control control, const std::string& where);
   void rearm(const std::string& where);
   void switchLaw(haptics::LawKind law, const std::string& where);
   void changeTool(int to, const std::string& where);
@@ -69,6 +71,15 @@ class ActiveCommand {
   ReportLine say_;
   Workstation* workstation_ = nullptr;
   bool tool_changed_ = false;
+
+  /// An undo or redo that is under way.
+  struct StrokeChange {
+    Control control;
+    int strokes_before = 0, undone_before = 0, requests = 0;
+    std::uint64_t command_serial = 0;
+    double restored_before_mm3 = 0.0;
+  };
+  std::optional<StrokeChange> stroke_change_;
 };
 
 }  // namespace app

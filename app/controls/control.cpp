@@ -80,7 +80,23 @@ std::string acceptedValues(ControlValue kind) {
   return "no value";
 }
 
+/// One of "U", "Shift+U", "Ctrl+Shift+Z".
+bool isKey(std::string_view text, char key, bool shift, bool control) {
+  const auto takePrefix = [&](std::string_view prefix) {
+    const bool found = text.starts_with(prefix);
+    if (found) text.remove_prefix(prefix.size());
+    return found;
+  };
+  return takePrefix("Ctrl+") == control && takePrefix("Shift+") == shift && text.size() == 1 && text.front() == key;
+}
+
 }  // namespace
+
+std::optional<Control> controlOfKey(char key, bool shift, bool control) {
+  for (const ControlMeaning& one : kControls)
+    if (isKey(one.key, key, shift, control) || isKey(one.also, key, shift, control)) return one.control;
+  return {};
+}
 
 ControlRequest requestFrom(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -108,7 +124,7 @@ std::vector<KeyMeaning> keyMeanings(bool with_laws, bool with_motors) {
 
 std::string keyHelp() {
   std::string text = "Keys:\n";
-  for (const KeyMeaning& key : keyMeanings()) text += fmt::format("  {:8}{}\n", key.key, key.does);
+  for (const KeyMeaning& key : keyMeanings()) text += fmt::format("  {:8} {}\n", key.key, key.does);
   return text;
 }
 

@@ -19,6 +19,7 @@ enum class Control : std::uint8_t {
   tool,
   irrigation,
   undo,
+  redo,
   snapshot,
   stop,
   arm,
@@ -46,20 +47,23 @@ constexpr bool isNeeded(ControlValue value) { return value >= ControlValue::law;
 struct ControlMeaning {
   Control control;
   std::string_view name;  ///< in scripts
-  std::string_view key;   ///< empty: none
+  std::string_view key;   ///< with exactly its modifiers: "Shift+U"; empty: none
   std::string_view does;
   ControlValue value;
   bool is_felt;  ///< changes force, cutting or irrigation: a procedure may reserve it
+  std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 14> kControls = {{
+inline constexpr std::array<ControlMeaning, 15> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
     {Control::irrigation, "irrigation", "I", "irrigation on or off", ControlValue::on_or_off, true},
-    {Control::undo, "undo", "U", "undo the last stroke", ControlValue::none, true},
+    {Control::undo, "undo", "U", "undo the last stroke", ControlValue::none, true, "Ctrl+Z"},
+    {Control::redo, "redo", "Shift+U", "redo the stroke undone last", ControlValue::none, true,
+     "Ctrl+Shift+Z"},
     {Control::snapshot, "snapshot", "P", "snapshot", ControlValue::none, false},
-    {Control::stop, "stop", "X", "emergency stop: motors off", ControlValue::none, false},
+    {Control::stop, "stop", "Shift+X", "emergency stop: motors off", ControlValue::none, false},
     {Control::arm, "arm", "R", "arm again after a fault", ControlValue::none, false},
     {Control::home, "home", "H", "the handle is at home", ControlValue::none, false},
     {Control::end, "end", "Esc", "end", ControlValue::none, false},
@@ -76,6 +80,9 @@ constexpr std::optional<Control> controlNamed(std::string_view name) {
     if (one.name == name) return one.control;
   return {};
 }
+
+/// Of a pressed key; `key` is its upper-case letter.
+std::optional<Control> controlOfKey(char key, bool shift, bool control);
 
 /// From a script: `undo`, `irrigation`, `irrigation:off`, `tool:2`, `law:agus`, `layer:canal`, `face:30`. Throws
 /// UsageError with the accepted values.

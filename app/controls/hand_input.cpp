@@ -12,14 +12,15 @@ constexpr double kWheelNotch_mm = 0.5;
 constexpr double kRotation_rad = calibration::radFromDegrees(3.0);
 
 /// By the table of controls; digits choose laws, also one that does not exist: whoever executes it says so.
-std::optional<ControlRequest> requestOf(render::Key key) {
-  if (key == render::Key::escape) return ControlRequest{Control::end};
-  if (key == render::Key::f1 || key == render::keyOf('/')) return ControlRequest{Control::keys};
+std::optional<ControlRequest> requestOf(const render::KeyPressed& pressed) {
+  if (pressed.key == render::Key::escape) return ControlRequest{Control::end};
+  if (pressed.key == render::Key::f1 || pressed.key == render::keyOf('/')) return ControlRequest{Control::keys};
   for (int law = 0; law < 9; ++law)
-    if (key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, law};
-  for (const ControlMeaning& one : kControls)
-    if (one.key.size() == 1 && key == render::keyOf(one.key.front())) return ControlRequest{one.control};
-  return {};
+    if (pressed.key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, law};
+  const int code = static_cast<int>(pressed.key);
+  if (code <= ' ' || code > 'Z') return {};
+  const auto control = controlOfKey(static_cast<char>(code), pressed.shift, pressed.control);
+  return control ? std::optional(ControlRequest{*control}) : std::nullopt;
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ void HandInput::press(const render::KeyPressed& key) {
   if (key.key == render::keyOf('Q')) rotate({0, 0, 1}, kRotation_rad);
   if (key.key == render::keyOf('E')) rotate({0, 0, 1}, -kRotation_rad);
   if (key.repeated) return;
-  if (const auto request = requestOf(key.key)) requests_.push_back(*request);
+  if (const auto request = requestOf(key)) requests_.push_back(*request);
 }
 
 void HandInput::rotate(const glm::dvec3& axis_W, double angle_rad) {

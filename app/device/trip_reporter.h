@@ -1,5 +1,6 @@
 // Reports each trip of the safety layer once, in words, with its last tick, for the user and the record. Faults that
-// only limit a force are counted, not reported. Main thread, a few times a second.
+// only limit a force are counted, not reported; a pause of the loop is reported the first time, then counted. Main
+// thread, a few times a second.
 #pragma once
 
 #include <string>
@@ -18,6 +19,7 @@ class TripReporter {
  private:
   haptics::TripCounter seen_;
   haptics::SafetyState state_ = haptics::SafetyState::active;
+  bool paused_again_ = false;  ///< what follows until the force is back was said after the first pause
 };
 
 /// "buzz 2, stale 1": all kinds that occurred, limits included; "none" if none did.

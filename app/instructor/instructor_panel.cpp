@@ -32,7 +32,8 @@ constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-B
 constexpr float kText_px = 16.0f, kSmall_px = 13.0f, kLarge_px = 26.0f;
 
 const ImVec4 kInk{0.91f, 0.92f, 0.94f, 1.0f}, kQuiet{0.60f, 0.64f, 0.70f, 1.0f}, kGood{0.42f, 0.80f, 0.55f, 1.0f},
-    kWarn{0.98f, 0.73f, 0.28f, 1.0f}, kBad{0.95f, 0.38f, 0.35f, 1.0f}, kAccent{0.36f, 0.66f, 0.95f, 1.0f};
+    kWarn{0.98f, 0.73f, 0.28f, 1.0f}, kBad{0.95f, 0.38f, 0.35f, 1.0f}, kStopRed{0.62f, 0.13f, 0.12f, 1.0f},
+    kAccent{0.36f, 0.66f, 0.95f, 1.0f};
 
 // In loading order.
 enum FontAt { text_font, small_font, large_font, heading_font };
@@ -136,6 +137,7 @@ void drawLaw(const RehearsalStatus& s, Requests& requests) {
       if (ImGui::Selectable(label.c_str(), one.kind == now.kind, admitted ? 0 : ImGuiSelectableFlags_Disabled))
         requests.push_back({Control::law, static_cast<int>(one.kind)});
     }
+    if (ImGui::IsKeyPressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
     ImGui::EndCombo();
   }
   // The many tissues are folded.
@@ -221,7 +223,11 @@ void drawHand(const RehearsalStatus& s, Requests& requests) {
   }
   row("Safety", tripsText(s.trips));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::BeginDisabled(!s.has_motors);
+  ImGui::PushStyleColor(ImGuiCol_Button, kStopRed);
   if (ImGui::Button("Stop motors", {width, 30.0f})) requests.push_back({Control::stop});
+  ImGui::PopStyleColor();
+  ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(state != SafetyState::fault);
   if (ImGui::Button("Arm again", {width, 30.0f})) requests.push_back({Control::arm});

@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kInterval = std::chrono::milliseconds(100);
 constexpr int kLeastPanoramic_px = 60;  ///< a lower one shows nothing
+constexpr int kEscape = static_cast<int>(render::Key::escape);
 
 render::Window::Options optionsFor(const render::Window& surgeons, std::optional<int> monitor,
                                    const std::optional<render::DesktopBox>& place) {
@@ -49,6 +50,7 @@ bool isOnAMonitor(const render::DesktopBox& place) {
 struct InstructorWindow::Open {
   Open(const render::Window& surgeons, std::optional<int> monitor, const std::optional<render::DesktopBox>& place)
       : window(optionsFor(surgeons, monitor, place)) {
+    ImGui::GetIO().KeyMap[ImGuiKey_Escape] = kEscape;
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
       throw render::GpuError("instructor's window: OpenGL cannot draw its panel, continue without --instructor");
   }
@@ -80,6 +82,8 @@ void InstructorWindow::Open::feed(const render::WindowEvent& event) {
     io.MouseWheel += static_cast<float>(wheel->notches);
   else if (std::holds_alternative<render::CloseRequested>(event))
     close_requested = true;
+  else if (const auto* key = std::get_if<render::KeyPressed>(&event); key && key->key == render::Key::escape)
+    io.KeysDown[kEscape] = io.KeysDown[kEscape] || key->down;  // closes an open list in the next drawing
   else
     keys.push_back(event);
 }
@@ -174,6 +178,7 @@ InstructorWindow::Input InstructorWindow::draw(const RehearsalStatus& status) {
     ImGui::NewFrame();
     input.requests = drawInstructorPanel(status, px, rig_.screen.px);
     ImGui::Render();
+    io.KeysDown[kEscape] = false;
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     self.window.present();
   }

@@ -29,7 +29,7 @@ class InstructorWindow {
   void setPanoramic(std::optional<PanoramicPicture> panoramic) { panoramic_ = std::move(panoramic); }
 
   bool isDue() const;
-  /// Keys have the same meaning as in the surgeon's window.
+  /// Keys have the same meaning as in the surgeon's window, but for Esc: it closes a list of the panel.
   struct Input {
     std::vector<ControlRequest> requests;
     std::vector<render::WindowEvent> keys;

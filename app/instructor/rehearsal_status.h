@@ -23,6 +23,7 @@ struct RehearsalStatus {
   haptics::Tick tick;   ///< the newest
   haptics::Command command;
   std::string device;
+  bool has_motors = true;
   SessionCalibration calibration;
   std::vector<std::string> remarks;  ///< on calibration and case
   haptics::TripCounter trips;
@@ -41,7 +42,7 @@ struct RehearsalStatus {
   std::string said;                     ///< to the surgeon, last
   RecordingState recording = RecordingState::none;
   std::string recording_path;
-  std::string to_surgeon, to_instructor;  ///< messages of a procedure
+  std::string to_surgeon, to_instructor;  ///< messages of a procedure; a question to the surgeon
 };
 
 /// "drilling", "drill off", "drill locked".

@@ -37,8 +37,11 @@ void ControlRouter::executeKeys(render::Frame& frame, bool may_choose_law) {
 }
 
 void ControlRouter::handleInstructorInput(const InstructorWindow::Input& input, render::Frame& frame) {
-  for (const render::WindowEvent& event : input.keys)
-    if (!isTakenByProcedure(event)) input_.take(event, 0.0);
+  for (const render::WindowEvent& event : input.keys) {
+    const auto* key = std::get_if<render::KeyPressed>(&event);
+    const bool escape = key != nullptr && key->key == render::Key::escape;
+    if (!escape && !isTakenByProcedure(event)) input_.take(event, 0.0);
+  }
   executeKeys(frame, true);
   for (const ControlRequest& request : input.requests) execute(request, frame);
 }
@@ -49,7 +52,7 @@ void ControlRouter::readWindow() {
     const double width_mm = glm::distance(screen.lower_left.mm, screen.lower_right.mm);
     const double mm_per_px = width_mm / std::max(1, window->framebufferSize_px().x);
     for (const render::WindowEvent& event : view_.display().takeEvents())
-      if (!isTakenByProcedure(event)) input_.take(event, mm_per_px);
+      if (!isTakenByEndQuestion(event) && !isTakenByProcedure(event)) input_.take(event, mm_per_px);
   }
   if (haptics::MouseDevice* const mouse = equipment_.mouse())
     mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
@@ -77,7 +80,20 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   }
 }
 
+/// A procedure has its own way to end.
+bool ControlRouter::isTakenByEndQuestion(const render::WindowEvent& event) {
+  const auto* key = std::get_if<render::KeyPressed>(&event);
+  if (plan_.procedure || !key) return false;
+  // What is open is closed first.
+  if (key->key == render::Key::escape && key->down && !end_question_.isOpen() && head_up_.closeKeys()) return true;
+  const EndQuestion::Answer answer = end_question_.take(*key);
+  if (answer == EndQuestion::Answer::end) monitor_.endByUser();
+  return answer != EndQuestion::Answer::not_concerned;
+}
+
+/// Nothing without motors.
 void ControlRouter::stopMotors() {
+  if (!equipment_.hasMotors()) return;
   equipment_.workstation().emergencyStop();
   event_log_.note("emergency stop", "motors off for good");
   printMessage("emergency stop: the motors are off; end and start again to feel");

@@ -1,12 +1,14 @@
 // Routes control requests (control.h) from mouse, keys, device buttons, pedal, script and instructor. Stop and end are
-// executed at once; the others go to the procedure first, then to the command in force, then to layers, snapshot and
-// homing. Main thread, once a frame; microseconds, for a snapshot the time of writing its file.
+// executed at once (Esc of the surgeon asks first, Esc of the instructor never ends); the others go to the procedure
+// first, then to the command in force, then to layers, snapshot and homing. Main thread, once a frame; microseconds,
+// for a snapshot the time of writing its file.
 #pragma once
 
 #include <string>
 
 #include "app/controls/active_command.h"
 #include "app/controls/control_script.h"
+#include "app/controls/end_question.h"
 #include "app/controls/hand_input.h"
 #include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
@@ -25,6 +27,8 @@ class ControlRouter {
                 LiveView& view, HeadUp& head_up, EventLog& event_log);
 
   const ControlScript& script() const { return script_; }
+  /// To the surgeon, instead of anything else; empty: none.
+  std::string question() const { return end_question_.isOpen() ? EndQuestion::kText : std::string(); }
 
   /// Executes all requests since the last call except the instructor's, and moves the mouse device. `newest` has a dt
   /// of 0 before the first tick. Layers are switched in `frame`, and snapshots are taken of it.
@@ -33,6 +37,7 @@ class ControlRouter {
 
  private:
   void readWindow();
+  bool isTakenByEndQuestion(const render::WindowEvent& event);
   void executeKeys(render::Frame& frame, bool may_choose_law);
   void executeScript(const haptics::Tick& newest, render::Frame& frame);
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
@@ -48,6 +53,7 @@ class ControlRouter {
   HeadUp& head_up_;
   EventLog& event_log_;
   HandInput input_;
+  EndQuestion end_question_;
   ControlScript script_;
 };
 

@@ -85,7 +85,9 @@ class Rehearsal {
  private:
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
-  StatusReporter::FrameState state() const { return {newest_, active_command_.inForce(), frame_.layers, head_up_}; }
+  StatusReporter::FrameState state() const {
+    return {newest_, active_command_.inForce(), frame_.layers, head_up_, router_.question()};
+  }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
   double showFirstFrame() {
@@ -106,6 +108,8 @@ class Rehearsal {
   void start() {
     equipment_.start();
     for (const std::string& remark : plan_.remarks) station().note("calibration", remark);
+    if (plan_.recording && plan_.recording->setup.former)
+      station().note("continues", plan_.recording->setup.former->file);
     event_log_.recordInto(station());
     event_log_.note("quality", view_.qualityText());
   }
@@ -121,6 +125,7 @@ class Rehearsal {
     if (plan_.procedure)
       if (const std::vector<haptics::Tick> ticks = station().takeTicks(); !ticks.empty())
         if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+    active_command_.followStrokes(newest_);
     if (active_command_.takeToolChange() && pace_.isRealTime()) view_.showInstrument();
   }
 
@@ -136,7 +141,7 @@ class Rehearsal {
     return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                         monitor_.recordingEnded()),
             {},
-            plan_.procedure ? plan_.procedure->messages().to_surgeon : std::string()};
+            plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question()};
   }
 
   void draw() {
@@ -157,7 +162,7 @@ class Rehearsal {
     RehearsalFigures figures = status_reporter_->figures(state());
     figures.times = head_up_.times();
     figures.warnings = head_up_.warnings().counts();
-    if (plan_.recording) figures.recording = recorded;
+    if (plan_.recording) figures.recording = recorded, figures.recorded_by_default = plan_.recording->by_default;
     return figures;
   }
 

@@ -30,6 +30,7 @@ struct RehearsalFigures {
   std::optional<LatencyEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
   double first_frame_s = 0.0;  ///< from the user's command to the first frame, loading included
   std::optional<RecordingSummary> recording;
+  bool recorded_by_default = false;  ///< nobody asked for the recording
 };
 
 /// "60031 ticks, 11 deadlines missed, 0 by its own work; late by 32 µs, 99 % below 66, at most 4254; real-time …".
@@ -39,7 +40,7 @@ std::string summaryText(const RehearsalFigures& figures);
 
 /// 1 if a recording was requested and is not whole.
 inline int exitStatus(const RehearsalFigures& figures) {
-  return figures.recording && !figures.recording->isWhole() ? 1 : 0;
+  return figures.recording && !figures.recorded_by_default && !figures.recording->isWhole() ? 1 : 0;
 }
 
 }  // namespace app

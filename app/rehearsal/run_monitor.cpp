@@ -35,7 +35,7 @@ std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const h
   std::vector<Notice> notices;
   for (const std::string& line : health.news) notices.push_back({"device", line});
   if (health.recording_trouble && !std::exchange(recording_ended_, true))
-    notices.push_back({"recording", "recording ended: " + *health.recording_trouble});
+    notices.push_back({"recording", "not recording, the rehearsal goes on: " + *health.recording_trouble});
   if (std::exchange(device_trouble_, health.device_trouble) != health.device_trouble && !health.device_trouble.empty())
     notices.push_back({"device", health.device_trouble});
   if (newest.dt_s <= 0.0) return notices;  // not a tick yet

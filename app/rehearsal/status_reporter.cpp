@@ -40,7 +40,9 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
     s.to_surgeon = messages.to_surgeon;
     s.to_instructor = messages.to_instructor;
   }
+  if (!state.question.empty()) s.to_surgeon = state.question;
   s.device = equipment_.deviceName();
+  s.has_motors = equipment_.hasMotors();
   s.servo = equipment_.workstation().figures();
   s.servo_rate_Hz = equipment_.rate_Hz();
   s.frames_per_s = frames_per_s_;

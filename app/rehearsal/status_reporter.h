@@ -30,6 +30,7 @@ class StatusReporter {
     const haptics::Command& in_force;
     const render::Layers& layers;
     const HeadUp& head_up;
+    std::string question;  ///< to the surgeon
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

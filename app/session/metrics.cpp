@@ -65,6 +65,7 @@ SessionMetrics metricsOf(const std::string& path) {
   metrics.patient_title = about.patient_title;
   metrics.program_version = about.program_version;
   metrics.calibration = about.calibration;
+  metrics.former = about.setup.former;
   metrics.closed = session.closed();
   metrics.missing_log = session.missingLog();
   const std::vector<SessionCommand> commands = session.commands();
@@ -122,6 +123,9 @@ std::string metricsText(const SessionMetrics& metrics) {
            : metrics.dry_drilling_s > 0.0
                ? fmt::format("\ndry: {:.1f} s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
                : std::string("\nalways irrigated while drilling in bone\n");
+  if (metrics.former)
+    words += fmt::format("this part only: it continues {}, {:.1f} s before it\n", metrics.former->file,
+                         metrics.former->duration_s);
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
@@ -165,6 +169,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
       {"calibration", metrics.calibration ? calibrationMetrics(*metrics.calibration) : nlohmann::ordered_json()},
+      {"continues", nullptr},
       {"closed", metrics.closed},
       {"log_missing", metrics.missing_log.has_value()},
       {"ticks", metrics.ticks},
@@ -172,6 +177,8 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"commands", metrics.commands},
       {"events", metrics.events},
   };
+  if (metrics.former)
+    json["continues"] = {{"session", metrics.former->file}, {"duration_s", metrics.former->duration_s}};
   for (const Measure& measure : kMeasures) json[measure.key] = metrics.*measure.value;
   json["removed_mm3_by_label"] = by_label;
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};

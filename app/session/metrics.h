@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/session/session_calibration.h"
+#include "app/session/session_setup.h"
 #include "app/session/session_text.h"
 
 namespace app {
@@ -17,6 +18,7 @@ namespace app {
 struct SessionMetrics {
   std::string patient_title, program_version;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before calibrations were stored
+  std::optional<FormerSession> former;            ///< the session this one continues: its measures are its own
   bool closed = false;                            ///< false: ended by a kill or a full disk
   std::optional<std::string> missing_log;         ///< killed, and this log of it is missing
   std::uint64_t ticks = 0, lost = 0, commands = 0, events = 0;

@@ -43,7 +43,9 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.contact_tissue != again.contact_tissue) return "the tissue in contact differs";
   if (!same(recorded.soft, again.soft)) return "the contact with soft tissue differs";
   if (recorded.drilling != again.drilling || recorded.drill_inhibit != again.drill_inhibit) return "the drill differs";
-  if (recorded.strokes != again.strokes) return "the strokes to take back differ";
+  if (recorded.strokes != again.strokes || recorded.undone_strokes != again.undone_strokes)
+    return "the strokes to undo or redo differ";
+  if (!same(recorded.restored_total_mm3, again.restored_total_mm3)) return "the restored volume differs";
   if (recorded.state != again.state) return "the state of the safety layer differs";
   if (recorded.faults != again.faults) return "the faults differ";
   return std::nullopt;

@@ -252,6 +252,14 @@ std::optional<std::string> SessionReader::damage() {
   return std::nullopt;
 }
 
+double SessionReader::length_s() {
+  return impl_->reading([&] {
+    SQLite::Statement last(impl_->database, "SELECT first_tick, count FROM tick_block ORDER BY row DESC LIMIT 1");
+    if (!last.executeStep()) return 0.0;
+    return static_cast<double>(countOf(last.getColumn(0)) + countOf(last.getColumn(1))) * impl_->about().dt_s;
+  });
+}
+
 StoredStart SessionReader::about() {
   return impl_->reading([&] { return impl_->about(); });
 }

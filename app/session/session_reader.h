@@ -38,6 +38,8 @@ class SessionReader {
   bool isUnsealed() const;
   /// The name of the log, if the recording was killed and its log is missing.
   std::optional<std::string> missingLog() const;
+  /// Length by the last block alone, lost ticks included; cheap. 0: no tick.
+  double length_s();
   /// Ticks that are not in the file: by its seal, or gaps in the indices read so far.
   std::uint64_t lost() const;
 

@@ -10,6 +10,7 @@
 
 #include "app/session/servo_build.h"
 #include "app/session/session_calibration.h"
+#include "app/session/session_setup.h"
 #include "assets/volume_grid.h"
 #include "haptics/servo/command.h"
 
@@ -25,6 +26,8 @@ struct SessionStart {
   haptics::Command command;             ///< from the first tick on
   SessionCalibration calibration = {};
   ServoBuild servo = thisServo();
+  SessionSetup setup = {};
+  std::string started_utc = {};  ///< empty: not stored
 };
 
 /// The start as stored, with its voxels; labels are those of this program.
@@ -35,6 +38,8 @@ struct StoredStart {
   std::vector<std::uint8_t> solid, label;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was stored
   ServoBuild servo;
+  SessionSetup setup;
+  std::string started_utc;  ///< empty: recorded before it was stored
 };
 
 }  // namespace app

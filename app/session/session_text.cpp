@@ -31,6 +31,7 @@ T valueOf(const json& object, const char* key, T otherwise) {
   bool fits = found->is_string();
   if constexpr (std::is_same_v<T, double>) fits = found->is_number();
   if constexpr (std::is_integral_v<T>) fits = found->is_number_integer();
+  if constexpr (std::is_same_v<T, bool>) fits = found->is_boolean();
   if (!fits) throw damagedSession(std::string("it has no valid value of ") + key);
   return found->template get<T>();
 }
@@ -58,6 +59,60 @@ SessionCalibration calibrationFrom(const json& object) {
   SessionCalibration calibration;
   forEachField(calibration, [&](const char* key, auto& value) { value = valueOf(object, key, value); });
   return calibration;
+}
+
+/// Visits each parameter with its key.
+void forEachParameter(auto& jaw, auto&& visit) {
+  auto& [right_side, winter_angle_deg, depth_mm, mandibular_canal_distance_mm, spacing_mm, seed] = jaw;
+  visit("right_side", right_side), visit("winter_angle_deg", winter_angle_deg), visit("depth_mm", depth_mm);
+  visit("mandibular_canal_distance_mm", mandibular_canal_distance_mm), visit("spacing_mm", spacing_mm);
+  visit("seed", seed);
+}
+
+void forEachNumber(auto& tool, auto&& visit) {
+  auto& [head, shaft] = tool;
+  auto& [kind, radius_mm, length_mm] = head;
+  auto& [shaft_radius_mm, shaft_length_mm] = shaft;
+  visit("radius_mm", radius_mm), visit("length_mm", length_mm);
+  visit("shaft_radius_mm", shaft_radius_mm), visit("shaft_length_mm", shaft_length_mm);
+}
+
+json setupJson(const SessionSetup& setup) {
+  json object = json::object();
+  if (setup.built_in)
+    forEachParameter(*setup.built_in, [&](const char* key, const auto& value) { object["built_in"][key] = value; });
+  for (const haptics::Tool& tool : setup.tray) {
+    json one = {{"kind", static_cast<int>(tool.head.kind)}};
+    forEachNumber(tool, [&](const char* key, double value) { one[key] = value; });
+    object["tray"].push_back(std::move(one));
+  }
+  if (setup.former)
+    object["continues"] = {{"file", setup.former->file},
+                           {"duration_s", setup.former->duration_s},
+                           {"bone_digest", fmt::format("{:016x}", setup.former->bone_digest)}};
+  return object;
+}
+
+SessionSetup setupFrom(const json& object) {
+  SessionSetup setup;
+  if (const auto jaw = object.find("built_in"); jaw != object.end() && jaw->is_object()) {
+    setup.built_in.emplace();
+    forEachParameter(*setup.built_in, [&](const char* key, auto& value) { value = valueOf(*jaw, key, value); });
+  }
+  if (const auto tray = object.find("tray"); tray != object.end() && tray->is_array())
+    for (const json& one : *tray) {
+      if (!one.is_object()) throw damagedSession("it has no valid tray");
+      haptics::Tool tool;
+      const int kind = valueOf(one, "kind", 0);
+      if (kind < 0 || kind > static_cast<int>(haptics::ShapeKind::cone)) throw damagedSession("it has no valid tray");
+      tool.head.kind = static_cast<haptics::ShapeKind>(kind);
+      forEachNumber(tool, [&](const char* key, double& value) { value = valueOf(one, key, value); });
+      setup.tray.push_back(haptics::sanitised(tool));
+    }
+  if (const auto former = object.find("continues"); former != object.end() && former->is_object())
+    setup.former = {valueOf(*former, "file", std::string()), valueOf(*former, "duration_s", 0.0),
+                    std::strtoull(valueOf(*former, "bone_digest", std::string()).c_str(), nullptr, 16)};
+  return setup;
 }
 
 json gridJson(const assets::VolumeGrid& grid) {
@@ -151,7 +206,9 @@ std::string aboutText(const SessionStart& start) {
                  {"dt_s", start.dt_s},
                  {"grid", gridJson(start.grid)},
                  {"labels", ownLabels()},
-                 {"calibration", calibrationJson(start.calibration)}});
+                 {"calibration", calibrationJson(start.calibration)},
+                 {"setup", setupJson(start.setup)},
+                 {"started_utc", start.started_utc}});
 }
 
 SessionAbout aboutFromText(std::string_view text) {
@@ -168,6 +225,9 @@ SessionAbout aboutFromText(std::string_view text) {
     if (!found->is_object()) throw damagedSession("it has no valid calibration");
     about.start.calibration = calibrationFrom(*found);
   }
+  if (const auto found = object.find("setup"); found != object.end() && found->is_object())
+    about.start.setup = setupFrom(*found);
+  about.start.started_utc = valueOf(object, "started_utc", std::string());
   return about;
 }
 

@@ -74,8 +74,9 @@ void visitHand(auto& hand, Visit&& visit) {
 template <class Visit>
 void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
-         commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
-         removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, state, faults, work_us] = tick;
+         commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
+         bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, state,
+         faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -91,12 +92,14 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"overlap_mm3", "", "mm3"}, overlap_mm3);
   visit(Text{"depth_mm", "", "mm"}, depth_mm);
   visit(Text{"removed_mm3", "", "mm3"}, removed_mm3);
+  visit(Text{"restored_total_mm3", "", "mm3"}, restored_total_mm3);
   visit(Text{"bone_digest"}, bone_digest);
   visit(Text{"contact_tissue", "", "", "", "place in the labels of meta"}, contact_tissue);
   visitSoftTouch(soft, visit);
   visit(Text{"drilling"}, drilling);
   visit(Text{"rest", "", "", "", kRests}, drill_inhibit);
   visit(Text{"strokes"}, strokes);
+  visit(Text{"undone_strokes"}, undone_strokes);
   visit(Text{"state", "", "", "", kStates}, state);
   visit(Text{"faults", "", "", "", kFaults}, faults);
   visit(Text{"work_us", "", "us"}, work_us);

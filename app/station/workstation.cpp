@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "app/session/session_error.h"
 #include "app/text/version.h"
+#include "calibration/record/utc.h"
 
 namespace app {
 namespace {
@@ -14,7 +16,7 @@ constexpr double kWrittenTogether_s = 0.5;
 
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
                                      double rate_Hz, const haptics::Command& command, haptics::TickLog& log,
-                                     Ticking ticking) {
+                                     Ticking ticking, std::string& refusal) {
   if (!recording) return nullptr;
   SessionStart start;
   start.patient_title = patient.title;
@@ -25,8 +27,16 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.label = patient.ct.label;
   start.command = command;
   start.calibration = recording->calibration;
-  return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log,
-                                    ticking == Ticking::stepped ? DrainMode::by_hand : DrainMode::by_thread);
+  start.setup = recording->setup;
+  start.started_utc = calibration::nowUtc();
+  try {
+    return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log,
+                                      ticking == Ticking::stepped ? DrainMode::by_hand : DrainMode::by_thread);
+  } catch (const SessionError& error) {
+    if (!recording->by_default) throw;
+    refusal = error.what();
+    return nullptr;
+  }
 }
 
 std::size_t roomAt(double rate_Hz) { return static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz)); }
@@ -48,7 +58,7 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
       command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
       commands_(command_),
       log_(roomAt(rate_Hz_)),
-      recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking)),
+      recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking, recording_refusal_)),
       pedal_(settings.pedal),
       loop_(servo_, servedAs(*device_, ticking), commands_, log_, newest_,
             withSecondLog(settings, kept_ticks_, keeps_ticks)) {}
@@ -61,6 +71,7 @@ void Workstation::start() {
 RecordingSummary Workstation::stop() {
   loop_.stop();
   emergency_exit_.reset();
+  if (!recording_refusal_.empty()) return {.trouble = recording_refusal_};
   return recorder_ ? recorder_->stop(&bone_) : RecordingSummary{};
 }
 
@@ -107,6 +118,7 @@ std::optional<std::string> Workstation::temporaryFile() const {
 }
 
 std::optional<std::string> Workstation::recordingTrouble() const {
+  if (!recording_refusal_.empty()) return recording_refusal_;
   return recorder_ ? recorder_->trouble() : std::nullopt;
 }
 

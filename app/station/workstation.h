@@ -25,6 +25,8 @@ struct Recording {
   std::string path;
   bool overwrite = false;
   SessionCalibration calibration = {};
+  SessionSetup setup = {};
+  bool by_default = false;  ///< nobody asked for it: if it cannot be made, the rehearsal goes on without
 };
 
 class Workstation {
@@ -48,13 +50,14 @@ class Workstation {
 
   /// Active from a later tick on, stepped from the next; recorded.
   void change(haptics::Command command);
+  std::uint64_t commandSerial() const { return command_.serial; }
   /// Whether the newest command was active in this tick.
   bool isApplied(const haptics::Tick& tick) const { return tick.command_serial == command_.serial; }
   void note(const std::string& kind, const std::string& text);
 
   /// Recorder::temporaryFile.
   std::optional<std::string> temporaryFile() const;
-  /// A line, if recording has ended early.
+  /// A line, if recording has ended early or could not begin.
   std::optional<std::string> recordingTrouble() const;
 
   /// Requests of handle buttons and pedal since the last call, except drilling; in no order.
@@ -80,6 +83,7 @@ class Workstation {
   haptics::Latest<haptics::Tick> newest_;
   haptics::TickLog log_;
   std::optional<haptics::TickLog> kept_ticks_;
+  std::string recording_refusal_;  ///< why nothing is recorded; empty: it is, or nothing was planned
   std::unique_ptr<Recorder> recorder_;
   std::uint64_t unwritten_ = 0;  ///< stepped: ticks since the recorder wrote
   const haptics::FootPedal* pedal_;

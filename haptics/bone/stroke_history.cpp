@@ -1,6 +1,7 @@
 #include "haptics/bone/stroke_history.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace haptics {
 namespace {
@@ -31,10 +32,11 @@ void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
 }
 
 void StrokeHistory::beginStroke() noexcept {
+  dropUndone();
   if (count_ == kMaxStrokes) dropOldest();
   const std::size_t first = count_ == 0 ? 0 : (newest().first + newest().blocks) % saved_.size();
   ++count_;
-  newest() = {first, 0};
+  newest() = {first, 0, 0};
   open_ = true;
 }
 
@@ -50,18 +52,52 @@ void StrokeHistory::dropOldest() noexcept {
   --count_;
 }
 
-StrokeHistory::Restored StrokeHistory::restore(CarvedBone& bone, std::size_t max_blocks) noexcept {
+/// Undone strokes, and the undone part of the newest.
+void StrokeHistory::dropUndone() noexcept {
+  for (; undone_ > 0; --undone_) saved_count_ -= strokes_[(oldest_ + count_ + undone_ - 1) % kMaxStrokes].blocks;
+  if (count_ == 0) return;
+  Stroke& stroke = newest();
+  saved_count_ -= stroke.undone;
+  stroke.blocks -= std::exchange(stroke.undone, 0);
+  if (stroke.blocks == 0) --count_;
+}
+
+std::int64_t StrokeHistory::exchange(CarvedBone& bone, std::size_t entry) noexcept {
+  Saved& saved = saved_[entry % saved_.size()];
+  const BlockState now = bone.stateOf(saved.block);
+  const std::int64_t steps = bone.restoreBlock(saved.block, saved.state);
+  saved.state = now;
+  return steps;
+}
+
+StrokeHistory::Restored StrokeHistory::undo(CarvedBone& bone, std::size_t max_blocks) noexcept {
   endStroke();
   Restored restored;
   if (count_ == 0) return restored;
   Stroke& stroke = newest();
   std::int64_t steps = 0;
-  for (; restored.blocks < max_blocks && stroke.blocks > 0; ++restored.blocks) {
-    const Saved& saved = saved_[(stroke.first + --stroke.blocks) % saved_.size()];
-    steps += bone.restoreBlock(saved.block, saved.state);
-    --saved_count_;
+  for (; restored.blocks < max_blocks && stroke.undone < stroke.blocks; ++restored.blocks)
+    steps += exchange(bone, stroke.first + stroke.blocks - ++stroke.undone);
+  if (stroke.undone == stroke.blocks) {
+    --count_;
+    ++undone_;
   }
-  if (stroke.blocks == 0) --count_;
+  restored.volume_mm3 = static_cast<double>(steps) * bone.grid().voxelVolume_mm3() / 255.0;
+  return restored;
+}
+
+StrokeHistory::Restored StrokeHistory::redo(CarvedBone& bone, std::size_t max_blocks) noexcept {
+  endStroke();
+  Restored restored;
+  if (!isBetweenStrokes()) {
+    if (undone_ == 0) return restored;
+    --undone_;
+    ++count_;
+  }
+  Stroke& stroke = newest();
+  std::int64_t steps = 0;
+  for (; restored.blocks < max_blocks && stroke.undone > 0; ++restored.blocks)
+    steps += exchange(bone, stroke.first + stroke.blocks - stroke.undone--);
   restored.volume_mm3 = static_cast<double>(steps) * bone.grid().voxelVolume_mm3() / 255.0;
   return restored;
 }

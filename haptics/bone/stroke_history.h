@@ -1,8 +1,9 @@
-// Undo: the state of every block before each of the last strokes of the drill. A block is saved once per stroke, before
-// its first write; restoring it gives back every byte, its sums, and the bone's digest and removed volume. Memory is
-// allocated at construction: 15.6 MB and 4 bytes per block of the bone. When it is full the oldest stroke is dropped
-// whole; a stroke of more than a quarter of it counts as several. CarvedBone::blocksLeft is not restored.
-// Servo thread; no allocation, no throw; save() about 30 ns, restore() about 300 ns a block. Not a recording.
+// Undo and redo: the state of every block before each of the last strokes of the drill. A block is saved once per
+// stroke, before its first write. Undo exchanges it with the block as it is, redo exchanges it again: every byte, its
+// sums, and the bone's digest and removed volume follow. A new stroke drops what could be redone. Memory is allocated
+// at construction: 15.6 MB and 4 bytes per block of the bone. When it is full the oldest stroke is dropped whole; a
+// stroke of more than a quarter of it counts as several. CarvedBone::blocksLeft is not restored.
+// Servo thread; no allocation, no throw; save() about 30 ns, undo() and redo() about 300 ns a block. Not a recording.
 #pragma once
 
 #include <array>
@@ -17,13 +18,16 @@ namespace haptics {
 /// Memory layout:
 ///
 ///   saved_     ring of 260-byte entries, at 260 n: solid u8 [64] | reach u8 [64] | dose u16 [64] | block u32
-///   strokes_   ring of 32 (first entry, number of entries) in saved_, the oldest at oldest_
+///   strokes_   ring of 200 (first entry, number of entries, of them undone) in saved_, the oldest at oldest_
 ///   saved_in_  u32 per block: number of the stroke that saved it last
 ///
-///   saved_   | .. free .. | oldest stroke | ... | newest stroke | .. free .. |    strokes are contiguous, modulo size
+///   saved_   | .. free .. | oldest stroke | ... | newest | undone stroke | ... | .. free .. |   contiguous, modulo
+///   size
+///                           \_____ count_ strokes ______/ \____ undone_ ____/
+///   The newest of the count_ strokes may be undone in part, from its last entry backwards.
 class StrokeHistory {
  public:
-  static constexpr std::size_t kMaxStrokes = 32;
+  static constexpr std::size_t kMaxStrokes = 200;
   static constexpr std::size_t kMaxBlocks = 60'000;
 
   /// Capacity for four times the whole bone, at most `max_blocks` (at least 4).
@@ -31,21 +35,28 @@ class StrokeHistory {
 
   /// Whether a block must be saved before it is written.
   bool needsSaving(std::size_t block) const { return saved_in_[block] != stroke_; }
-  /// Begins a stroke if none is open.
+  /// Begins a stroke if none is open; what was undone can no longer be redone.
   void save(std::size_t block, const BlockState& state) noexcept;
   /// Later saves belong to another stroke.
   void endStroke() noexcept;
 
-  /// Number of strokes that can be undone.
+  /// Number of strokes that can be undone, one undone in part included.
   std::size_t strokes() const { return count_; }
+  /// Number of strokes that can be redone whole.
+  std::size_t undoneStrokes() const { return undone_; }
+  /// The newest stroke is undone in part.
+  bool isBetweenStrokes() const { return count_ > 0 && newest().undone > 0; }
 
   struct Restored {
-    double volume_mm3 = 0.0;
+    double volume_mm3 = 0.0;  ///< below 0: redone
     std::size_t blocks = 0;
   };
-  /// Restores up to `max_blocks` of the newest stroke, last saved first, and drops them; ends the open stroke. The
-  /// stroke is complete when strokes() has fallen by one. `bone` is the one of the constructor.
-  Restored restore(CarvedBone& bone, std::size_t max_blocks) noexcept;
+  /// Undoes up to `max_blocks` of the newest stroke, last saved first; ends the open stroke. The stroke is undone when
+  /// strokes() has fallen by one. `bone` is the one of the constructor.
+  Restored undo(CarvedBone& bone, std::size_t max_blocks) noexcept;
+  /// Redoes up to `max_blocks` of the stroke undone in part, or else of the one undone last. It is redone when
+  /// isBetweenStrokes() is false.
+  Restored redo(CarvedBone& bone, std::size_t max_blocks) noexcept;
 
   std::size_t bytes() const { return saved_.size() * sizeof(Saved) + saved_in_.size() * sizeof(std::uint32_t); }
 
@@ -55,16 +66,20 @@ class StrokeHistory {
     std::uint32_t block = 0;
   };
   struct Stroke {
-    std::size_t first = 0, blocks = 0;
+    std::size_t first = 0, blocks = 0, undone = 0;
   };
+  const Stroke& newest() const { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   Stroke& newest() { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
+  /// Exchanges an entry with the block as it is. Returns the solid steps restored.
+  std::int64_t exchange(CarvedBone& bone, std::size_t entry) noexcept;
   void dropOldest() noexcept;
+  void dropUndone() noexcept;
   void beginStroke() noexcept;
 
   std::vector<Saved> saved_;
   std::vector<std::uint32_t> saved_in_;
   std::array<Stroke, kMaxStrokes> strokes_{};
-  std::size_t oldest_ = 0, count_ = 0, saved_count_ = 0;
+  std::size_t oldest_ = 0, count_ = 0, undone_ = 0, saved_count_ = 0;
   std::uint32_t stroke_ = 1;  ///< number of the open stroke, or of the next
   bool open_ = false;
 };

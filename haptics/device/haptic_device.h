@@ -48,6 +48,7 @@ struct DeviceCapabilities {
   bool has_motors = false;      ///< can exert force: has to be armed first (haptics/safety)
   bool has_orientation = true;  ///< false: X_DH never rotates, the rehearsal keeps the tool at a fixed orientation
   bool has_inkwell = false, has_deadman = false;
+  bool pauses_with_ticks = false;   ///< a simulated world: no time passes in it between two ticks, however late
   bool force_is_calibrated = true;  ///< false: the force scale has not been measured
   double peak_force_N = 3.3, continuous_force_N = 0.88;
   double peak_torque_Nmm = 0.0;           ///< about the handle; 0: none

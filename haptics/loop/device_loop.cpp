@@ -100,7 +100,9 @@ MotorCommand DeviceLoop::tick(const HandleState& state, const TickTiming& timing
   const double began_us = stepped_ != nullptr ? 0.0 : threadTime_us();
   TickTiming timed = timing;
   const double since_s = gap_s(timing);
-  timed.gap_s = since_s * rate_Hz_ > kMaxPunctual ? since_s : 0.0;
+  // A late tick of a simulated world is no gap: nobody moved meanwhile.
+  const bool is_gap = since_s * rate_Hz_ > kMaxPunctual && !capabilities_.pauses_with_ticks;
+  timed.gap_s = is_gap ? since_s : 0.0;
   const Answer request = answer(state, timed);
   last_ = gate_.admit(request.wrench_D, state.jacobian_D_mm, request.motors_on);
   const double work_us = stepped_ != nullptr ? 0.0 : threadTime_us() - began_us;

@@ -18,6 +18,7 @@ struct Command {
   bool drill_enabled = true;      ///< false: the pedal has no effect
   bool irrigating = true;         ///< water on the bur while it turns; recorded and drawn, not felt
   std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo
+  std::uint64_t redo_serial = 0;  ///< rises by one for every stroke to redo
   LawSettings law;
   ErosionSettings erosion;
   SpindleSettings spindle;

@@ -37,7 +37,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.state = admitted.state;
 
   // Undo before the bone is evaluated.
-  const double restored_mm3 = undo_.restore(bone_, command.undo_serial, command.tool, X_PQ_);
+  const double restored_mm3 = undo_.restore(bone_, {command.undo_serial, command.redo_serial}, command.tool, X_PQ_);
   const bool embedded = undo_.isToolEmbedded();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
@@ -82,9 +82,11 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   const Cutting::Engagement at{X_PQ_, command.tool.head, embedded ? Contact{} : proxy.head, proxy.force_P_N()};
   const CarveResult removed = cutting_.cut(bone_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
                                            tick.drilling, tick.dt_s, tick.index);
-  undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, tick.dt_s);
+  undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, proxy.proxy_P, removed.removed_mm3, tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
   tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());
+  tick.undone_strokes = static_cast<std::uint8_t>(undo_.strokes().undoneStrokes());
+  tick.restored_total_mm3 = undo_.restoredTotal_mm3();
   tick.bone_digest = bone_.digest();
   tick.removed_total_mm3 = bone_.removedByTissue_mm3();
   return tick;

@@ -21,42 +21,45 @@ double shared_mm3(const SolidField& field, const Tool& tool,
 
 }  // namespace
 
-double StrokeUndo::restore(CarvedBone& bone, std::uint64_t undo_serial, const Tool& tool,
+double StrokeUndo::restore(CarvedBone& bone, const Serials& serials, const Tool& tool,
                            const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept {
   // Limited to the strokes there are: surplus requests are dropped.
-  const std::uint64_t more = undo_serial > last_serial_ ? undo_serial - last_serial_ : 0;
-  last_serial_ = undo_serial;
-  requested_ =
-      std::min(strokes_.strokes(),
-               requested_ + static_cast<std::size_t>(std::min<std::uint64_t>(more, StrokeHistory::kMaxStrokes)));
-  if (requested_ == 0) return 0.0;
+  constexpr std::uint64_t kMost = StrokeHistory::kMaxStrokes;
+  const std::uint64_t undos = serials.undo > last_.undo ? std::min(serials.undo - last_.undo, kMost) : 0;
+  const std::uint64_t redos = serials.redo > last_.redo ? std::min(serials.redo - last_.redo, kMost) : 0;
+  last_ = serials;
+  const std::size_t there_are = strokes_.strokes() + strokes_.undoneStrokes();
+  target_ = std::min(there_are, target_ + redos - std::min<std::uint64_t>(target_ + redos, undos));
+  if (!isRunning()) return 0.0;
 
   pedal_must_be_released_ = true;
   const double shared_before_mm3 = shared_mm3(bone.field(), tool, X_PQ);
   double volume_mm3 = 0.0;
-  for (std::size_t left = kBlocksPerTick; left > 0 && requested_ > 0;) {
-    const std::size_t strokes = strokes_.strokes();
-    const StrokeHistory::Restored restored = strokes_.restore(bone, left);
+  for (std::size_t left = kBlocksPerTick; left > 0 && isRunning();) {
+    const bool undoes = target_ < strokes_.strokes();
+    const StrokeHistory::Restored restored = undoes ? strokes_.undo(bone, left) : strokes_.redo(bone, left);
     volume_mm3 += restored.volume_mm3;
     left -= restored.blocks;
-    if (strokes_.strokes() < strokes) --requested_;
   }
   embedded_ = embedded_ || shared_mm3(bone.field(), tool, X_PQ) > shared_before_mm3;
+  restored_total_mm3_ += volume_mm3;
   return volume_mm3;
 }
 
 DrillInhibit StrokeUndo::inhibitFor(bool pedal) noexcept {
   // Pressing while embedded does not count.
-  pedal_must_be_released_ = pedal && (pedal_must_be_released_ || embedded_ || requested_ > 0);
-  return requested_ > 0            ? DrillInhibit::undo_running
+  pedal_must_be_released_ = pedal && (pedal_must_be_released_ || embedded_ || isRunning());
+  return isRunning()               ? DrillInhibit::undo_running
          : embedded_               ? DrillInhibit::tool_embedded
          : pedal_must_be_released_ ? DrillInhibit::pedal_held
                                    : DrillInhibit::none;
 }
 
-void StrokeUndo::update(bool cutting, double dt_s) noexcept {
-  pause_s_ = cutting ? 0.0 : pause_s_ + dt_s;
-  if (pause_s_ > kPause_s - 0.5 * dt_s) strokes_.endStroke();
+void StrokeUndo::update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
+                        double dt_s) noexcept {
+  if (extent_.endsAt(cutting, bur_P, removed_mm3, dt_s)) strokes_.endStroke();
+  // A running undo keeps its target; cutting moves it.
+  if (cutting) target_ = strokes_.strokes();
 }
 
 }  // namespace haptics

@@ -1,9 +1,8 @@
-// Undoes strokes of the drill on request without harm to hand or bone. A stroke begins when the drill first meets bone
-// and ends when it has been out of it, or not turning, for 0.3 s. At most kBlocksPerTick blocks are restored in a tick,
-// so the largest stroke takes 0.24 s at 1 kHz. The bur does not turn meanwhile, and not until the pedal has been
-// released once, so that restored bone is not cut by mistake. A tool that meets restored bone is embedded: the servo
-// fades its force and gives none until it is out. Frame P. Servo thread; no allocation, no throw. Cost:
-// bone/stroke_history, and two overlaps in ticks that restore.
+// Undoes and redoes strokes of the drill (stroke_extent.h) on request without harm to hand or bone. At most
+// kBlocksPerTick blocks change in a tick, so the largest stroke takes 0.24 s at 1 kHz. The bur does not turn meanwhile,
+// and not until the pedal has been released once, so that restored bone is not cut by mistake. A tool that meets
+// restored bone is embedded: the servo fades its force and gives none until it is out. Frame P. Servo thread; no
+// allocation, no throw. Cost: bone/stroke_history, and two overlaps in ticks that undo or redo.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include "calibration/geometry/pose.h"
 #include "haptics/bone/stroke_history.h"
 #include "haptics/servo/drill_inhibit.h"
+#include "haptics/servo/stroke_extent.h"
 #include "haptics/tool/tool.h"
 
 namespace haptics {
@@ -19,13 +19,16 @@ namespace haptics {
 class StrokeUndo {
  public:
   static constexpr std::size_t kBlocksPerTick = 64;
-  static constexpr double kPause_s = 0.3;
 
   explicit StrokeUndo(const CarvedBone& bone) : strokes_(bone) {}
 
-  /// First in a tick. Returns the mm3 restored. Each rise of the serial by one requests a stroke; a fall is ignored.
-  /// `X_PQ`: the tool at the proxy of the last tick.
-  double restore(CarvedBone& bone, std::uint64_t undo_serial, const Tool& tool,
+  /// Each rise of a serial by one requests a stroke to undo or redo; a fall is ignored. Requests of both kinds in one
+  /// tick cancel out.
+  struct Serials {
+    std::uint64_t undo = 0, redo = 0;
+  };
+  /// First in a tick. Returns the mm3 restored, below 0 when redoing. `X_PQ`: the tool at the proxy of the last tick.
+  double restore(CarvedBone& bone, const Serials& serials, const Tool& tool,
                  const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept;
 
   bool isToolEmbedded() const { return embedded_; }
@@ -37,14 +40,20 @@ class StrokeUndo {
 
   StrokeHistory& strokes() { return strokes_; }
   const StrokeHistory& strokes() const { return strokes_; }
-  /// Last in a tick. `cutting`: the turning bur was in bone.
-  void update(bool cutting, double dt_s) noexcept;
+  /// Restored since the start by undo, less what was redone, mm3.
+  double restoredTotal_mm3() const { return restored_total_mm3_; }
+  /// Last in a tick. `cutting`: the turning bur was in bone, at `bur_P`.
+  void update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
+              double dt_s) noexcept;
 
  private:
+  bool isRunning() const { return target_ != strokes_.strokes() || strokes_.isBetweenStrokes(); }
+
   StrokeHistory strokes_;
-  std::uint64_t last_serial_ = 0;
-  std::size_t requested_ = 0;  ///< strokes still to be restored
-  double pause_s_ = 0.0;
+  StrokeExtent extent_;
+  Serials last_;
+  std::size_t target_ = 0;  ///< strokes that shall be left
+  double restored_total_mm3_ = 0.0;
   bool embedded_ = false, pedal_must_be_released_ = false;
 };
 

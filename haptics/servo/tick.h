@@ -30,6 +30,7 @@ struct Tick {
   double overlap_mm3 = 0.0;                                          ///< of the bur at the proxy
   double depth_mm = 0.0;                                             ///< equivalent depth of the law at the proxy
   double removed_mm3 = 0.0;                                          ///< this tick; below 0 during undo
+  double restored_total_mm3 = 0.0;                                   ///< since the start, by undo, less what was redone
   std::uint64_t bone_digest = 0;                                     ///< after this tick
   /// Since the start, by assets::Tissue, less what was restored.
   std::array<double, assets::kTissueCount> removed_total_mm3{};
@@ -38,6 +39,7 @@ struct Tick {
   bool drilling = false;
   DrillInhibit drill_inhibit = DrillInhibit::none;  ///< why not drilling
   std::uint8_t strokes = 0;                         ///< that can be undone
+  std::uint8_t undone_strokes = 0;                  ///< that can be redone
   SafetyState state = SafetyState::off;             ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed

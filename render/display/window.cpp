@@ -169,7 +169,7 @@ void Window::Impl::listen() {
                         [](GLFWwindow* w, double, double notches) { of(w).events.push_back(WheelTurned{notches}); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
     of(w).events.push_back(KeyPressed{static_cast<Key>(key), action != GLFW_RELEASE, action == GLFW_REPEAT,
-                                      (modifiers & GLFW_MOD_SHIFT) != 0});
+                                      (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
   });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).events.push_back(CloseRequested{}); });
 }

@@ -59,7 +59,7 @@ struct KeyPressed {
   Key key = Key::unknown;
   bool down = false;
   bool repeated = false;
-  bool shift = false;
+  bool shift = false, control = false;
 };
 struct CloseRequested {};
 

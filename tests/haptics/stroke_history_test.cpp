@@ -88,11 +88,11 @@ struct Stroke {
 };
 
 /// Gives the newest stroke back in parts of `most` blocks.
-double restoreOne(StrokeHistory& strokes, CarvedBone& bone, std::size_t most) {
+double undoOne(StrokeHistory& strokes, CarvedBone& bone, std::size_t most) {
   double volume_mm3 = 0.0;
   const std::size_t before = strokes.strokes();
   for (;;) {
-    const StrokeHistory::Restored given = strokes.restore(bone, most);
+    const StrokeHistory::Restored given = strokes.undo(bone, most);
     EXPECT_LE(given.blocks, most);
     EXPECT_GT(given.blocks, 0u);
     volume_mm3 += given.volume_mm3;
@@ -113,7 +113,7 @@ TEST(StrokeHistory, GivesBackEveryByteSumAndFigureOfAnyStroke) {
     }
     ASSERT_EQ(strokes.strokes(), 5u);
     for (int n = 5; n-- > 0;) {
-      const double returned_mm3 = restoreOne(strokes, bone, 1 + random() % 100);
+      const double returned_mm3 = undoOne(strokes, bone, 1 + random() % 100);
       EXPECT_NEAR(returned_mm3, removed_mm3[static_cast<std::size_t>(n)], 1e-9);
       expectSame(wholeOf(bone), past[static_cast<std::size_t>(n)]);
       ASSERT_EQ(strokes.strokes(), static_cast<std::size_t>(n));
@@ -127,7 +127,7 @@ TEST(StrokeHistory, LeavesABoneThatCutsLikeOneNeverCut) {
     CarvedBone bone = noise(seed), never = noise(seed);
     StrokeHistory strokes(bone);
     Stroke(random).cutAll(bone, &strokes);
-    restoreOne(strokes, bone, 64);
+    undoOne(strokes, bone, 64);
     const Stroke next(random);
     EXPECT_EQ(next.cutAll(bone, &strokes), next.cutAll(never, nullptr));
     expectSame(wholeOf(bone), wholeOf(never));
@@ -160,7 +160,7 @@ TEST(StrokeHistory, GivesBackBlocksThatCouldNotBeRemembered) {
   for (double x : {-5.0, 5.0}) {
     const Whole before = wholeOf(bone);
     EXPECT_GT(carveSphere(bone, {{x, 0.0, 0.0}}, 1.5, step, tick++, 1, &strokes).removed_mm3, 1.0);
-    restoreOne(strokes, bone, 50);
+    undoOne(strokes, bone, 50);
     expectSame(wholeOf(bone), before);
   }
 }
@@ -179,17 +179,17 @@ TEST(StrokeHistory, ForgetsTheOldestStrokesWholeWhenItsRoomIsFull) {
   EXPECT_GE(kept, 3u);
   EXPECT_LT(kept, StrokeHistory::kMaxStrokes);
   for (std::size_t n = 0; n < kept; ++n) {
-    restoreOne(strokes, bone, 37);
+    undoOne(strokes, bone, 37);
     expectSame(wholeOf(bone), past[past.size() - 1 - n]);
   }
-  EXPECT_EQ(strokes.restore(bone, 100).blocks, 0u);
+  EXPECT_EQ(strokes.undo(bone, 100).blocks, 0u);
 }
 
 TEST(StrokeHistory, KeepsAsManyStrokesAsItSays) {
   CarvedBone bone = noise(1);
   StrokeHistory strokes(bone);
-  for (int n = 0; n < 100; ++n) {
-    carveSphere(bone, {{-2.0 + 0.04 * n, 0.0, 0.0}}, 0.5, phantom::timeErosion({}, 0.01), 0, 1, &strokes);
+  for (int n = 0; n < 300; ++n) {
+    carveSphere(bone, {{-2.0 + 0.013 * n, 0.0, 0.0}}, 0.5, phantom::timeErosion({}, 0.01), 0, 1, &strokes);
     strokes.endStroke();
   }
   EXPECT_EQ(strokes.strokes(), StrokeHistory::kMaxStrokes);
@@ -217,7 +217,7 @@ TEST(StrokeHistory, TakesALongStrokeBackInPiecesWithoutHalfABlock) {
   ASSERT_GE(strokes.strokes(), 3u);
   while (strokes.strokes() > 0) {
     const std::uint64_t before = bone.digest();
-    restoreOne(strokes, bone, 16);
+    undoOne(strokes, bone, 16);
     EXPECT_NE(bone.digest(), before);
     EXPECT_TRUE(once_was(wholeOf(bone)));
   }
@@ -229,12 +229,13 @@ TEST(StrokeHistory, StaysInItsRoomUnderRandomUse) {
   const Whole first = wholeOf(bone);
   StrokeHistory strokes(bone, 300);
   for (int n = 0; n < 400; ++n) {
-    const unsigned what = random() % 4;
-    if (what == 0) strokes.restore(bone, random() % 80);
+    const auto what = static_cast<unsigned>(random() % 5);
+    if (what == 0) strokes.undo(bone, random() % 80);
+    if (what == 4) strokes.redo(bone, random() % 80);
     if (what == 1) strokes.endStroke();
-    if (what >= 2) Stroke(random).cut(bone, &strokes, random() % 30);
+    if (what == 2 || what == 3) Stroke(random).cut(bone, &strokes, random() % 30);
   }
-  while (strokes.strokes() > 0) restoreOne(strokes, bone, 64);
+  while (strokes.strokes() > 0) undoOne(strokes, bone, 64);
   // Whatever was forgotten: no voxel holds more than it did, and the sums are those of its bytes.
   const Whole now = wholeOf(bone);
   for (std::size_t n = 0; n < now.blocks.size(); ++n) {
@@ -247,6 +248,70 @@ TEST(StrokeHistory, StaysInItsRoomUnderRandomUse) {
   }
 }
 
+/// Redoes one stroke in parts of `most` blocks.
+void redoOne(StrokeHistory& strokes, CarvedBone& bone, std::size_t most) {
+  do EXPECT_LE(strokes.redo(bone, most).blocks, most);
+  while (strokes.isBetweenStrokes());
+}
+
+TEST(StrokeHistory, IsTheBoneOfItsPlaceAfterAnyUndoRedoAndNewStroke) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    CarvedBone bone = noise(seed);
+    StrokeHistory strokes(bone);
+    // The slow twin keeps the whole bone before and after every stroke.
+    std::vector<Whole> states{wholeOf(bone)};
+    std::size_t at = 0;
+    for (int n = 0; n < 60; ++n) {
+      const std::size_t most = 1 + random() % 60;
+      switch (random() % 4) {
+        case 0:
+          if (at == 0) break;
+          undoOne(strokes, bone, most);
+          --at;
+          break;
+        case 1:
+          if (at + 1 == states.size()) break;
+          redoOne(strokes, bone, most);
+          ++at;
+          break;
+        case 2: {
+          // Begun, then turned back within the stroke.
+          if (at == 0) break;
+          strokes.undo(bone, 1);
+          if (strokes.isBetweenStrokes())
+            redoOne(strokes, bone, most);
+          else
+            --at;
+          break;
+        }
+        default:
+          Stroke(random).cutAll(bone, &strokes);
+          if (bone.digest() == states[at].digest) break;  // beside the bone
+          states.resize(++at);
+          states.push_back(wholeOf(bone));
+      }
+      expectSame(wholeOf(bone), states[at]);
+      ASSERT_EQ(strokes.strokes(), at) << "seed " << seed << ", step " << n;
+      ASSERT_EQ(strokes.undoneStrokes(), states.size() - 1 - at);
+    }
+  }
+}
+
+TEST(StrokeHistory, ANewStrokeDropsWhatCouldBeRedone) {
+  std::mt19937 random(3);
+  CarvedBone bone = noise(3);
+  StrokeHistory strokes(bone);
+  for (int n = 0; n < 4; ++n) Stroke(random).cutAll(bone, &strokes);
+  for (int n = 0; n < 3; ++n) undoOne(strokes, bone, 64);
+  EXPECT_EQ(strokes.undoneStrokes(), 3u);
+  Stroke(random).cutAll(bone, &strokes);
+  EXPECT_EQ(strokes.undoneStrokes(), 0u);
+  const std::uint64_t digest = bone.digest();
+  EXPECT_EQ(strokes.redo(bone, 1000).blocks, 0u);
+  EXPECT_EQ(bone.digest(), digest);
+}
+
 TEST(StrokeHistory, MarksTheBricksThatComeBack) {
   CarvedBone bone = block(3.0, 0.2).bone(1);
   StrokeHistory strokes(bone);
@@ -255,7 +320,7 @@ TEST(StrokeHistory, MarksTheBricksThatComeBack) {
   std::vector<glm::ivec3> cut, returned;
   bone.dirtyBricks().takeInto(cut);
   ASSERT_FALSE(cut.empty());
-  restoreOne(strokes, bone, 1000);
+  undoOne(strokes, bone, 1000);
   bone.dirtyBricks().takeInto(returned);
   EXPECT_EQ(cut, returned);
   EXPECT_EQ(bone.solidInGridOrder(), before);
@@ -285,7 +350,7 @@ TEST(StrokeHistory, HandsBricksToAReaderWhileTheyComeBack) {
     carveSphere(bone, {{-1.0 + 0.006 * static_cast<double>(tick), 0.0, 0.0}}, 1.0, phantom::timeErosion({}, 2e-3), tick,
                 1, &strokes);
     if (tick % 3 == 2) strokes.endStroke();
-    if (tick % 5 == 4) strokes.restore(bone, 20);
+    if (tick % 5 == 4) strokes.undo(bone, 20);
   }
   done.store(true);
   reader.join();

@@ -63,6 +63,10 @@ struct Room {
     command.undo_serial += strokes;
     ++command.serial;
   }
+  void redo(std::uint64_t strokes = 1) {
+    command.redo_serial += strokes;
+    ++command.serial;
+  }
 };
 
 std::vector<BlockState> statesOf(const CarvedBone& bone) {
@@ -259,7 +263,7 @@ TEST(StrokeUndo, NeverThrowsAHandInsideTheReturningBone) {
         ASSERT_GT(before_N, 0.4);
       }
       ASSERT_LT(room.tick.proxy_P.mm.z, -0.5);
-      room.undo();
+      room.undo(50);
       const std::size_t from = room.ticks.size();
       room.step();
       EXPECT_EQ(room.tick.drill_inhibit, late ? DrillInhibit::undo_running : DrillInhibit::tool_embedded);
@@ -331,7 +335,7 @@ TEST(StrokeUndo, GivesBackNoMoreThanSixtyFourBlocksInATick) {
   room.go({0.0, 0.0, 0.0}, 0.5);
   room.hand.drill_pedal = false;
   room.go({0.0, 0.0, 4.0}, 0.2);
-  room.undo();
+  room.undo(50);
   int undoing = 0;
   auto before = statesOf(room.bone);
   do {
@@ -347,6 +351,106 @@ TEST(StrokeUndo, GivesBackNoMoreThanSixtyFourBlocksInATick) {
   EXPECT_EQ(room.tick.strokes, 0);
 }
 
+TEST(StrokeUndo, RedoesWhatWasUndoneAndTellsHowMuch) {
+  Room room;
+  std::vector<std::uint64_t> digests{room.bone.digest()};
+  for (const double x_mm : {-2.0, 0.0, 2.0}) {
+    room.cutAt(x_mm);
+    digests.push_back(room.bone.digest());
+  }
+  const auto strokes = static_cast<std::size_t>(room.tick.strokes);
+  ASSERT_EQ(strokes, 3u);
+  const double cut_mm3 = room.tick.removed_total_mm3[1];
+  room.undo(2);
+  room.stay(0.2);
+  EXPECT_EQ(room.bone.digest(), digests[1]);
+  EXPECT_EQ(room.tick.undone_strokes, 2);
+  EXPECT_NEAR(room.tick.restored_total_mm3, cut_mm3 - room.tick.removed_total_mm3[1], 1e-9);
+  room.redo();
+  room.stay(0.2);
+  EXPECT_EQ(room.bone.digest(), digests[2]);
+  EXPECT_EQ(room.tick.strokes, 2);
+  EXPECT_EQ(room.tick.undone_strokes, 1);
+  room.redo(100);
+  room.stay(0.2);
+  EXPECT_EQ(room.bone.digest(), digests[3]);
+  EXPECT_NEAR(room.tick.restored_total_mm3, 0.0, 1e-9);
+  // What was asked for in vain is not owed, and one of each cancels out.
+  room.undo();
+  room.redo();
+  room.stay(0.2);
+  EXPECT_EQ(room.bone.digest(), digests[3]);
+  room.cutAt(1.0);
+  room.redo();
+  const std::uint64_t cut = room.bone.digest();
+  room.stay(0.2);
+  EXPECT_EQ(room.bone.digest(), cut);
+}
+
+TEST(StrokeUndo, TurnsBackWithinAStroke) {
+  Room room({ShapeKind::sphere, 3.0, 0.0});
+  room.hand.drill_pedal = true;
+  room.go({0.0, 0.0, 0.8}, 0.5);
+  room.hand.drill_pedal = false;
+  room.go({0.0, 0.0, 4.0}, 0.2);
+  const std::uint64_t cut = room.bone.digest();
+  room.undo();
+  room.step();
+  ASSERT_EQ(room.tick.drill_inhibit, DrillInhibit::undo_running);
+  room.redo();
+  room.stay(0.1);
+  EXPECT_EQ(room.bone.digest(), cut);
+  EXPECT_EQ(room.tick.undone_strokes, 0);
+  EXPECT_EQ(room.tick.drill_inhibit, DrillInhibit::none);
+}
+
+/// Strokes of a bur that moves as told, without servo. Removes `mm3_per_s`.
+int strokesOf(const std::vector<std::pair<glm::dvec3, double>>& way, double mm3_per_s, double dt_s) {
+  StrokeExtent extent;
+  int ends = 0;
+  glm::dvec3 at_mm(0.0);
+  for (const auto& [to_mm, seconds] : way) {
+    const int steps = static_cast<int>(seconds / dt_s + 0.5);
+    const glm::dvec3 from_mm = at_mm;
+    for (int n = 1; n <= steps; ++n) {
+      at_mm = glm::mix(from_mm, to_mm, static_cast<double>(n) / steps);
+      ends += extent.endsAt(true, {at_mm}, mm3_per_s * dt_s, dt_s) ? 1 : 0;
+    }
+  }
+  return ends;
+}
+
+TEST(StrokeExtent, EndsAtAReversalOfOneMillimetreThreeSecondsOrFiveCubicMillimetres) {
+  for (const double dt_s : {2e-3, 1e-3, 2.5e-4}) {
+    // One way, 2.9 s: none. Ten seconds on the spot: three.
+    EXPECT_EQ(strokesOf({{{6.0, 0.0, 0.0}, 2.9}}, 0.5, dt_s), 0);
+    EXPECT_EQ(strokesOf({{{0.0, 0.0, 0.0}, 10.0}}, 0.5, dt_s), 3);
+    // 4 mm³/s for 4 s: three times five.
+    EXPECT_EQ(strokesOf({{{0.0, 0.0, 0.0}, 3.99}}, 4.0, dt_s), 3);
+    // To and fro by 2 mm ends each pass, a tremor of 0.9 mm ends nothing.
+    const std::pair<glm::dvec3, double> out{{2.0, 0.0, 0.0}, 0.5}, home{{0.0, 0.0, 0.0}, 0.5};
+    EXPECT_EQ(strokesOf({out, home, out, home}, 0.5, dt_s), 3);
+    const std::pair<glm::dvec3, double> near{{0.9, 0.0, 0.0}, 0.3}, back{{0.0, 0.0, 0.0}, 0.3};
+    EXPECT_EQ(strokesOf({near, back, near, back}, 0.5, dt_s), 0);
+  }
+}
+
+TEST(StrokeUndo, ATroughOnOnePedalIsManyStrokes) {
+  Room room;
+  room.go({-2.0, 0.0, 1.2}, 0.1);
+  room.hand.drill_pedal = true;
+  for (int pass = 0; pass < 8; ++pass) room.go({pass % 2 == 0 ? 2.0 : -2.0, 0.0, 0.9 - 0.1 * pass}, 1.0);
+  EXPECT_GE(room.tick.strokes, 7) << "one for each pass";
+  const double cut_mm3 = room.tick.removed_total_mm3[1];
+  room.hand.drill_pedal = false;
+  room.go({0.0, 0.0, 4.0}, 0.3);
+  room.undo();
+  room.stay(0.3);
+  EXPECT_GT(room.tick.restored_total_mm3, 0.0);
+  EXPECT_LE(room.tick.restored_total_mm3, StrokeExtent::kLargest_mm3 + 0.1);
+  EXPECT_LT(room.tick.restored_total_mm3, 0.4 * cut_mm3);
+}
+
 /// Random input of hand and instructor: drills, leaves, undoes, jumps.
 void wander(Room& room, unsigned seed, int steps) {
   std::mt19937 random(seed);
@@ -358,6 +462,7 @@ void wander(Room& room, unsigned seed, int steps) {
     if (random() % 100 == 0) room.hand.X_PT.translation_mm.z = 1.2;
     if (random() % 100 == 0) room.hand.drill_pedal = !room.hand.drill_pedal;
     if (random() % 150 == 0) room.undo(1 + random() % 3);
+    if (random() % 200 == 0) room.redo(1 + random() % 2);
     room.step();
   }
 }
@@ -376,6 +481,8 @@ TEST(StrokeUndo, ReplaysBitForBit) {
       ASSERT_EQ(a.removed_mm3, b.removed_mm3);
       ASSERT_EQ(a.drill_inhibit, b.drill_inhibit);
       ASSERT_EQ(a.strokes, b.strokes);
+      ASSERT_EQ(a.undone_strokes, b.undone_strokes);
+      ASSERT_EQ(a.restored_total_mm3, b.restored_total_mm3);
       returned += a.removed_mm3 < 0.0 ? 1 : 0;
     }
     EXPECT_GE(returned, 3);

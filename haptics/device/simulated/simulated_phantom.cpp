@@ -37,6 +37,7 @@ DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip, c
   can.arm_model = m.key;
   can.has_motors = true;
   can.has_inkwell = m.has_inkwell;
+  can.pauses_with_ticks = true;
   can.has_deadman = m.has_deadman;
   can.peak_force_N = m.peak_force_N;
   can.continuous_force_N = m.continuous_force_N;

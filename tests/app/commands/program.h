@@ -28,8 +28,16 @@ class ProgramTest : public testing::Test {
               (std::string("molar_") + info->test_suite_name() + "_" + info->name() + "_" + std::to_string(getpid()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
+    // Rehearsals are recorded there, beside the files of the test.
+    std::filesystem::remove_all(dataFolder());
+    setenv("XDG_DATA_HOME", dataFolder().c_str(), 1);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::remove_all(dataFolder());
+  }
+
+  std::string dataFolder() const { return folder_.string() + ".data"; }
 
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
   std::string write(const std::string& name, const std::string& bytes) const {

@@ -82,9 +82,18 @@ TEST(ActiveCommand, UndoesAStrokeAndRecordsItForReplay) {
   at.active->execute({Control::undo});
   ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.strokes == 0; }));
   ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.bone_digest == whole; }));
+  at.active->followStrokes(at.workstation->newestTick());
+  at.active->execute({Control::redo});
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.bone_digest == cut; }));
+  at.active->followStrokes(at.workstation->newestTick());
+  at.active->execute({Control::redo});
+  EXPECT_EQ(at.active->inForce().redo_serial, 1u) << "there is none left";
+  at.active->execute({Control::undo});
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.bone_digest == whole; }));
   at.workstation->stop();
   EXPECT_TRUE(verify(at.path).verified()) << verify(at.path).line();
-  EXPECT_TRUE(hasEvent(at.path, "undo", "newest of 1 stroke"));
+  EXPECT_TRUE(hasEvent(at.path, "undo", " mm³ taken back, 0 strokes left"));
+  EXPECT_TRUE(hasEvent(at.path, "redo", " mm³ cut again, 0 strokes left to redo"));
   EXPECT_GT(metricsOf(at.path).returned_mm3, 0.0);
 }
 

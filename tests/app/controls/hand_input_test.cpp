@@ -41,14 +41,25 @@ TEST(HandInput, RequestsComeOnceInTheOrderOfTheKeys) {
   HandInput hand({});
   EXPECT_TRUE(hand.takeRequests().empty());
   for (char letter : {'P', '3', 'D', 'X', 'R', 'T', 'U', 'I'})
-    for (bool repeated : {false, true}) hand.take(KeyPressed{render::keyOf(letter), true, repeated, false}, 0.25);
+    for (bool repeated : {false, true})
+      hand.take(KeyPressed{render::keyOf(letter), true, repeated, letter == 'X'}, 0.25);
+  hand.take(KeyPressed{render::keyOf('X'), true}, 0.25);
   hand.take(KeyPressed{Key::escape, true, false, false}, 0.25);
   hand.take(render::CloseRequested{}, 0.25);
   const std::vector<ControlRequest> wished = {
       {Control::snapshot}, {Control::law, 2}, {Control::drill},      {Control::stop}, {Control::arm},
       {Control::tool},     {Control::undo},   {Control::irrigation}, {Control::end},  {Control::end}};
-  EXPECT_EQ(hand.takeRequests(), wished);
+  EXPECT_EQ(hand.takeRequests(), wished) << "X alone stops nothing";
   EXPECT_TRUE(hand.takeRequests().empty());
+}
+
+TEST(HandInput, KeysWithModifiersMeanWhatTheTableSays) {
+  HandInput hand({});
+  for (const auto& [letter, shift, control] :
+       {std::tuple('U', true, false), std::tuple('Z', false, true), std::tuple('Z', true, true),
+        std::tuple('Z', false, false), std::tuple('U', false, true), std::tuple('D', true, false)})
+    hand.take(KeyPressed{render::keyOf(letter), true, false, shift, control}, 0.25);
+  EXPECT_EQ(hand.takeRequests(), (std::vector<ControlRequest>{{Control::redo}, {Control::undo}, {Control::redo}}));
 }
 
 }  // namespace

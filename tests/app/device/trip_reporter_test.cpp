@@ -36,6 +36,21 @@ TEST(TripReporter, CountsLimitsWithoutReportingThem) {
   EXPECT_EQ(tripsText({}), "none");
 }
 
+TEST(TripReporter, SaysOnceThatTheLoopPausesAndThenCounts) {
+  TripReporter reporter;
+  TripCounter trips;
+  std::size_t lines = 0;
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    trips.add(1000 * n, Fault::resumed);
+    lines += reporter.update(trips, SafetyState::ready).size();
+    trips.add(1000 * n + 1, Fault::none);
+    lines += reporter.update(trips, SafetyState::active).size();
+  }
+  EXPECT_EQ(lines, 3u) << "the pause, no force, force again";
+  EXPECT_EQ(tripsText(trips), "resumed 20");
+  EXPECT_EQ(reporter.update(trips, SafetyState::ready).size(), 1u) << "for another reason it is said again";
+}
+
 TEST(TripReporter, ReportsWhatAnotherStateMeans) {
   TripReporter reporter;
   EXPECT_EQ(reporter.update({}, SafetyState::ready).size(), 1u);

@@ -1,0 +1,45 @@
+#include "app/rehearsal/continuation.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "app/session/replay.h"
+#include "app/session/session_reader.h"
+#include "app/text/usage_error.h"
+#include "haptics/bone/carved_bone.h"
+
+namespace app {
+
+Continuation continuationOf(const std::string& path) {
+  Continuation next;
+  next.path = path;
+  BoneAtTime bone = boneAtTime(path, {});
+  next.remarks = std::move(bone.remarks);
+  next.grid = bone.start.grid;
+  next.solid = std::move(bone.solid);
+  next.label = std::move(bone.start.label);
+  next.setup = std::move(bone.start.setup);
+  const double before_s = next.setup.former ? next.setup.former->duration_s : 0.0;
+  next.setup.former = FormerSession{std::filesystem::path(path).filename().string(), before_s + bone.t_s,
+                                    haptics::CarvedBone(next.grid, next.solid, next.label).digest()};
+  if (const std::vector<SessionCommand> commands = SessionReader(path).commands(); !commands.empty())
+    next.command = commands.back().command;
+  // The serials of the former servo mean nothing to a new one.
+  next.command.serial = next.command.undo_serial = next.command.redo_serial = next.command.rearm = 0;
+  return next;
+}
+
+void Continuation::applyTo(assets::Patient& patient) const {
+  const auto isUnlabelled = [](const std::vector<std::uint8_t>& labels) {
+    return std::ranges::all_of(labels, [](std::uint8_t value) { return value == 0; });
+  };
+  const bool same_label = patient.ct.label.empty() ? isUnlabelled(label) : patient.ct.label == label;
+  if (!(patient.ct.grid == grid) || !same_label)
+    throw UsageError("--continue " + path + ": is of another patient or case, " +
+                     (setup.built_in ? "or of another version of the built-in one"
+                                     : "name its folder: molar rehearse PATIENT --continue " + path));
+  patient.ct.solid = solid;
+}
+
+}  // namespace app

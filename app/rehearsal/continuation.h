@@ -1,0 +1,30 @@
+// Going on where a recorded rehearsal ended: its bone, case, tools and settings. Reads the session once, a second for
+// some minutes; a killed one is replayed for its bone. Undo does not reach back into it. Main thread, start-up only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/session/session_setup.h"
+#include "assets/patient.h"
+#include "haptics/servo/command.h"
+
+namespace app {
+
+struct Continuation {
+  std::string path;
+  SessionSetup setup;        ///< of the new session: `former` is this one
+  haptics::Command command;  ///< in force at its end: tool, law, erosion, motor
+  assets::VolumeGrid grid;
+  std::vector<std::uint8_t> solid;  ///< the bone at its end, in the order of the grid
+  std::vector<std::uint8_t> label;
+  std::vector<std::string> remarks;  ///< for people
+
+  /// Gives the patient the bone. Throws UsageError if it is not the patient of the session.
+  void applyTo(assets::Patient& patient) const;
+};
+
+/// Throws SessionError.
+Continuation continuationOf(const std::string& path);
+
+}  // namespace app

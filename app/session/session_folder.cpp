@@ -1,0 +1,81 @@
+#include "app/session/session_folder.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <optional>
+#include <utility>
+
+#include <fmt/chrono.h>
+
+#include "app/session/recording_file.h"
+#include "app/session/session_error.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxSameSecond = 999;
+
+}  // namespace
+
+fs::path usualSessionFolder() {
+  // Relative paths are ignored (XDG Base Directory Specification).
+  if (const char* const data = std::getenv("XDG_DATA_HOME"); data != nullptr && data[0] == '/')
+    return fs::path(data) / "molar" / "sessions";
+  if (const char* const own = std::getenv("HOME"); own != nullptr && own[0] == '/')
+    return fs::path(own) / ".local" / "share" / "molar" / "sessions";
+  throw SessionError("no folder for sessions is known: set HOME or XDG_DATA_HOME to a folder");
+}
+
+std::string newSessionPath(const fs::path& folder, std::int64_t unix_s, int fdi) {
+  const auto seconds = static_cast<std::time_t>(unix_s);
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  const std::string name = fmt::format("{:%Y-%m-%d-%H%M%S}-", local) + (fdi > 0 ? fmt::format("tooth-{}", fdi) : "jaw");
+  const auto isTaken = [&](const std::string& stem) {
+    std::error_code failed;
+    for (const std::string& file : sessionFiles((folder / (stem + ".molar")).string()))
+      if (fs::exists(file, failed) || fs::exists(file + ".new", failed)) return true;
+    return false;
+  };
+  std::string stem = name;
+  for (int n = 2; isTaken(stem) && n <= kMaxSameSecond; ++n) stem = fmt::format("{}-{}", name, n);
+  return (folder / (stem + ".molar")).string();
+}
+
+void makeSessionFolder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed || !fs::is_directory(folder, failed) || ::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw SessionError(folder.string() + ": cannot be written: check the folder and its permissions");
+}
+
+fs::file_time_type lastWritten(const fs::path& session) {
+  std::error_code failed;
+  fs::file_time_type newest = fs::file_time_type::min();
+  for (const char* const ending : {"", "-wal"}) {
+    const auto written = fs::last_write_time(session.string() + ending, failed);
+    if (!failed) newest = std::max(newest, written);
+  }
+  return newest;
+}
+
+std::string sessionNamed(const std::string& text) {
+  if (text != "last") return text;
+  const fs::path folder = usualSessionFolder();
+  std::error_code failed;
+  std::optional<fs::path> newest;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const fs::path& path = entry.path();
+    if (path.extension() != ".molar" || !entry.is_regular_file(failed) || isBeingRecorded(path.string())) continue;
+    if (!newest || std::pair(lastWritten(path), path) > std::pair(lastWritten(*newest), *newest)) newest = path;
+  }
+  if (!newest) throw SessionError("last: there is no session in " + folder.string() + ": name a session file");
+  return newest->string();
+}
+
+}  // namespace app

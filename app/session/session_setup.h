@@ -1,0 +1,28 @@
+// What a rehearsal needs besides the bone to go on later: the parameters of the built-in patient, the tools on the
+// tray, and which session it continues. Plain values; any thread. Never a person's name, identifier or folder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/synthetic/jaw.h"
+#include "haptics/tool/tool.h"
+
+namespace app {
+
+/// The session that was continued.
+struct FormerSession {
+  std::string file;               ///< name without folder
+  double duration_s = 0.0;        ///< of all parts until its end
+  std::uint64_t bone_digest = 0;  ///< haptics::CarvedBone::digest of the bone taken over, as never cut
+};
+
+struct SessionSetup {
+  std::optional<assets::JawParameters> built_in;  ///< none: an imported patient
+  std::vector<haptics::Tool> tray;                ///< the first in the hand at the start
+  std::optional<FormerSession> former;            ///< none: the patient was untouched
+};
+
+}  // namespace app
