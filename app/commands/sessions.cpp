@@ -68,7 +68,8 @@ std::string table(const std::vector<SessionListing>& sessions, const std::filesy
 }
 
 int list(const SessionsOptions& options) {
-  const std::filesystem::path folder = options.folder.empty() ? usualSessionFolder() : options.folder;
+  const std::filesystem::path folder =
+      options.folder.empty() ? usualSessionFolder() : std::filesystem::path(options.folder);
   if (!options.folder.empty() && !std::filesystem::is_directory(folder))
     throw UsageError("--folder " + options.folder + ": no such folder, check the name");
   const std::vector<SessionListing> sessions = listSessions(folder, options.checks);

@@ -28,7 +28,6 @@ class Equipment {
   /// The device pushes: it is armed, and its motors can be switched off.
   bool hasMotors() const { return has_motors_; }
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
-  bool hasMotors() const { return has_motors_; }
   /// Null unless the mouse is the pose source.
   haptics::MouseDevice* mouse() { return source_.mouse; }
   SecondHand* secondHand() { return second_hand_ ? &*second_hand_ : nullptr; }
