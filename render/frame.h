@@ -2,6 +2,8 @@
 // which both eyes show. Frame W unless named. Render thread.
 #pragma once
 
+#include <optional>
+
 #include "assets/instrument/handpiece.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
@@ -22,6 +24,15 @@ struct Layers {
   bool planned_cut = false;  ///< bone planned for removal
   bool ghost_tool = false;   ///< the tool at the hand, while the drawn tool is held by the surface
   bool slices = false;       ///< CT slices through the bur
+  bool gap_ring = true;      ///< a ring on the bone at Frame::gap, coloured by it
+};
+
+/// Larger gaps are not reported.
+inline constexpr double kMaxGap_mm = 10.0;
+/// Air between the bur and the drawn surface of tooth and bone (volume/bone_gap.h).
+struct BoneGap {
+  double mm = 0.0;                                     ///< 0: touching
+  calibration::Point<calibration::Patient> nearest_P;  ///< of the surface
 };
 
 enum class Antialias { none, edges };
@@ -32,6 +43,7 @@ struct Quality {
   bool ambient_occlusion = true, lamp_shadow = true;
   double step_voxels = 0.5;  ///< between samples along a ray
   int pixel_edge = 1;        ///< display pixels along the edge of a computed pixel
+  bool tool_shadow = true;   ///< of the instrument, on the patient
 };
 
 struct Frame {
@@ -47,7 +59,10 @@ struct Frame {
   double bur_radius_mm = 2.0;
   assets::BurForm bur_form = assets::BurForm::round;  ///< for the outlines in the slices
   double bur_length_mm = 0.0;
-  double bur_angle_rad = 0.0;  ///< rotation of the bur
+  double shaft_radius_mm = 0.0;            ///< of the bur, behind its head; 0: what is usual for its radius
+  double bur_angle_rad = 0.0;              ///< rotation of the bur
+  std::optional<BoneGap> gap;              ///< of this pose; none: farther than kMaxGap_mm, or not known
+  glm::dvec3 slices_beside_bur_P_mm{0.0};  ///< where the CT slices cross, from the bur
   bool tool_visible = true;
   calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< the second instrument
   bool second_visible = false;

@@ -10,12 +10,27 @@
 #include "render/gpu/window_image.h"
 #include "render/scene/mandibular_canal_tube.h"
 #include "render/scene_renderer.h"
+#include "render/volume/clearance_legend.h"
 
 namespace render {
+namespace {
+
+constexpr double kSliceHeight = 0.3, kInsetGap = 0.025, kLegendHeight = 0.12;  // of the viewer's screen
+
+// Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.
+PixelBox sliceBox(std::size_t n, const glm::dvec2& per_height) {
+  PixelBox seen;
+  seen.size_px = glm::max(glm::ivec2(kSliceHeight * per_height), 1);
+  seen.corner_px = kInsetGap * per_height * glm::dvec2(1.0, static_cast<double>(n) + 1.0);
+  seen.corner_px.y += static_cast<int>(n) * seen.size_px.y;
+  return seen;
+}
+
+}  // namespace
 
 FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                              std::span<const std::uint8_t> label, RenderOptions options)
-    : fields_(grid, solid, label) {
+    : fields_(grid, solid, label), gap_(grid, fields_.solid()) {
   if (options.samples < 1 || options.samples > 8)
     throw GpuError("samples " + std::to_string(options.samples) + ", renderer options: choose 1 to 8");
   if (options.backend != Backend::cpu) {
@@ -39,36 +54,62 @@ void FrameRenderer::setSecondInstrument(const assets::MeshModel& instrument_O) {
 }
 
 void FrameRenderer::setGuides(const Guides& guides) {
-  const assets::MeshModel tube = mandibularCanalTube(guides.mandibular_canal_P_mm, guides.mandibular_canal_radius_mm);
-  for (const Model model : {Model::mandibular_canal, Model::mandibular_canal_overlay}) scene_->setModel(model, tube);
-  scene_->setGuides(guideField(fields_.grid(), guides));
+  const std::vector<glm::dvec3>& canal = guides.mandibular_canal_P_mm;
+  const double radius_mm = guides.mandibular_canal_radius_mm;
+  scene_->setModel(Model::mandibular_canal, mandibularCanalTube(canal, radius_mm));
+  scene_->setModel(Model::mandibular_canal_overlay, mandibularCanalDashes(canal, radius_mm));
+  guides_ = guideField(fields_.grid(), guides);
+  has_canal_ = canal.size() >= 2;
+  scene_->setGuides(*guides_);
 }
 
 void FrameRenderer::setScan(CtScan scan) { slices_.emplace(fields_.grid(), std::move(scan)); }
 
 Image FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) const {
   assert(slices_);
-  return slices_->image(plane, frame, fields_.solid(), edge_px);
+  return slices_->image(plane, frame, fields_.solid(), edge_px, guides_ ? &*guides_ : nullptr);
 }
 
-// A column at the viewer's left, upright for the viewer however the panel is mounted.
+std::optional<SlicePlane> FrameRenderer::sliceAt(const Frame& frame, const glm::dvec2& share) const {
+  if (!frame.layers.slices || !slices_) return {};
+  const glm::dvec2 screen_px = screenOrientation(frame.rig).viewerSize(frame.rig.screen.px);
+  const glm::dvec2 at_px = share * screen_px;
+  for (std::size_t n = 0; n < kSlicePlanes.size(); ++n) {
+    const PixelBox box = sliceBox(n, glm::dvec2(screen_px.y));
+    const glm::dvec2 inside = at_px - glm::dvec2(box.corner_px);
+    if (glm::all(glm::greaterThanEqual(inside, glm::dvec2(0.0))) &&
+        glm::all(glm::lessThan(inside, glm::dvec2(box.size_px))))
+      return kSlicePlanes[n];
+  }
+  return {};
+}
+
+// Slices in a column at the viewer's left, the legend at the lower right, upright for the viewer however the panel is
+// mounted.
 void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
   std::vector<Inset> insets;
-  if (frame.layers.slices && slices_) {
-    constexpr double kHeight = 0.3, kGap = 0.025;  // of the height of the viewer's screen
-    const ScreenOrientation orientation = screenOrientation(frame.rig);
-    const glm::dvec2 screen_px = orientation.viewerSize(frame.rig.screen.px);
-    const glm::dvec2 per_height =
-        glm::dvec2(orientation.viewerSize(eye_px)) * glm::dvec2(screen_px.y / screen_px.x, 1.0);
+  const ScreenOrientation orientation = screenOrientation(frame.rig);
+  const glm::ivec2 seen_px = orientation.viewerSize(eye_px);
+  const glm::dvec2 screen_px = orientation.viewerSize(frame.rig.screen.px);
+  const glm::dvec2 per_height = glm::dvec2(seen_px) * glm::dvec2(screen_px.y / screen_px.x, 1.0);
+  const auto add = [&](const PixelBox& seen, const Image& upright) {
+    const PixelBox box = orientation.imageBox(seen, eye_px);
+    insets.push_back({turned(upright, orientation), box.corner_px, box.size_px});
+  };
+  if (frame.layers.slices && slices_)
     for (std::size_t n = 0; n < kSlicePlanes.size(); ++n) {
-      PixelBox seen;
-      seen.size_px = glm::max(glm::ivec2(kHeight * per_height), 1);
-      seen.corner_px = kGap * per_height * glm::dvec2(1.0, static_cast<double>(n) + 1.0);
-      seen.corner_px.y += static_cast<int>(n) * seen.size_px.y;
-      const PixelBox box = orientation.imageBox(seen, eye_px);
-      insets.push_back(
-          {turned(slice(kSlicePlanes[n], frame, seen.size_px.y), orientation), box.corner_px, box.size_px});
+      const PixelBox seen = sliceBox(n, per_height);
+      add(seen, slice(kSlicePlanes[n], frame, seen.size_px.y));
     }
+  if (frame.layers.clearance && has_canal_) {
+    const int dot_px = std::max(static_cast<int>(kLegendHeight * per_height.y) / clearanceLegendSize(1).y, 1);
+    const glm::dvec2 size_px = glm::dvec2(clearanceLegendSize(dot_px)) * glm::dvec2(per_height.x / per_height.y, 1.0);
+    PixelBox seen;
+    seen.size_px = glm::max(glm::ivec2(glm::round(size_px)), 1);
+    seen.corner_px = seen_px - seen.size_px - glm::ivec2(kInsetGap * per_height);
+    // Above the last line of text, which lies over the picture.
+    seen.corner_px.y -= static_cast<int>(0.06 * per_height.y);
+    if (glm::all(glm::greaterThanEqual(seen.corner_px, glm::ivec2(0)))) add(seen, clearanceLegend(dot_px));
   }
   scene_->setInsets(std::move(insets));
 }
@@ -96,6 +137,7 @@ void FrameRenderer::updateOverlay(const StereoLayout& layout, const ScreenOrient
 
 void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) {
   fields_.updateBrick(brick, solid);
+  gap_.touch(brick);
 }
 
 void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {

@@ -18,6 +18,7 @@
 #include "render/gpu/window_target.h"
 #include "render/image.h"
 #include "render/render_options.h"
+#include "render/volume/bone_gap.h"
 #include "render/volume/ct_slices.h"
 #include "render/volume/guide_field.h"
 #include "render/volume/volume_fields.h"
@@ -49,6 +50,9 @@ class FrameRenderer {
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
 
+  /// Between the bur of `frame` and the bone with all bricks given until now; for Frame::gap.
+  std::optional<BoneGap> gap(const Frame& frame) { return gap_.find(frame); }
+
   /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, each output
   /// outputSize(frame.display, frame.rig.screen.px) large.
   void render(const Frame& frame);
@@ -57,6 +61,9 @@ class FrameRenderer {
 
   /// A CT slice through the bur of `frame` and the current bone; after setScan().
   Image slice(SlicePlane plane, const Frame& frame, int edge_px) const;
+
+  /// The slice under a point of the viewer's screen, as shares of its width and height from the top left.
+  std::optional<SlicePlane> sliceAt(const Frame& frame, const glm::dvec2& share) const;
 
   /// Composes one eye of the last rendered frame for showBystander, without drawing the scene again.
   void composeForBystander();
@@ -90,9 +97,12 @@ class FrameRenderer {
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
 
   VolumeFields fields_;
+  GapFinder gap_;
   std::unique_ptr<WindowUpload> upload_;  ///< for the CPU back-end
   std::unique_ptr<SceneRenderer> scene_;
   std::optional<CtSlices> slices_;
+  std::optional<GuideField> guides_;
+  bool has_canal_ = false;
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;

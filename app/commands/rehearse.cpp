@@ -90,6 +90,7 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
   const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen, plan.patient, X_PF);
   plan.full_screen = chosen.has_value();
+  plan.view_can_turn = !chosen && !haptics::isDeviceAddress(options.plan.device);
   if (!chosen) {
     if (device.kind == DeviceIdentity::Kind::real)
       plan.remarks.push_back("no calibration of " + device.model + " " + device.serial +

@@ -14,10 +14,13 @@
 namespace app {
 namespace {
 
-constexpr std::array<KeyMeaning, 5> kMovements = {{
+constexpr std::array<KeyMeaning, 8> kMovements = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
-    {"Wheel", "move nearer or farther"},
+    {"Wheel", "away from you: into the picture; steps as fine as the gap is small"},
+    {"Shift+Wheel", "the same in steps five times as long"},
+    {"Wheel on a CT slice", "through the slices; drilling brings them back to the bur"},
+    {"Right drag", "turn the view, on a desk without a measured rig"},
     {"Arrows", "tilt the handpiece"},
     {"Q, E", "rotate the handpiece"},
 }};

@@ -28,7 +28,12 @@ enum class Control : std::uint8_t {
   layer,
   face,
   line,
-  keys
+  keys,
+  magnify,
+  shrink,
+  first_view,
+  slice_up,
+  slice_down
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -50,18 +55,17 @@ struct ControlMeaning {
   std::string_view key;   ///< with exactly its modifiers: "Shift+U"; empty: none
   std::string_view does;
   ControlValue value;
-  bool is_felt;  ///< changes force, cutting or irrigation: a procedure may reserve it
+  bool is_felt;                ///< changes force, cutting or irrigation: a procedure may reserve it
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 15> kControls = {{
+inline constexpr std::array<ControlMeaning, 20> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
     {Control::irrigation, "irrigation", "I", "irrigation on or off", ControlValue::on_or_off, true},
     {Control::undo, "undo", "U", "undo the last stroke", ControlValue::none, true, "Ctrl+Z"},
-    {Control::redo, "redo", "Shift+U", "redo the stroke undone last", ControlValue::none, true,
-     "Ctrl+Shift+Z"},
+    {Control::redo, "redo", "Shift+U", "redo the stroke undone last", ControlValue::none, true, "Ctrl+Shift+Z"},
     {Control::snapshot, "snapshot", "P", "snapshot", ControlValue::none, false},
     {Control::stop, "stop", "Shift+X", "emergency stop: motors off", ControlValue::none, false},
     {Control::arm, "arm", "R", "arm again after a fault", ControlValue::none, false},
@@ -71,6 +75,11 @@ inline constexpr std::array<ControlMeaning, 15> kControls = {{
     {Control::face, "face", "", "how much of the face is seen", ControlValue::percent, false},
     {Control::line, "line", "L", "line of text in the picture on or off", ControlValue::on_or_off, false},
     {Control::keys, "keys", "F1, ?", "show or close these keys", ControlValue::on_or_off, false},
+    {Control::magnify, "magnify", "+", "stronger loupes", ControlValue::none, false},
+    {Control::shrink, "shrink", "-", "weaker loupes", ControlValue::none, false},
+    {Control::first_view, "first-view", "Home", "the first view again", ControlValue::none, false},
+    {Control::slice_up, "slice-up", "PgUp", "axial CT slice half a millimetre up", ControlValue::none, false},
+    {Control::slice_down, "slice-down", "PgDn", "the same down", ControlValue::none, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

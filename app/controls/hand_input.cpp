@@ -1,5 +1,7 @@
 #include "app/controls/hand_input.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "calibration/geometry/units.h"
@@ -8,7 +10,9 @@
 namespace app {
 namespace {
 
-constexpr double kWheelNotch_mm = 0.5;
+// A notch of the wheel: a part of the gap, within limits; away from the bone it is at least an ordinary step.
+constexpr double kNotchOfGap = 0.2, kFinestNotch_mm = 0.1, kLeavingNotch_mm = 0.3, kCoarsestNotch_mm = 2.0;
+constexpr double kShiftFactor = 5.0;
 constexpr double kRotation_rad = calibration::radFromDegrees(3.0);
 
 /// By the table of controls; digits choose laws, also one that does not exist: whoever executes it says so.
@@ -17,6 +21,22 @@ std::optional<ControlRequest> requestOf(const render::KeyPressed& pressed) {
   if (pressed.key == render::Key::f1 || pressed.key == render::keyOf('/')) return ControlRequest{Control::keys};
   for (int law = 0; law < 9; ++law)
     if (pressed.key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, law};
+  switch (pressed.key) {
+    case render::Key::home:
+      return ControlRequest{Control::first_view};
+    case render::Key::page_up:
+      return ControlRequest{Control::slice_up};
+    case render::Key::page_down:
+      return ControlRequest{Control::slice_down};
+    case render::keyOf('='):  // the key of +
+    case render::Key::keypad_add:
+      return ControlRequest{Control::magnify};
+    case render::keyOf('-'):
+    case render::Key::keypad_subtract:
+      return ControlRequest{Control::shrink};
+    default:
+      break;
+  }
   const int code = static_cast<int>(pressed.key);
   if (code <= ' ' || code > 'Z') return {};
   const auto control = controlOfKey(static_cast<char>(code), pressed.shift, pressed.control);
@@ -29,9 +49,9 @@ void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
   if (const auto* moved = std::get_if<render::PointerMoved>(&event)) {
     // Pixels run downwards, W upwards.
     if (moved->button == render::MouseButton::left)
-      X_WT_.translation_mm += mm_per_px * glm::dvec3(moved->by_px.x, -moved->by_px.y, 0.0);
+      X_WT_.translation_mm += glm::conjugate(view_) * (mm_per_px * glm::dvec3(moved->by_px.x, -moved->by_px.y, 0.0));
   } else if (const auto* wheel = std::get_if<render::WheelTurned>(&event)) {
-    X_WT_.translation_mm.z -= kWheelNotch_mm * wheel->notches;
+    roll(wheel->notches);
   } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
     press(*key);
   } else if (std::holds_alternative<render::CloseRequested>(event)) {
@@ -43,6 +63,7 @@ void HandInput::press(const render::KeyPressed& key) {
   using render::Key;
   // The pedal is held; other keys act when pressed.
   if (key.key == Key::space) pedal_ = key.down;
+  if (key.key == Key::left_shift || key.key == Key::right_shift) shift_ = key.down;
   if (!key.down) return;
   if (key.key == Key::left) rotate({0, 1, 0}, -kRotation_rad);
   if (key.key == Key::right) rotate({0, 1, 0}, kRotation_rad);
@@ -54,8 +75,21 @@ void HandInput::press(const render::KeyPressed& key) {
   if (const auto request = requestOf(key)) requests_.push_back(*request);
 }
 
-void HandInput::rotate(const glm::dvec3& axis_W, double angle_rad) {
-  X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
+/// Notch by notch, as each changes the gap; away from the user is into the picture.
+void HandInput::roll(double notches) {
+  const double way = notches < 0.0 ? -1.0 : 1.0;
+  for (double left = std::abs(notches); left > 0.0; left -= 1.0) {
+    const double finest_mm = way > 0.0 ? kFinestNotch_mm : kLeavingNotch_mm;
+    double step_mm = gap_mm_ ? std::clamp(kNotchOfGap * *gap_mm_, finest_mm, kCoarsestNotch_mm) : kCoarsestNotch_mm;
+    if (shift_) step_mm *= kShiftFactor;
+    step_mm *= way * std::min(left, 1.0);
+    X_WT_.translation_mm += glm::conjugate(view_) * glm::dvec3(0.0, 0.0, -step_mm);
+    if (gap_mm_) gap_mm_ = std::max(*gap_mm_ - step_mm, 0.0);
+  }
+}
+
+void HandInput::rotate(const glm::dvec3& screen_axis, double angle_rad) {
+  X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, glm::conjugate(view_) * screen_axis) * X_WT_.rotation);
 }
 
 std::vector<ControlRequest> HandInput::takeRequests() { return std::exchange(requests_, {}); }

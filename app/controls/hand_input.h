@@ -1,8 +1,11 @@
 // Mouse and keyboard as a pose source: window events move and rotate the target pose of the tool, 1:1 on the screen.
-// Drag: in the plane of the screen; wheel: 0.5 mm a notch in depth; arrows, Q, E: 3 degrees a press; space: the pedal.
-// Other keys become requests (control.h) in order. haptics::MouseDevice smooths the motion. Frame W, mm. Main thread.
+// Drag: in the plane of the screen; wheel: in depth, a notch is a part of the gap to the bone, so that steps are fine
+// near it and no notch passes it; with Shift five times as much; arrows, Q, E: 3 degrees a press; space: the pedal.
+// Other keys become requests (control.h) in order. haptics::MouseDevice smooths the motion. Frame W of the first view,
+// mm; where the view is turned, the hand moves as it is seen. Main thread.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "app/controls/control.h"
@@ -17,6 +20,13 @@ class HandInput {
   /// `X_WT`: pose at the start.
   explicit HandInput(const calibration::Pose<calibration::World, calibration::Tool>& X_WT) : X_WT_(X_WT) {}
 
+  /// From the tool to the bone, for the next notches; none: far.
+  void setGap(std::optional<double> gap_mm) { gap_mm_ = gap_mm; }
+  /// From directions in W to directions on the screen.
+  void setView(const glm::dquat& rotation) { view_ = rotation; }
+  /// For a start elsewhere.
+  void moveTo(const glm::dvec3& position_W_mm) { X_WT_.translation_mm = position_W_mm; }
+
   /// `mm_per_px`: size of a window pixel on the (virtual) screen.
   void take(const render::WindowEvent& event, double mm_per_px);
 
@@ -27,11 +37,14 @@ class HandInput {
 
  private:
   void press(const render::KeyPressed& key);
-  void rotate(const glm::dvec3& axis_W, double angle_rad);
+  void rotate(const glm::dvec3& screen_axis, double angle_rad);
+  void roll(double notches);
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
   std::vector<ControlRequest> requests_;
-  bool pedal_ = false;
+  bool pedal_ = false, shift_ = false;
+  std::optional<double> gap_mm_;
+  glm::dquat view_{1.0, 0.0, 0.0, 0.0};
 };
 
 }  // namespace app

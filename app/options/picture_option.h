@@ -22,13 +22,14 @@ struct PictureLayer {
   bool render::Layers::*on;
 };
 
-inline constexpr std::array<PictureLayer, 6> kPictureLayers = {{
+inline constexpr std::array<PictureLayer, 7> kPictureLayers = {{
     {"gum", "Gum", &render::Layers::gingiva},
     {"canal", "Mandibular canal", &render::Layers::mandibular_canal},
     {"clearance", "Clearance bands", &render::Layers::clearance},
     {"plan", "Planned cut", &render::Layers::planned_cut},
     {"ghost", "Ghost tool", &render::Layers::ghost_tool},
     {"slices", "CT slices", &render::Layers::slices},
+    {"ring", "Ring of the gap", &render::Layers::gap_ring},
 }};
 
 class PictureOption {

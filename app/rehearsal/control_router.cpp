@@ -18,10 +18,12 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
       head_up_(head_up),
       event_log_(event_log),
       input_(restingTool()),
+      desk_view_(plan.rig, plan.rig.X_WP * calibration::Point<calibration::Patient>{plan.patient.focus_P_mm()}),
       script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {}
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
-  readWindow();
+  input_.setGap(frame.gap ? std::optional(frame.gap->mm) : std::nullopt);
+  readWindow(frame);
   executeScript(newest, frame);
   for (const ControlRequest& request : equipment_.takeRequests()) execute(request, frame);
   executeKeys(frame, plan_.verbose);
@@ -46,13 +48,20 @@ void ControlRouter::handleInstructorInput(const InstructorWindow::Input& input, 
   for (const ControlRequest& request : input.requests) execute(request, frame);
 }
 
-void ControlRouter::readWindow() {
+void ControlRouter::readWindow(render::Frame& frame) {
   if (const render::Window* const window = view_.window()) {
-    const calibration::ScreenCorners& screen = plan_.rig.screen;
+    const calibration::ScreenCorners& screen = frame.rig.screen;
     const double width_mm = glm::distance(screen.lower_left.mm, screen.lower_right.mm);
     const double mm_per_px = width_mm / std::max(1, window->framebufferSize_px().x);
-    for (const render::WindowEvent& event : view_.display().takeEvents())
-      if (!isTakenByEndQuestion(event) && !isTakenByProcedure(event)) input_.take(event, mm_per_px);
+    for (const render::WindowEvent& event : view_.display().takeEvents()) {
+      if (isTakenByEndQuestion(event) || isTakenByProcedure(event) || scrollSlice(event, frame)) continue;
+      const auto* const moved = std::get_if<render::PointerMoved>(&event);
+      if (plan_.view_can_turn && moved != nullptr && moved->button == render::MouseButton::right) {
+        desk_view_.turn(moved->by_px);
+        showDeskView(frame);
+      }
+      input_.take(event, mm_per_px);
+    }
   }
   if (haptics::MouseDevice* const mouse = equipment_.mouse())
     mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
@@ -73,11 +82,43 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (request.control == Control::end) return monitor_.endByUser();
   if ((plan_.procedure && plan_.procedure->take(request)) || active_command_.execute(request, where)) return;
   frame.layers = layersAfter(frame.layers, request);
+  changeView(request, frame);
+  if (request.control == Control::slice_up || request.control == Control::slice_down)
+    frame.slices_beside_bur_P_mm =
+        scrolledSlices(frame, render::SlicePlane::axial, request.control == Control::slice_up ? 1.0 : -1.0);
   if (request.control == Control::snapshot) takeSnapshot(frame);
   if (request.control == Control::home) {
     equipment_.workstation().setHome();
     head_up_.say("the handle is at home");
   }
+}
+
+/// The wheel over a CT slice; in mono, where the pointer is on the picture that both eyes see.
+bool ControlRouter::scrollSlice(const render::WindowEvent& event, render::Frame& frame) {
+  if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px_ = moved->to_px;
+  const auto* const wheel = std::get_if<render::WheelTurned>(&event);
+  if (wheel == nullptr || view_.display().mode() != render::DisplayMode::mono) return false;
+  const glm::dvec2 window_px = glm::max(view_.window()->framebufferSize_px(), 1);
+  const auto plane = view_.display().renderer().sliceAt(frame, pointer_px_ / window_px);
+  if (!plane) return false;
+  frame.slices_beside_bur_P_mm = scrolledSlices(frame, *plane, wheel->notches);
+  return true;
+}
+
+/// On a desk; with a measured rig the view is that of the eyes.
+void ControlRouter::changeView(const ControlRequest& request, render::Frame& frame) {
+  if (!plan_.view_can_turn || request.control < Control::magnify || request.control > Control::first_view) return;
+  if (request.control == Control::magnify) desk_view_.magnify(1);
+  if (request.control == Control::shrink) desk_view_.magnify(-1);
+  if (request.control == Control::first_view) desk_view_.backToFirst();
+  showDeskView(frame);
+}
+
+void ControlRouter::showDeskView(render::Frame& frame) {
+  const glm::ivec2 px = frame.rig.screen.px;
+  frame.rig = desk_view_.rig();
+  frame.rig.screen.px = px;
+  input_.setView(desk_view_.rotation());
 }
 
 /// A procedure has its own way to end.

@@ -17,6 +17,7 @@
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/rehearsal/run_monitor.h"
+#include "app/view/desk_view.h"
 
 namespace app {
 
@@ -29,6 +30,9 @@ class ControlRouter {
   const ControlScript& script() const { return script_; }
   /// To the surgeon, instead of anything else; empty: none.
   std::string question() const { return end_question_.isOpen() ? EndQuestion::kText : std::string(); }
+  /// Of the tool of a mouse, W.
+  const glm::dvec3& handPosition_W_mm() const { return input_.X_WT().translation_mm; }
+  void moveHandTo(const glm::dvec3& position_W_mm) { input_.moveTo(position_W_mm); }
 
   /// Executes all requests since the last call except the instructor's, and moves the mouse device. `newest` has a dt
   /// of 0 before the first tick. Layers are switched in `frame`, and snapshots are taken of it.
@@ -36,9 +40,12 @@ class ControlRouter {
   void handleInstructorInput(const InstructorWindow::Input& input, render::Frame& frame);
 
  private:
-  void readWindow();
   bool isTakenByEndQuestion(const render::WindowEvent& event);
   void executeKeys(render::Frame& frame, bool may_choose_law);
+  void readWindow(render::Frame& frame);
+  bool scrollSlice(const render::WindowEvent& event, render::Frame& frame);
+  void showDeskView(render::Frame& frame);
+  void changeView(const ControlRequest& request, render::Frame& frame);
   void executeScript(const haptics::Tick& newest, render::Frame& frame);
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
   void stopMotors();
@@ -54,6 +61,8 @@ class ControlRouter {
   EventLog& event_log_;
   HandInput input_;
   EndQuestion end_question_;
+  DeskView desk_view_;
+  glm::dvec2 pointer_px_{0.0};
   ControlScript script_;
 };
 

@@ -1,5 +1,6 @@
 #include "app/rehearsal/frame_builder.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/options/picture_option.h"
@@ -26,14 +27,17 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   const haptics::BurShape& head = command.tool.head;
   frame.bur_radius_mm = head.radius_mm;
   frame.bur_length_mm = head.length_mm;
+  frame.shaft_radius_mm = command.tool.shaft.radius_mm;
   frame.bur_form = static_cast<assets::BurForm>(head.kind);
   frame.tool_visible = tick.dt_s > 0.0;
   if (!frame.tool_visible) return frame;
   if (!haptics::has(tick.faults, haptics::Fault::bad_pose)) frame.X_PT.rotation = tick.hand.X_PT.rotation;
   frame.X_PT.translation_mm = tick.proxy_P.mm;
   frame.X_PT_at_hand = {frame.X_PT.rotation, tick.hand.X_PT.translation_mm};
-  if (tick.drilling)
+  if (tick.drilling) {
     frame.bur_angle_rad = std::fmod(tick.t_s * kDrawnBurRevolutions_per_s, 1.0) * 2.0 * calibration::kPi;
+    frame.slices_beside_bur_P_mm = {};
+  }
   return frame;
 }
 
@@ -41,6 +45,14 @@ render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick,
   render::Frame frame = last;
   frame.tool_visible = frame.tool_visible && (is_moved_by_a_person || tick.depth_mm > 0.0);
   return frame;
+}
+
+glm::dvec3 scrolledSlices(const render::Frame& frame, render::SlicePlane plane, double steps) {
+  constexpr double kStep_mm = 0.5, kFarthest_mm = 15.0;
+  const int axis = plane == render::SlicePlane::axial ? 2 : plane == render::SlicePlane::coronal ? 1 : 0;
+  glm::dvec3 beside_mm = frame.slices_beside_bur_P_mm;
+  beside_mm[axis] = std::clamp(beside_mm[axis] + kStep_mm * steps, -kFarthest_mm, kFarthest_mm);
+  return beside_mm;
 }
 
 render::Layers layersAfter(const render::Layers& before, const ControlRequest& request) {

@@ -7,6 +7,7 @@
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
+#include "render/volume/ct_slices.h"
 
 namespace app {
 
@@ -19,6 +20,9 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
 
 /// The last frame: a scripted tool that was withdrawn is hidden, as it would cover its work.
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person);
+
+/// Frame::slices_beside_bur_P_mm after that many steps of half a millimetre along the plane's axis of P, within 15 mm.
+glm::dvec3 scrolledSlices(const render::Frame& frame, render::SlicePlane plane, double steps);
 
 /// After a request: `layer` toggles one, `face` sets its opacity; others change nothing.
 render::Layers layersAfter(const render::Layers& before, const ControlRequest& request);

@@ -88,6 +88,11 @@ void LiveView::uploadBone() {
   if (display_) uploader_.upload(*bone_, display_->renderer());
 }
 
+std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {
+  if (!display_ || !frame.tool_visible) return {};
+  return display_->renderer().gap(frame);
+}
+
 void LiveView::showInstrument() {
   if (display_) app::showInstrument(display_->renderer(), in_force_.tool);
 }
@@ -97,6 +102,7 @@ void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::
       [&](render::Backend backend) { return newRenderer({.backend = backend, .samples = kSnapshotSamples}, solid); });
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
+  frame.gap = frame.tool_visible ? renderer->gap(frame) : std::nullopt;
   snapshot.take(*renderer, frame);
 }
 

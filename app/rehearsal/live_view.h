@@ -42,6 +42,8 @@ class LiveView {
   void waitUntilShown();
   /// Bricks carved until now, for the next frame.
   void uploadBone();
+  /// Between the bur of `frame` and the bone uploaded last; nothing before a view is open.
+  std::optional<render::BoneGap> gapOf(const render::Frame& frame);
   /// After a change of tool.
   void showInstrument();
   /// True if the quality changed. Never during a stroke.

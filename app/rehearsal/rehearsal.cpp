@@ -4,12 +4,15 @@
 #include <csignal>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/pace.h"
+#include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
 
 namespace app {
@@ -86,7 +89,7 @@ class Rehearsal {
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
-    return {newest_, active_command_.inForce(), frame_.layers, head_up_, router_.question()};
+    return {newest_, active_command_.inForce(), frame_.layers, head_up_, router_.question(), frame_.gap};
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -105,7 +108,22 @@ class Rehearsal {
     return first_frame_s;
   }
 
+  /// A mouse's tool begins a little off the bone, and its user is told which way is in.
+  void placeMouse() {
+    if (equipment_.mouse() == nullptr) return;
+    render::Frame held = frame_;
+    held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool().rotation;
+    held.tool_visible = true;
+    const glm::dvec3 goal_P_mm = plan_.cut ? plan_.cut->middle_P_mm : plan_.patient.focus_P_mm();
+    const auto start_W_mm =
+        startBeforeBone(held, goal_P_mm, [this](const render::Frame& frame) { return view_.gapOf(frame); });
+    if (!start_W_mm) return;
+    router_.moveHandTo(*start_W_mm);
+    head_up_.say(fmt::format("{:.0f} mm off the bone: wheel away from you goes in", kStartGap_mm));
+  }
+
   void start() {
+    placeMouse();
     equipment_.start();
     for (const std::string& remark : plan_.remarks) station().note("calibration", remark);
     if (plan_.recording && plan_.recording->setup.former)
@@ -134,13 +152,15 @@ class Rehearsal {
     newest_ = station().newestTick();
     frame_ = nextFrame(frame_, newest_, active_command_.inForce());
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
-    if (pace_.isRealTime()) view_.uploadBone();
+    if (!pace_.isRealTime()) return;
+    view_.uploadBone();
+    frame_.gap = view_.gapOf(frame_);
   }
 
   HeadUp::Values headUpValues() const {
     return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                         monitor_.recordingEnded()),
-            {},
+            frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
             plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question()};
   }
 

@@ -24,6 +24,7 @@ struct RehearsalPlan {
   assets::Patient patient;
   std::optional<assets::PlannedCut> cut;  ///< followed by scripted input, shown as layer "plan"
   calibration::Rig rig;
+  bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
   std::optional<render::Backend> backend;  ///< empty: automatic

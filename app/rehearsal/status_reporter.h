@@ -31,6 +31,7 @@ class StatusReporter {
     const render::Layers& layers;
     const HeadUp& head_up;
     std::string question;  ///< to the surgeon
+    const std::optional<render::BoneGap>& gap;
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

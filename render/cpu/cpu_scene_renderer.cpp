@@ -145,6 +145,7 @@ TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   scene.kernels = &kernels_;
   ShadeScene& shade = scene.shade;
   shade.eye = eyeBlock(frame, eyeView(frame.rig, eye));
+  shade.tool = toolBlock(frame);
   shade.right_axis_P = glm::normalize(glm::vec3(shade.eye.right_edge_P));
   const glm::vec3 window = glm::vec3(shade.eye.window_site_P) - glm::vec3(shade.eye.window_eye_P);
   shade.window_reach_mm = glm::length(window);

@@ -1,9 +1,10 @@
 // The kernels of shade_kernels.h, compiled once for each instruction set. The shaders' formulas are in light_body.h,
-// occlusion_body.h and tissue_body.h. Everything but the table has internal linkage.
+// occlusion_body.h, tissue_body.h and tool_body.h. Everything but the table has internal linkage.
 #include <cmath>
 
 #include "render/cpu/srgb_pieces.h"
 #include "render/cpu/tissue_body.h"
+#include "render/cpu/tool_body.h"
 #include "render/display/eye_projection.h"
 
 namespace render::cpu {
@@ -33,11 +34,14 @@ inline Float3 scattered(const ShadeScene& scene, const Float3& index, const Floa
   const Float steep = length(gradient);
   const Float3 normal = (1.0f / maximum(steep, 1e-6f)) * gradient;
   const Float surface = minimum(steep * (1.0f / DVR_FULL_GRADIENT), 1.0f);
-  const Float lambert = mix(splat(DVR_INNER_LAMBERT), maximum(dot(normal, to_lamp), 0.0f), surface);
+  const Float3 p_P = splat(scene.origin_P) + scene.spacing_mm * index;
+  const Float lambert =
+      lampPastTool(scene, p_P, to_lamp) * mix(splat(DVR_INNER_LAMBERT), maximum(dot(normal, to_lamp), 0.0f), surface);
   const Float sky = 0.5f + 0.5f * surface * dot(normal, splat(scene.eye.up_P));
   Float finish;
-  return planned(scene, appearanceAt(scene, index, mask, finish), index, mask) *
-         ((lambert / kPi) * lamp_light + mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky));
+  const Float3 light = planned(scene, appearanceAt(scene, index, mask, finish), index, mask) *
+                       ((lambert / kPi) * lamp_light + mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky));
+  return underRing(scene, light, p_P);
 }
 
 // ---- the kernels
@@ -121,10 +125,14 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     const auto at_least = [&](float least, Float value) {
       return select(steel, least + (1.0f - least) * value, value);
     };
+    const Visibility shaded = besideTool(scene, visibility, p_P, normal);
+    visibility.ambient = select(steel, visibility.ambient, shaded.ambient);
+    visibility.lamp = select(steel, visibility.lamp, shaded.lamp);
     visibility.ambient =
         at_least(STEEL_MIN_AMBIENT, visibility.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
     visibility.lamp = at_least(STEEL_MIN_LAMP, visibility.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
-    const Float3 shown = lit(scene, s, p_P, normal, -direction, visibility);
+    Float3 shown = lit(scene, s, p_P, normal, -direction, visibility);
+    shown = select(gingiva, underRing(scene, shown, p_P), shown);
     // Guides are unlit: they are not part of the patient and are visible inside the bone.
     const Float facing = absolute(dot(normal, direction));
     put(light, i, select(finish == FINISH_GUIDE, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));
@@ -150,7 +158,8 @@ void surface(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* 
     const Float3 p_P = splat(rays.origin_P) + (t * scene.spacing_mm) * direction;
     const Float3 normal = surfaceNormal(scene, index, mask);
     const Surface s = tissueSurface(scene, index, normal, p_P, mask);
-    return lit(scene, s, p_P, normal, -direction, visibilityFromVolume(scene, p_P, normal, mask));
+    const Visibility visibility = besideTool(scene, visibilityFromVolume(scene, p_P, normal, mask), p_P, normal);
+    return underRing(scene, lit(scene, s, p_P, normal, -direction, visibility), p_P);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "assets/instruction_set.h"
 #include "render/cpu/mesh_points.h"
 #include "render/eye_block.h"
+#include "render/tool_block.h"
 
 namespace render {
 
@@ -23,6 +24,7 @@ struct FieldView {
 /// Inputs of shading that are the same for all points. The fields are borrowed.
 struct ShadeScene {
   EyeBlock eye;
+  ToolBlock tool;
   glm::vec3 right_axis_P{1.0f, 0.0f, 0.0f};   ///< unit, along the image's rows
   glm::vec3 window_axis_P{0.0f, 0.0f, 1.0f};  ///< unit, axis of the face window
   float window_reach_mm = 0.0f;               ///< from the eyes to the site

@@ -34,9 +34,12 @@ enum class Key : int {
   home,
   end,
   f1 = 290,
+  keypad_subtract = 333,
+  keypad_add,
   left_shift = 340,
   left_control,
   left_alt,
+  right_shift = 344,
 };
 constexpr Key keyOf(char upper_case) { return static_cast<Key>(upper_case); }
 

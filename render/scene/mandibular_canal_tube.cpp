@@ -9,6 +9,8 @@ namespace {
 constexpr std::uint32_t kSides = 24;
 constexpr glm::vec4 kColour{0.90f, 0.36f, 0.05f, 1.0f};  // customary for the nerve in planning software
 
+constexpr float kBehind = 0.6f;  // share of the colour behind bone
+
 glm::dvec3 perpendicularTo(const glm::dvec3& along) {
   const glm::dvec3 other = std::abs(along.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   return glm::normalize(glm::cross(along, other));
@@ -53,6 +55,44 @@ assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, dou
       for (const std::uint32_t index : {a, b, c, c, b, d}) part.triangles.push_back(index);
     }
   return {{part}};
+}
+
+assets::MeshModel mandibularCanalDashes(std::span<const glm::dvec3> line_P_mm, double radius_mm) {
+  // Each dash is a tube along its part of the line; all are one part of the mesh.
+  assets::MeshPart all;
+  std::vector<glm::dvec3> dash;
+  double along_mm = 0.0;
+  const auto finish = [&] {
+    for (const assets::MeshPart& tube : mandibularCanalTube(dash, radius_mm).parts) {
+      const auto first = static_cast<std::uint32_t>(all.position_mm.size());
+      all.position_mm.insert(all.position_mm.end(), tube.position_mm.begin(), tube.position_mm.end());
+      all.normal.insert(all.normal.end(), tube.normal.begin(), tube.normal.end());
+      for (const std::uint32_t index : tube.triangles) all.triangles.push_back(first + index);
+      all.name = tube.name, all.material = tube.material;
+    }
+    dash.clear();
+  };
+  constexpr double kPeriod_mm = kCanalDash_mm + kCanalDashGap_mm;
+  for (std::size_t n = 0; n + 1 < line_P_mm.size(); ++n) {
+    const double length_mm = glm::distance(line_P_mm[n], line_P_mm[n + 1]);
+    // From the beginning of the segment through every change to its end.
+    for (double at_mm = 0.0; at_mm < length_mm;) {
+      const double phase_mm = std::fmod(along_mm + at_mm, kPeriod_mm);
+      const bool drawn = phase_mm < kCanalDash_mm - 1e-9;
+      const double next_mm =
+          std::min(at_mm + std::max((drawn ? kCanalDash_mm : kPeriod_mm) - phase_mm, 1e-6), length_mm);
+      const auto point = [&](double mm) { return glm::mix(line_P_mm[n], line_P_mm[n + 1], mm / length_mm); };
+      if (drawn && dash.empty()) dash.push_back(point(at_mm));
+      if (drawn) dash.push_back(point(next_mm));
+      if (!drawn) finish();
+      at_mm = next_mm;
+    }
+    along_mm += length_mm;
+  }
+  finish();
+  if (all.triangles.empty()) return {};
+  all.material.base_colour = glm::vec4(kBehind * glm::vec3(all.material.base_colour), 1.0f);
+  return {{all}};
 }
 
 }  // namespace render

@@ -2,6 +2,7 @@
 // site.
 #include "part_block.glsl"
 #include "occlusion.glsl"
+#include "tool_shade.glsl"
 
 layout(location = 0) in vec3 p_P;
 layout(location = 1) in vec3 normal_P;
@@ -64,8 +65,11 @@ vec4 meshColour() {
     // Steel in a cavity still reflects the opening.
     visibility.ambient = mix(STEEL_MIN_AMBIENT, 1.0, visibility.ambient);
     visibility.lamp = mix(STEEL_MIN_LAMP, 1.0, visibility.lamp);
+  } else {
+    visibility = besideTool(visibility, p_P, normal);
   }
   visibility.ambient *= gl_FrontFacing ? 1.0 : INSIDE_AMBIENT;
   visibility.lamp *= gl_FrontFacing ? 1.0 : INSIDE_LAMP;
-  return vec4(lit(s, p_P, normal, to_eye, visibility), base.a);
+  vec3 light = lit(s, p_P, normal, to_eye, visibility);
+  return vec4(finish == FINISH_GINGIVA ? underRing(light, p_P) : light, base.a);
 }

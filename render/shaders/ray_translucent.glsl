@@ -3,6 +3,7 @@
 #include "ray_march.glsl"
 #include "lighting.glsl"
 #include "guides.glsl"
+#include "tool_shade.glsl"
 
 // C++ twin: render::TransferBlock.
 layout(std140, binding = TRANSFER_BLOCK) uniform TransferBlock {
@@ -28,7 +29,10 @@ vec3 scattered(vec3 position, vec3 to_lamp, vec3 lamp_light) {
   float surface = min(steep / DVR_FULL_GRADIENT, 1.0);
   float lambert = mix(DVR_INNER_LAMBERT, max(dot(normal, to_lamp), 0.0), surface);
   float sky = 0.5 + 0.5 * surface * dot(normal, eye.up_P.xyz);
-  return planned(appearanceAt(position).rgb, position) * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
+  vec3 p_P = volume.origin_P.xyz + position * volume.origin_P.w;
+  lambert *= lampPastTool(p_P, to_lamp);
+  vec3 light = planned(appearanceAt(position).rgb, position) * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
+  return underRing(light, p_P);
 }
 
 Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {

@@ -8,6 +8,7 @@
 #define PART_BLOCK 2
 #define OUTPUT_BLOCK 3
 #define TRANSFER_BLOCK 4
+#define TOOL_BLOCK 5
 
 #define FRAGMENT_LIST 0          // storage buffers
 #define FRAGMENT_HEADS_IMAGE 2   // images, after the targets
@@ -63,6 +64,8 @@
 #define VIEW_DVR 1
 #define TISSUE_COUNT 10          // assets::kTissueCount
 #define CAST_GROUP 8             // edge of a work group of the compute caster, px
+
+#define TOOL_PARTS 4             // round parts of an instrument that shade the patient
 
 #define EDGE_SAMPLES 2           // along each edge of a pixel that antialiasing draws again
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
 #include "render/gpu/gpu_error.h"
-#include "render/volume/guide_field.h"
+#include "render/shaders/shared_constants.glsl"
+#include "render/volume/bur_distance.h"
 #include "render/volume/slice_font.h"
 
 namespace render {
@@ -15,11 +17,14 @@ namespace {
 constexpr float kLevel_HU = 500.0f, kWindow_HU = 2500.0f;
 constexpr float kAir_HU = -1000.0f;
 constexpr double kScale_mm = 5.0;
+constexpr int kLeastEdgeForText_px = 78;
 constexpr float kFar_mm = 1e3f;
+constexpr double kCanalStep_mm = 0.25;
 
 // sRGB 0..255.
 const glm::vec3 kCarved{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
-    kCross{110.0f, 150.0f, 165.0f}, kText{225.0f, 232.0f, 235.0f}, kRim{14.0f, 16.0f, 18.0f};
+    kPlan{70.0f, 140.0f, 255.0f}, kCross{110.0f, 150.0f, 165.0f}, kText{225.0f, 232.0f, 235.0f},
+    kRim{14.0f, 16.0f, 18.0f};
 
 /// A plane in the volume: its axes as voxel axes, the sign of the vertical one in the image, and the labels.
 struct Layout {
@@ -45,6 +50,9 @@ class SliceImage {
   double mm_per_px() const { return mm_per_px_; }
   /// Offset of a column or row from the centre, mm: to the right, and downwards.
   double offset_mm(int pixel) const { return (pixel + 0.5 - 0.5 * edge_px_) * mm_per_px_; }
+  glm::dvec2 pixelOf(const glm::dvec3& p_P_mm) const {
+    return {columnOf(p_P_mm[layout_.right_axis]), rowOf(p_P_mm[layout_.down_axis])};
+  }
   double columnOf(double p_P_mm) const { return (p_P_mm - middle_[layout_.right_axis]) / mm_per_px_ + 0.5 * edge_px_; }
   double rowOf(double p_P_mm) const {
     return layout_.down_sign * (p_P_mm - middle_[layout_.down_axis]) / mm_per_px_ + 0.5 * edge_px_;
@@ -178,6 +186,34 @@ void drawCanal(SliceImage& slice, const Layout& layout, const glm::dvec3& middle
   drawOutline(slice, distance, kCanal);
 }
 
+/// mm to the planned cut, from the field of the guides, trilinear.
+double planDistance_mm(const assets::VolumeGrid& grid, const GuideField& guides, const glm::dvec3& p_P_mm) {
+  const glm::dvec3 cell = (grid.indexFromPoint(p_P_mm) + 0.5) / double{AMBIENT_CELL_VOXELS} - 0.5;
+  const glm::dvec3 at = glm::clamp(cell, glm::dvec3(-1.0), glm::dvec3(guides.layout().size) - 1e-6);
+  const glm::ivec3 low(glm::floor(at));
+  const glm::dvec3 part = at - glm::dvec3(low);
+  double share = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 bit = assets::cornerOffset(corner);
+    const glm::dvec3 weight = glm::mix(1.0 - part, part, glm::dvec3(bit));
+    share += weight.x * weight.y * weight.z * (*guides.at(low + bit)).y;
+  }
+  return GUIDE_LOW_MM + share / 65535.0 * (double{GUIDE_HIGH_MM} - double{GUIDE_LOW_MM});
+}
+
+void drawPlan(SliceImage& slice, const assets::VolumeGrid& grid, const GuideField& guides) {
+  const int edge = slice.edge_px();
+  DistanceField distance{edge};
+  bool any = false;
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x) {
+      const double mm = planDistance_mm(grid, guides, slice.position_P_mm(x, y));
+      distance.at(x, y) = static_cast<float>(mm);
+      any = any || mm < 0.0;
+    }
+  if (any) drawOutline(slice, distance, kPlan);
+}
+
 void drawBur(SliceImage& slice, const Frame& frame) {
   // In T, pixels lie on a regular grid around the origin.
   const auto X_TP = frame.X_PT.inverse();
@@ -186,11 +222,16 @@ void drawBur(SliceImage& slice, const Frame& frame) {
   };
   const glm::dvec3 corner = position_T(0, 0), right = position_T(1, 0) - corner, down = position_T(0, 1) - corner;
   const int edge = slice.edge_px();
-  const double reach_mm = std::hypot(frame.bur_radius_mm, 0.5 * frame.bur_length_mm) + 8.0 * slice.mm_per_px();
-  const int reach = static_cast<int>(std::min(0.5 * edge, reach_mm / slice.mm_per_px()));
+  const double reach_mm = burReach_mm(frame) + 8.0 * slice.mm_per_px();
+  const int reach = static_cast<int>(std::min<double>(edge, reach_mm / slice.mm_per_px()));
+  const glm::dvec2 middle = slice.pixelOf(frame.X_PT.translation_mm);
+  const int x0 = std::clamp(static_cast<int>(middle.x) - reach, 0, edge);
+  const int x1 = std::clamp(static_cast<int>(middle.x) + reach, 0, edge);
+  const int y0 = std::clamp(static_cast<int>(middle.y) - reach, 0, edge);
+  const int y1 = std::clamp(static_cast<int>(middle.y) + reach, 0, edge);
   DistanceField distance{edge};
-  for (int y = edge / 2 - reach; y < edge / 2 + reach; ++y)
-    for (int x = edge / 2 - reach; x < edge / 2 + reach; ++x)
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x)
       distance.at(x, y) = static_cast<float>(burDistance_mm(frame, corner + double(x) * right + double(y) * down));
   drawOutline(slice, distance, kBur);
 }
@@ -207,19 +248,17 @@ void drawCross(SliceImage& slice, double gap_mm) {
 
 // With a dark outline, legible on bone too.
 void drawText(SliceImage& slice, std::string_view word, int left, int top, int dot_px) {
-  for (const bool rim : {true, false})
-    for (std::size_t n = 0; n < word.size(); ++n) {
-      const GlyphRows dots = glyphRows(word[n]);
-      const int from = left + static_cast<int>(n) * (kLetterWidth + 1) * dot_px;
-      for (int y = 0; y < kLetterHeight * dot_px; ++y)
-        for (int x = 0; x < kLetterWidth * dot_px; ++x) {
-          if ((dots[static_cast<std::size_t>(y / dot_px)] >> (kLetterWidth - 1 - x / dot_px) & 1) == 0) continue;
-          if (rim)
-            slice.fill(from + x - 1, top + y - 1, 3, 3, kRim);
-          else
-            slice.set(from + x, top + y, kText);
-        }
-    }
+  forWordPixels(word, left, top, dot_px, [&](int x, int y, bool is_rim) { slice.set(x, y, is_rim ? kRim : kText); });
+}
+
+/// The way from bur to canal, below the middle, where the image has room for it.
+void drawCanalDistance(SliceImage& slice, const Frame& frame, const CtScan& scan) {
+  const auto mm = canalDistance_mm(frame, scan);
+  const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
+  if (!mm || edge < kLeastEdgeForText_px) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "CANAL %.1f MM", *mm);
+  drawText(slice, text, gap, edge - 2 * gap - 2 * kLetterHeight * dot, dot);
 }
 
 void drawLabels(SliceImage& slice, const Layout& layout) {
@@ -249,10 +288,10 @@ CtSlices::CtSlices(const assets::VolumeGrid& grid, CtScan scan) : grid_(grid), s
                    std::to_string(grid.voxelCount()) + " voxels, give one value for each");
 }
 
-Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live,
-                      int edge_px) const {
+Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px,
+                      const GuideField* guides) const {
   const Layout& layout = kLayouts[static_cast<std::size_t>(plane)];
-  const glm::dvec3 middle = frame.X_PT.translation_mm;
+  const glm::dvec3 middle = frame.X_PT.translation_mm + frame.slices_beside_bur_P_mm;
   SliceImage slice(layout, middle, edge_px);
   const Between normal = between(grid_.indexFromPoint(middle)[layout.normal_axis]);
 
@@ -283,32 +322,27 @@ Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<
   }
 
   drawCanal(slice, layout, middle, scan_);
+  if (guides != nullptr && frame.layers.planned_cut) drawPlan(slice, grid_, *guides);
   drawCross(slice, frame.bur_radius_mm + 1.0);
   drawBur(slice, frame);
   drawLabels(slice, layout);
+  drawCanalDistance(slice, frame, scan_);
   return slice.take();
 }
 
-double burDistance_mm(const Frame& frame, const glm::dvec3& p_T_mm) {
-  const double radius = frame.bur_radius_mm, half = 0.5 * frame.bur_length_mm;
-  const glm::dvec2 p{std::hypot(p_T_mm.x, p_T_mm.y), p_T_mm.z};  // from the axis, along it
-  switch (frame.bur_form) {
-    case assets::BurForm::round:
-      return glm::length(p) - radius;
-    case assets::BurForm::capsule:
-      return std::hypot(p.x, p.y - std::clamp(p.y, -half, half)) - radius;
-    case assets::BurForm::cylinder: {
-      const glm::dvec2 out{p.x - radius, std::abs(p.y) - half};
-      return std::min(std::max(out.x, out.y), 0.0) + glm::length(glm::max(out, 0.0));
-    }
-    case assets::BurForm::cone: {
-      const glm::dvec2 rim{radius, half};
-      const double nearest = std::min(distanceToSegment(p, {0.0, -half}, rim), distanceToSegment(p, {0.0, half}, rim));
-      const bool inside = p.y < half && p.x * 2.0 * half < radius * (p.y + half);
-      return inside ? -nearest : nearest;
+std::optional<double> canalDistance_mm(const Frame& frame, const CtScan& scan) {
+  if (scan.mandibular_canal_P_mm.size() < 2) return {};
+  const auto X_TP = frame.X_PT.inverse();
+  double nearest_mm = kFar_mm;
+  for (std::size_t n = 0; n + 1 < scan.mandibular_canal_P_mm.size(); ++n) {
+    const glm::dvec3 &a = scan.mandibular_canal_P_mm[n], &b = scan.mandibular_canal_P_mm[n + 1];
+    const int steps = std::max(1, static_cast<int>(std::ceil(glm::distance(a, b) / kCanalStep_mm)));
+    for (int step = 0; step <= steps; ++step) {
+      const calibration::Point<calibration::Patient> p_P{glm::mix(a, b, static_cast<double>(step) / steps)};
+      nearest_mm = std::min(nearest_mm, burDistance_mm(frame, (X_TP * p_P).mm));
     }
   }
-  return 0.0;
+  return std::max(nearest_mm - scan.mandibular_canal_radius_mm, 0.0);
 }
 
 }  // namespace render

@@ -1,19 +1,22 @@
-// CT slices through the bur in three planes: grey values in a bone window, carved material marked, outlines of canal
-// and bur, a cross at its centre, plane, sides and a scale of 5 mm. Radiological views: axial from below, coronal from
-// in front, sagittal from the patient's left. Frame P (LPS), mm. Plain CPU code; one thread at a time. Cost: below 1 ms
-// a plane of 160 px (two or three voxel rows are mixed once per pixel row). Memory: 3 bytes a voxel. Grey value: level
+// CT slices through the bur, or beside it (Frame::slices_beside_bur_P_mm), in three planes: grey values in a bone
+// window, carved material marked, outlines of canal, bur and, with its layer, planned cut, a cross at the centre,
+// plane, sides, a scale of 5 mm and the way from bur to canal. Radiological views: axial from below, coronal from in
+// front, sagittal from the patient's left. Frame P (LPS), mm. Plain CPU code; one thread at a time. Cost: below 1 ms a
+// plane of 160 px (two or three voxel rows are mixed once per pixel row). Memory: 3 bytes a voxel. Grey value: level
 // 500, width 2500 HU, the usual bone window. Carved: the loss of solid fraction. Not for measuring: the scan is sampled
 // trilinearly.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "assets/volume_grid.h"
 #include "render/frame.h"
 #include "render/image.h"
 #include "render/volume/bordered_field.h"
+#include "render/volume/guide_field.h"
 
 namespace render {
 
@@ -35,15 +38,16 @@ class CtSlices {
   /// Throws GpuError if the scan does not fit the grid.
   CtSlices(const assets::VolumeGrid& grid, CtScan scan);
 
-  /// A square image of `edge_px` around the centre of the bur; `live`: the current bone.
-  Image image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px) const;
+  /// A square image of `edge_px`; `live`: the current bone; `guides`: of the planned cut, null: none.
+  Image image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px,
+              const GuideField* guides = nullptr) const;
 
  private:
   assets::VolumeGrid grid_;
   CtScan scan_;
 };
 
-/// Signed distance to the bur's head, mm, negative inside; `p_T_mm` in frame T (outlines as assets::BurForm).
-double burDistance_mm(const Frame& frame, const glm::dvec3& p_T_mm);
+/// From the bur's surface to the wall of the mandibular canal, 0 where they touch; none where no canal is known.
+std::optional<double> canalDistance_mm(const Frame& frame, const CtScan& scan);
 
 }  // namespace render

@@ -98,6 +98,22 @@ int main(int count, char** words) {
   without("without ambient shade", [](render::Frame& f) { f.quality.ambient_occlusion = false; });
   without("without the lamp's shadow", [](render::Frame& f) { f.quality.lamp_shadow = false; });
   without("without either", [](render::Frame& f) { f.quality.ambient_occlusion = f.quality.lamp_shadow = false; });
+  frame.gap = renderer->gap(frame);
+  without("with the ring of the gap", [](render::Frame&) {});
+  frame.gap.reset();
+  without("without the tool's shade", [](render::Frame& f) { f.quality.tool_shadow = false; });
+  {
+    constexpr int kPoses = 500;
+    const double c = cpu_ms();
+    double sum_mm = 0.0;
+    for (int n = 0; n < kPoses; ++n) {
+      render::Frame moved = frame;
+      moved.X_PT.translation_mm = patient.focus_P_mm() + (4.0 + 12.0 * n / kPoses) * eye_P.xyz;
+      if (const auto gap = renderer->gap(moved)) sum_mm += gap->mm;
+    }
+    std::printf("%-34s %6.3f ms CPU  (mean gap %.2f mm)\n", "the gap to the bone, per pose", (cpu_ms() - c) / kPoses,
+                sum_mm / kPoses);
+  }
   without("without face", [](render::Frame& f) { f.layers.face_opacity = 0.0f; });
   without("without face and gum", [](render::Frame& f) {
     f.layers.face_opacity = 0.0f;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "render/gpu/gpu_error.h"
+#include "render/volume/bur_distance.h"
 #include "tests/render/ball_volume.h"
 
 namespace render {
@@ -161,6 +162,66 @@ TEST(CtSlices, OutlineTheCanal) {
     EXPECT_TRUE(is_canal(4.0 + 1.5 * std::cos(turn), -5.0 + 1.5 * std::sin(turn))) << turn;
   EXPECT_FALSE(is_canal(4.0, -5.0));
   EXPECT_FALSE(is_canal(4.0 + 2.2, -5.0));
+}
+
+TEST(CtSlices, OutlineThePlannedCutWithItsLayerOnly) {
+  Scene scene([](glm::dvec3) { return 300.0; }, {80, 80, 80});
+  const PlannedCut cut{.middle_P_mm = {4.0, 3.0, 0.0}, .half_length_mm = 0.0, .half_height_mm = 0.0, .radius_mm = 3.0};
+  const GuideField guides = guideField(scene.ct.grid, {{}, 1.4, cut});
+  const CtSlices slices(scene.ct.grid, scene.scan);
+  const auto is_plan = [&](double x, double y) {
+    const Image axial = slices.image(SlicePlane::axial, scene.frame, testing::borderedSolid(scene.ct), kEdge, &guides);
+    return pixelAt(axial, x, y).b > pixelAt(axial, x, y).r + 60;
+  };
+  EXPECT_FALSE(is_plan(7.0, 3.0));
+  scene.frame.layers.planned_cut = true;
+  EXPECT_TRUE(is_plan(7.0, 3.0)) << "3 mm to the right of its middle";
+  EXPECT_TRUE(is_plan(4.0, 6.0));
+  EXPECT_FALSE(is_plan(4.0, 3.0));
+  EXPECT_FALSE(is_plan(8.0, 3.0));
+}
+
+TEST(CtSlices, MeasureTheWayFromBurToCanal) {
+  CtScan scan;
+  Frame frame;
+  frame.bur_radius_mm = 1.5;
+  EXPECT_FALSE(canalDistance_mm(frame, scan)) << "no canal is known";
+  scan.mandibular_canal_P_mm = {{-20.0, 6.0, 0.0}, {20.0, 6.0, 0.0}};
+  scan.mandibular_canal_radius_mm = 1.2;
+  EXPECT_NEAR(*canalDistance_mm(frame, scan), 6.0 - 1.5 - 1.2, 0.01);
+  frame.bur_form = assets::BurForm::cylinder;
+  frame.bur_length_mm = 6.0;
+  frame.X_PT.rotation = glm::dquat(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0));  // its end towards the canal
+  EXPECT_NEAR(*canalDistance_mm(frame, scan), 6.0 - 3.0 - 1.2, 0.01);
+  frame.X_PT.translation_mm.y = 4.0;
+  EXPECT_EQ(*canalDistance_mm(frame, scan), 0.0) << "in touch";
+}
+
+TEST(CtSlices, ShowTheWayToTheCanalWhereThereIsRoom) {
+  Scene scene([](glm::dvec3) { return -1000.0; }, {60, 60, 60});
+  const auto bright = [&] {
+    const Image image = scene.image(SlicePlane::axial);
+    int count = 0;
+    for (int y = kEdge - 26; y < kEdge - 12; ++y)
+      for (int x = 0; x < 80; ++x) count += at(image, x, y).r > 200;
+    return count;
+  };
+  EXPECT_EQ(bright(), 0);
+  scene.scan.mandibular_canal_P_mm = {{-20.0, 0.0, 30.0}, {20.0, 0.0, 30.0}};
+  EXPECT_GT(bright(), 60);
+}
+
+TEST(CtSlices, CanLieBesideTheBur) {
+  // Grey values tell the height.
+  Scene scene([](glm::dvec3 p) { return 500.0 + 100.0 * p.z; }, {60, 60, 60});
+  scene.frame.slices_beside_bur_P_mm = {0.0, 0.0, 4.0};
+  const Rgb beside = pixelAt(scene.image(SlicePlane::axial), 5.0, 5.0);
+  scene.frame.slices_beside_bur_P_mm = {};
+  const Rgb through = pixelAt(scene.image(SlicePlane::axial), 5.0, 5.0);
+  EXPECT_NEAR(beside.r - through.r, 255.0 * 400.0 / 2500.0, 2.0);
+  // In the other planes the bur's outline is where the bur is.
+  scene.frame.slices_beside_bur_P_mm = {0.0, 0.0, 3.0};
+  expectOutlineAt(scene.image(SlicePlane::coronal), {0.0, 3.0 + scene.frame.bur_radius_mm}, {0.0, 1.0});
 }
 
 TEST(CtSlices, ShowNameSidesAndScale) {

@@ -73,5 +73,38 @@ TEST(CanalTube, LiesAtTheRadiusWithNormalsOutward) {
   EXPECT_TRUE(mandibularCanalTube({}, 1.4).parts.empty());
 }
 
+TEST(CanalTube, DashesCoverTheirShareOfTheLineAndLieOnTheTube) {
+  // A bent line, so that dashes go on over its corners.
+  std::vector<glm::dvec3> line;
+  for (int n = 0; n <= 60; ++n) line.emplace_back(0.5 * n, 3.0 * std::sin(0.1 * n), 0.0);
+  double length_mm = 0.0;
+  for (std::size_t n = 0; n + 1 < line.size(); ++n) length_mm += glm::distance(line[n], line[n + 1]);
+  const assets::MeshModel dashes = mandibularCanalDashes(line, 1.4), tube = mandibularCanalTube(line, 1.4);
+  ASSERT_EQ(dashes.parts.size(), 1u);
+  const assets::MeshPart& part = dashes.parts[0];
+  double area = 0.0, whole = 0.0;
+  const auto areaOf = [](const assets::MeshPart& mesh, double& sum) {
+    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+      const auto at = [&](std::size_t c) { return glm::dvec3(mesh.position_mm[mesh.triangles[t + c]]); };
+      sum += 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+    }
+  };
+  areaOf(part, area);
+  areaOf(tube.parts[0], whole);
+  // Without the ends, two a dash.
+  const double dash_count = std::ceil(length_mm / (kCanalDash_mm + kCanalDashGap_mm)), disc = M_PI * 1.4 * 1.4;
+  EXPECT_NEAR((area - 2.0 * dash_count * disc) / (whole - 2.0 * disc),
+              kCanalDash_mm / (kCanalDash_mm + kCanalDashGap_mm), 0.05);
+  for (const glm::vec3& p : part.position_mm) {
+    double away_mm = 1e9;
+    for (std::size_t n = 0; n + 1 < line.size(); ++n)
+      away_mm = std::min(away_mm, distanceToSegment(glm::dvec3(p), line[n], line[n + 1]));
+    EXPECT_LT(away_mm, 1.4 + 1e-4);
+  }
+  const glm::vec4 dim = part.material.base_colour, bright = tube.parts[0].material.base_colour;
+  EXPECT_LT(dim.r, 0.7f * bright.r) << "behind bone it is dim";
+  EXPECT_TRUE(mandibularCanalDashes({}, 1.4).parts.empty());
+}
+
 }  // namespace
 }  // namespace render

@@ -16,10 +16,70 @@ TEST(HandInput, DragsInThePlaneOfTheScreenOneToOne) {
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0)) << "motion without the button has no effect";
 }
 
-TEST(HandInput, WheelMovesInDepth) {
+TEST(HandInput, ANotchOfTheWheelIsAFifthOfTheGapAndNeverPassesTheBone) {
+  for (const double gap_mm : {1.0, 2.0, 5.0, 9.0}) {
+    HandInput hand({});
+    hand.setGap(gap_mm);
+    hand.take(render::WheelTurned{1.0}, 0.25);
+    EXPECT_NEAR(hand.X_WT().translation_mm.z, -0.2 * gap_mm, 1e-12);
+    hand.take(render::WheelTurned{5.0}, 0.25);
+    EXPECT_GT(hand.X_WT().translation_mm.z, -gap_mm) << "several notches in one frame";
+  }
+}
+
+TEST(HandInput, TheWheelIsFineAtTheBoneFastFarAwayAndLeavesQuickly) {
+  const auto step_mm = [](std::optional<double> gap_mm, double notches, bool shift) {
+    HandInput hand({});
+    hand.setGap(gap_mm);
+    if (shift) hand.take(KeyPressed{Key::left_shift, true, false, true}, 0.25);
+    hand.take(render::WheelTurned{notches}, 0.25);
+    return -hand.X_WT().translation_mm.z;
+  };
+  EXPECT_NEAR(step_mm(0.0, 1.0, false), 0.1, 1e-12);
+  EXPECT_NEAR(step_mm({}, 1.0, false), 2.0, 1e-12) << "no bone within 10 mm";
+  EXPECT_NEAR(step_mm(0.0, -1.0, false), -0.3, 1e-12);
+  EXPECT_NEAR(step_mm(0.0, -1.0, true), -1.5, 1e-12);
+  EXPECT_NEAR(step_mm(5.0, 0.5, false), 0.5, 1e-12) << "half a notch of a touch pad";
+}
+
+TEST(HandInput, FindsContactFromFiveMillimetresInTwentyNotches) {
   HandInput hand({});
-  hand.take(render::WheelTurned{2.0}, 0.25);
-  EXPECT_EQ(hand.X_WT().translation_mm.z, -1.0);
+  int notches = 0;
+  for (double gap_mm = 5.0; gap_mm > 0.0 && notches < 100; ++notches) {
+    hand.setGap(gap_mm);
+    hand.take(render::WheelTurned{1.0}, 0.25);
+    gap_mm = 5.0 + hand.X_WT().translation_mm.z;
+  }
+  EXPECT_LE(notches, 20);
+}
+
+TEST(HandInput, MovesAsSeenInATurnedView) {
+  HandInput hand({});
+  const glm::dquat view = glm::angleAxis(0.5 * 3.14159265358979, glm::dvec3(0, 1, 0));
+  hand.setView(view);
+  hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::left}, 0.25);
+  EXPECT_LT(glm::distance(view * hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0)), 1e-12);
+  hand.setGap(5.0);
+  hand.take(render::WheelTurned{1.0}, 0.25);
+  EXPECT_LT(glm::distance(view * hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, -1.0)), 1e-12);
+  const glm::dquat before = hand.X_WT().rotation;
+  hand.take(KeyPressed{Key::up, true, false, false}, 0.25);
+  const glm::dquat turned = view * hand.X_WT().rotation * glm::conjugate(before) * glm::conjugate(view);
+  EXPECT_LT(glm::length(glm::cross(glm::axis(turned), glm::dvec3(1, 0, 0))), 1e-9) << "about the screen's axis";
+}
+
+TEST(HandInput, PlusMinusAndHomeChangeTheView) {
+  HandInput hand({});
+  for (const Key key : {render::keyOf('='), Key::keypad_add, render::keyOf('-'), Key::keypad_subtract, Key::home,
+                        Key::page_up, Key::page_down})
+    hand.take(KeyPressed{key, true, false, false}, 0.25);
+  EXPECT_EQ(hand.takeRequests(), (std::vector<ControlRequest>{{Control::magnify},
+                                                              {Control::magnify},
+                                                              {Control::shrink},
+                                                              {Control::shrink},
+                                                              {Control::first_view},
+                                                              {Control::slice_up},
+                                                              {Control::slice_down}}));
 }
 
 TEST(HandInput, PedalIsHeldWithSpace) {

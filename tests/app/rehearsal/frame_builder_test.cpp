@@ -105,5 +105,18 @@ TEST(FrameBuilder, ChangesOnlyTheRequestedLayer) {
   EXPECT_EQ(after.slices, before.slices);
 }
 
+TEST(FrameBuilder, SlicesAreScrolledAlongTheirAxisUntilTheBurDrills) {
+  render::Frame frame;
+  frame.slices_beside_bur_P_mm = scrolledSlices(frame, render::SlicePlane::axial, 3.0);
+  frame.slices_beside_bur_P_mm = scrolledSlices(frame, render::SlicePlane::sagittal, -1.0);
+  EXPECT_EQ(frame.slices_beside_bur_P_mm, glm::dvec3(-0.5, 0.0, 1.5));
+  EXPECT_EQ(scrolledSlices(frame, render::SlicePlane::coronal, 1000.0).y, 15.0);
+  haptics::Tick tick;
+  tick.dt_s = 0.001;
+  EXPECT_EQ(nextFrame(frame, tick, {}).slices_beside_bur_P_mm, frame.slices_beside_bur_P_mm);
+  tick.drilling = true;
+  EXPECT_EQ(nextFrame(frame, tick, {}).slices_beside_bur_P_mm, glm::dvec3(0.0));
+}
+
 }  // namespace
 }  // namespace app

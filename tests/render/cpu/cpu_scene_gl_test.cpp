@@ -186,6 +186,80 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 6) << "at the rims of the tube and the ghost";
 }
 
+// Every head over the bone, with gum beside it, from 0.1 to 9 mm away.
+std::vector<Frame> hoveringTools(Frame frame) {
+  std::vector<Frame> frames;
+  frame.rig = cameraRig({.eye_P_mm = {20, -110, 45}, .look_at_P_mm = {-3, -8, 0}, .fov_y_rad = 0.14}, kPx);
+  frame.tool_visible = true;
+  for (const auto& [form, gap_mm] :
+       {std::pair{assets::BurForm::round, 0.1}, std::pair{assets::BurForm::capsule, 1.0},
+        std::pair{assets::BurForm::cylinder, 4.0}, std::pair{assets::BurForm::cone, 9.0}}) {
+    const bool round = form == assets::BurForm::round;
+    frame.bur_form = form;
+    frame.bur_radius_mm = 1.5;
+    frame.bur_length_mm = round ? 0.0 : 4.0;
+    frame.X_PT = {glm::angleAxis(1.2, glm::normalize(glm::dvec3(1.0, 0.2, 0.0))), {-4, -9.5 - gap_mm, 0}};
+    frame.gap = BoneGap{gap_mm, {{-4.0, -8.0, 0.0}}};
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+TEST_F(CpuScene, ShadesThePatientUnderTheInstrumentAndDrawsTheRingAsTheShadersDo) {
+  for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
+    open({.backend = backend});
+    both([](FrameRenderer& r) { r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}}); });
+    for (const Frame& tool : hoveringTools(frame()))
+      for (const ViewMode mode : {ViewMode::iso, ViewMode::dvr}) {
+        Frame f = tool;
+        f.mode = mode;
+        const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
+        EXPECT_LE(d.worst, 2) << "gap " << f.gap->mm;
+        const Image shaded = cpu_->readEye(Eye::cyclopean);
+        f.quality.tool_shadow = false;
+        cpu_->renderEye(f, Eye::cyclopean);
+        const Image unshaded = cpu_->readEye(Eye::cyclopean);
+        f.layers.gap_ring = false;
+        cpu_->renderEye(f, Eye::cyclopean);
+        // Farther away the lamp's shade misses the ball; translucent matter has no contact shade.
+        if (f.gap->mm < 2.0 && mode == ViewMode::iso) {
+          EXPECT_GT(pixelsThatDiffer(shaded, unshaded, 8), 50u);
+        }
+        if (f.gap->mm > 0.5) {
+          EXPECT_GT(pixelsThatDiffer(unshaded, cpu_->readEye(Eye::cyclopean), 16), 50u) << "a ring that is seen";
+        }
+      }
+  }
+}
+
+TEST_F(CpuScene, TrianglesAreShadedUnderTheInstrumentAsTheRayCastSurface) {
+  open();
+  for (Frame f : hoveringTools(frame())) {
+    gl_->renderEye(f, Eye::cyclopean);
+    const Image cast = gl_->readEye(Eye::cyclopean);
+    f.mode = ViewMode::mesh;
+    gl_->renderEye(f, Eye::cyclopean);
+    EXPECT_LT(pixelsThatDiffer(cast, gl_->readEye(Eye::cyclopean), 12), cast.rgba.size() / 4 / 100);
+  }
+}
+
+TEST_F(CpuScene, ToolShadeOnlyDarkensAndEndsWithTheTool) {
+  open();
+  for (Frame f : hoveringTools(frame())) {
+    f.layers.gap_ring = false;
+    cpu_->renderEye(f, Eye::cyclopean);
+    const Image shaded = cpu_->readEye(Eye::cyclopean);
+    f.quality.tool_shadow = false;
+    cpu_->renderEye(f, Eye::cyclopean);
+    const Image lit = cpu_->readEye(Eye::cyclopean);
+    for (std::size_t c = 0; c < lit.rgba.size(); ++c) ASSERT_LE(shaded.rgba[c], lit.rgba[c]);
+    f.quality.tool_shadow = true;
+    f.tool_visible = false;
+    cpu_->renderEye(f, Eye::cyclopean);
+    EXPECT_EQ(pixelsThatDiffer(cpu_->readEye(Eye::cyclopean), lit), 0u) << "no instrument, no shade";
+  }
+}
+
 TEST_F(CpuScene, CachesStaticHitsOfAnUnmovedEyeUntilStaticMeshesChange) {
   open();
   const auto dress = [](FrameRenderer& r) {
