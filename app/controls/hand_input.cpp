@@ -21,22 +21,13 @@ std::optional<ControlRequest> requestOf(const render::KeyPressed& pressed) {
   if (pressed.key == render::Key::f1 || pressed.key == render::keyOf('/')) return ControlRequest{Control::keys};
   for (int law = 0; law < 9; ++law)
     if (pressed.key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, law};
-  switch (pressed.key) {
-    case render::Key::home:
-      return ControlRequest{Control::first_view};
-    case render::Key::page_up:
-      return ControlRequest{Control::slice_up};
-    case render::Key::page_down:
-      return ControlRequest{Control::slice_down};
-    case render::keyOf('='):  // the key of +
-    case render::Key::keypad_add:
-      return ControlRequest{Control::magnify};
-    case render::keyOf('-'):
-    case render::Key::keypad_subtract:
-      return ControlRequest{Control::shrink};
-    default:
-      break;
-  }
+  if (pressed.key == render::Key::home) return ControlRequest{Control::first_view};
+  if (pressed.key == render::Key::page_up) return ControlRequest{Control::slice_up};
+  if (pressed.key == render::Key::page_down) return ControlRequest{Control::slice_down};
+  // + is on the key of =; both are on the keypad too.
+  if (pressed.key == render::keyOf('=') || pressed.key == render::Key::keypad_add)
+    return ControlRequest{Control::magnify};
+  if (pressed.key == render::Key::keypad_subtract) return ControlRequest{Control::shrink};
   const int code = static_cast<int>(pressed.key);
   if (code <= ' ' || code > 'Z') return {};
   const auto control = controlOfKey(static_cast<char>(code), pressed.shift, pressed.control);
