@@ -69,7 +69,7 @@ TEST(RunMonitor, ReportsOnceThatTheRecordingEndedAndShowsIt) {
   StationHealth health;
   health.recording_trouble = "the disk is full";
   EXPECT_EQ(monitor.takeNotices(health, tick(1)),
-            (std::vector<Notice>{{"recording", "recording ended: the disk is full"}}));
+            (std::vector<Notice>{{"recording", "not recording, the rehearsal goes on: the disk is full"}}));
   EXPECT_TRUE(monitor.takeNotices(health, tick(2)).empty());
   monitor.describe(status);
   EXPECT_EQ(status.recording, RecordingState::ended_early);
