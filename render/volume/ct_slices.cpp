@@ -257,7 +257,7 @@ void drawCanalDistance(SliceImage& slice, const Frame& frame, const CtScan& scan
   const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
   if (!mm || edge < kLeastEdgeForText_px) return;
   char text[32];
-  std::snprintf(text, sizeof text, "CANAL %.1f MM", *mm);
+  std::snprintf(text, sizeof text, *mm < 10.0 ? "CANAL %.1f MM" : "CANAL %.0f MM", *mm);
   drawText(slice, text, gap, edge - 2 * gap - 2 * kLetterHeight * dot, dot);
 }
 

@@ -108,7 +108,7 @@ int main(int count, char** words) {
     double sum_mm = 0.0;
     for (int n = 0; n < kPoses; ++n) {
       render::Frame moved = frame;
-      moved.X_PT.translation_mm = patient.focus_P_mm() + (4.0 + 12.0 * n / kPoses) * eye_P.xyz;
+      moved.X_PT.translation_mm = patient.focus_P_mm() + (8.0 + 20.0 * n / kPoses) * eye_P.xyz;
       if (const auto gap = renderer->gap(moved)) sum_mm += gap->mm;
     }
     std::printf("%-34s %6.3f ms CPU  (mean gap %.2f mm)\n", "the gap to the bone, per pose", (cpu_ms() - c) / kPoses,
