@@ -12,7 +12,7 @@ namespace {
 
 /// Crown height of the built-in patient's second molar: its cervical line under the occlusal plane, mm.
 constexpr double kSecondMolarCrown_mm = 7.6;
-constexpr double kLevel_mm = 1.0;
+constexpr double kSameLevel_mm = 1.0;
 
 constexpr assets::JawParameters jawOf(bool right_side, double winter_angle_deg, double depth_mm, double canal_mm) {
   return {.right_side = right_side,
@@ -78,7 +78,7 @@ std::string canalText(const Case& one) {
 }
 
 char pellGregoryPosition(const Case& one) {
-  return one.jaw.depth_mm <= kLevel_mm ? 'A' : one.jaw.depth_mm <= kSecondMolarCrown_mm ? 'B' : 'C';
+  return one.jaw.depth_mm <= kSameLevel_mm ? 'A' : one.jaw.depth_mm <= kSecondMolarCrown_mm ? 'B' : 'C';
 }
 
 int pedersonScore(const Case& one) {

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "app/case/gutter_plan.h"
 #include "app/text/message.h"
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
@@ -33,7 +34,7 @@ std::string cacheName(const assets::JawParameters& p) {
 
 assets::Patient generate(const assets::JawParameters& parameters) {
   assets::Patient patient = assets::syntheticJaw(parameters);
-  patient.gingiva = assets::gingivaSurface(patient.ct, patient.site);
+  patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
   patient.face = assets::syntheticFace({.tooth_fdi = patient.operatedTooth()});
   return patient;
 }

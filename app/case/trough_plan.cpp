@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/case/gutter_plan.h"
 #include "assets/solid_sample.h"
 #include "assets/synthetic/face.h"
 #include "assets/tooth.h"
@@ -21,8 +22,6 @@ constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kMaxSlope = 0.8, kMaxR
 constexpr std::size_t kStations = 17, kMinStations = 7;
 constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
 constexpr double kTroughDepth_mm = 4.0, kToothMargin_mm = 0.7;
-constexpr double kCrownFromCentroid_mm = 3.5;
-constexpr double kNearestBuccal_mm = 5.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
 constexpr double kNeighbourhood_mm = 22.0;
 constexpr double kNextTo_mm = 14.0, kMinElongation = 2.0;
 constexpr double kSearch_mm = 40.0, kSearchStep_mm = 4.0;
@@ -44,12 +43,6 @@ std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, c
     return Hit{p, label == Tissue::cortical || label == Tissue::trabecular};
   }
   return std::nullopt;
-}
-
-/// Any tooth but the operated one.
-bool isOtherTooth(const CtVolume& ct, std::size_t v, int site_fdi) {
-  const int fdi = ct.tooth.empty() ? 0 : ct.tooth[v];
-  return fdi != 0 ? fdi != site_fdi : Tissue{ct.label[v]} == Tissue::other_teeth;
 }
 
 /// Whether another tooth lies within `clearance_mm` of the bur's path down from a point.
@@ -119,13 +112,13 @@ assets::PlannedCut cutAlong(const std::vector<glm::dvec3>& surface, const glm::d
                             double bur_radius_mm) {
   const glm::dvec3 along = glm::normalize(surface.back() - surface.front());
   const glm::dvec3 square = glm::normalize(outward - glm::dot(outward, along) * along);
-  assets::PlannedCut cut;
+  assets::StraightCut cut;
   cut.middle_P_mm = surface[surface.size() / 2];
   cut.outward_P = square;
   cut.lateral_P = glm::normalize(aside - glm::dot(aside, square) * square - glm::dot(aside, along) * along);
   cut.bur_radius_mm = bur_radius_mm;
   cut.length_mm = 2.0 * kHalfLength_mm;
-  return cut;
+  return assets::plannedAlong(cut);
 }
 
 /// A practice cut.
@@ -157,6 +150,11 @@ std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patie
 }
 
 }  // namespace
+
+bool isOtherTooth(const CtVolume& ct, std::size_t v, int site_fdi) {
+  const int fdi = ct.tooth.empty() ? 0 : ct.tooth[v];
+  return fdi != 0 ? fdi != site_fdi : Tissue{ct.label[v]} == Tissue::other_teeth;
+}
 
 glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site) {
   // Distal is perpendicular to buccal: lateral at the incisors, posterior at the molars.
@@ -194,31 +192,8 @@ glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site
   return glm::dot(row, usual) < 0.0 ? -row : row;
 }
 
-std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm) {
-  if (!patient.site) return std::nullopt;
-  const assets::OperativeSite& site = *patient.site;
-  const glm::dvec3 distal = archDirection_P(patient.ct, site), up = assets::occlusalDirection_P(site.fdi);
-  glm::dvec3 buccal = glm::cross(up, distal);
-  if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
-  const glm::dvec3 outward = glm::normalize(0.45 * buccal + up);
-  const glm::dvec3 crown = site.centre_P_mm + kCrownFromCentroid_mm * site.axis_P;
-
-  // Search mesially and outwards until the whole line lies on bone and below the ramus.
-  std::vector<glm::dvec3> surface;
-  for (double shift = 0.0; shift >= kFarthestMesial_mm; shift -= 1.0)
-    for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
-      const glm::dvec3 middle = crown + shift * distal + out * buccal;
-      std::vector<glm::dvec3> found =
-          straightBone(patient.ct, site.fdi, middle, distal, outward, bur_radius_mm + kToothMargin_mm);
-      if (found.size() > surface.size()) surface = std::move(found);
-      if (surface.size() == kStations) break;
-    }
-  if (surface.size() < kMinStations) return std::nullopt;
-  return cutAlong(surface, outward, buccal, bur_radius_mm);
-}
-
 std::optional<CutPlan> plannedCut(const assets::Patient& patient, double bur_radius_mm) {
-  if (const auto trough = planBuccalTrough(patient, bur_radius_mm)) return CutPlan{*trough, CutKind::buccal_trough};
+  if (const auto trough = planGutter(patient, bur_radius_mm)) return CutPlan{*trough, CutKind::gutter};
   const auto practice = planOnNearestBone(patient, bur_radius_mm);
   return practice ? std::optional(CutPlan{*practice, CutKind::nearest_bone}) : std::nullopt;
 }

@@ -1,6 +1,6 @@
-// The planned cut of a patient: a line on the bone's surface and the direction of the bur, found by casting rays onto
-// the solid. It lies buccally of the operated tooth's crown, from mesial to distal; without a tooth, on the nearest
-// bone that the surgeon sees. Frame P. Start-up only; milliseconds.
+// The planned cut of a patient: the gutter around the operated tooth's crown (gutter_plan.h), or where there is none a
+// straight practice cut on the nearest bone that the surgeon sees, found by casting rays onto the solid. Frame P.
+// Start-up only; some tenths of a second.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@ namespace app {
 /// its neighbours; of other teeth: the principal axis of their neighbours. That of a normal arch if these give none.
 glm::dvec3 archDirection_P(const assets::CtVolume& ct, const assets::OperativeSite& site);
 
-/// The buccal trough that exposes the tooth. None without bone next to the crown, or without a site.
-std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm);
+/// Whether voxel `v` belongs to any tooth but the operated one.
+bool isOtherTooth(const assets::CtVolume& ct, std::size_t v, int site_fdi);
 
-enum class CutKind { buccal_trough, nearest_bone };
+enum class CutKind { gutter, nearest_bone };
 
 struct CutPlan {
   assets::PlannedCut cut;
-  CutKind kind = CutKind::buccal_trough;
+  CutKind kind = CutKind::gutter;
 };
 
-/// The trough, or else a practice cut on visible bone within 40 mm: followed by scripted input and shown as guide.
+/// The gutter, or else a practice cut on visible bone within 40 mm: followed by scripted input and shown as guide.
 std::optional<CutPlan> plannedCut(const assets::Patient& patient, double bur_radius_mm);
 
 }  // namespace app

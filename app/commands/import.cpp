@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/case/gutter_plan.h"
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
 #include "app/text/list.h"
@@ -130,7 +131,7 @@ int import(ImportOptions options) {
   assets::ImportedScan imported = assets::importScan(options.source, options.choices);
   for (const std::string& remark : imported.remarks) printMessage(options.source + ": " + remark);
   assets::Patient& patient = imported.patient;
-  patient.gingiva = assets::gingivaSurface(patient.ct, patient.site);
+  patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
   assets::savePatient(patient, options.out, options.force);
   std::fputs(wordsOn(patient).c_str(), stderr);
   return 0;

@@ -129,8 +129,8 @@ void planCut(RehearsalPlan& plan) {
   if (!planned) return;
   plan.cut = planned->cut;
   const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
-  if (planned->kind == CutKind::buccal_trough || !hand || !hand->follows_plan) return;
-  const std::string why = plan.patient.site ? "no trough fits beside the " + assets::toothName(plan.patient.site->fdi)
+  if (planned->kind == CutKind::gutter || !hand || !hand->follows_plan) return;
+  const std::string why = plan.patient.site ? "no gutter fits beside the " + assets::toothName(plan.patient.site->fdi)
                                             : std::string("no operated tooth is labelled");
   printMessage(why + ", the scripted cut is on the nearest bone");
 }

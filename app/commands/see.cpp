@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case/case.h"
+#include "app/case/gutter_plan.h"
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
@@ -30,8 +31,6 @@ namespace app {
 namespace {
 
 constexpr double kPanoramicZoom = 4.0;
-constexpr double kUsualBur_mm = 1.5;  ///< bur radius of the planned trough
-
 struct SeeOptions {
   VolumeOption volume;
   ViewOption view;
@@ -92,7 +91,7 @@ int see(const SeeOptions& options) {
   } else {
     patient = options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
                                       : assets::loadPatient(options.patient);
-    const auto plan = plannedCut(patient, kUsualBur_mm);
+    const auto plan = plannedCut(patient, kUsualBurRadius_mm);
     guides = guidesFor(patient, plan ? std::optional(plan->cut) : std::nullopt);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }

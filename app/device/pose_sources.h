@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/device/pose_source.h"
+#include "haptics/device/simulated/trough_path.h"
 
 namespace app {
 
@@ -25,6 +26,9 @@ PoseSource openPoses(const std::string& path, const PoseSourceContext& at);
 
 /// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
 glm::dvec3 shaftDirection_W();
+
+/// How the scripted hand holds the handpiece for a cut.
+haptics::CuttingMotion cuttingMotion(const assets::PlannedCut& cut, const calibration::Rig& rig);
 
 /// A Phantom's base and the tip in its handle: as measured, or as its model has them.
 void standAsMeasured(PoseSource& source, const calibration::Rig& rig);

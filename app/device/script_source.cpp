@@ -14,16 +14,17 @@ const assets::PlannedCut& cutFor(const PoseSourceContext& at) {
   return *at.cut;
 }
 
-/// So that the handpiece does not hide the site.
-haptics::CuttingMotion motionFor(const PoseSourceContext& at) {
-  return {.shaft_P = glm::conjugate(at.rig.X_WP.rotation) * shaftDirection_W()};
-}
-
 }  // namespace
+
+haptics::CuttingMotion cuttingMotion(const assets::PlannedCut& cut, const calibration::Rig& rig) {
+  // Half way between the way into the bone, where the neck has room, and what leaves the site to be seen.
+  return {.shaft_P =
+              glm::normalize(glm::normalize(cut.outward_P) + glm::conjugate(rig.X_WP.rotation) * shaftDirection_W())};
+}
 
 PoseSource openScript(const std::string&, const PoseSourceContext& at) {
   PoseSource hand;
-  auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), motionFor(at));
+  auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), cuttingMotion(cutFor(at), at.rig));
   hand.duration_s = scripted->duration_s();
   hand.device = std::move(scripted);
   hand.name = "scripted hand";
@@ -33,7 +34,7 @@ PoseSource openScript(const std::string&, const PoseSourceContext& at) {
 PoseSource openSimulated(const std::string& model, const PoseSourceContext& at) {
   PoseSource hand;
   const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(model.empty() ? "omni" : model);
-  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), motionFor(at), at.rig);
+  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), cuttingMotion(cutFor(at), at.rig), at.rig);
   hand.duration_s = round.duration_s();
   hand.X_PD = at.rig.X_WP.inverse() * at.rig.X_WD;
   hand.device = std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
@@ -48,7 +49,8 @@ PoseSource openPractice(const std::string& unit, const PoseSourceContext& at) {
   calibration::Rig true_rig = at.rig;
   true_rig.X_WD = truth.X_WD;
   const glm::dvec3 tip_H_mm = truth.arm.truth.tip_H_mm;
-  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), motionFor(at), true_rig, tip_H_mm);
+  const haptics::WorkCycle round =
+      workCycleFor(mechanics, cutFor(at), cuttingMotion(cutFor(at), at.rig), true_rig, tip_H_mm);
   hand.duration_s = round.duration_s();
   hand.device =
       std::make_unique<haptics::SimulatedPhantom>(mechanics, handleScript(round, tip_H_mm), haptics::Grip{}, 1,

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/case/patient_source.h"
-#include "app/case/trough_plan.h"
+#include "app/case/gutter_plan.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"
@@ -106,10 +106,10 @@ ProbedBone probedBone(const Protocol& protocol) {
   if (bone.site) {
     site = *bone.site;
   } else {
-    const auto trough = planBuccalTrough(patient, protocol.tool.head.radius_mm);
+    const auto trough = planGutter(patient, protocol.tool.head.radius_mm);
     if (!trough)
       throw UsageError("bone.patient: no tooth at work with bone beside it, say bone.site_P_mm and bone.outward_P");
-    site = {{trough->middle_P_mm}, {trough->outward_P}};
+    site = {{trough->surface_P_mm}, {trough->outward_P}};
   }
   site = onSurface(patient.ct, site);
   return {std::move(patient), site};

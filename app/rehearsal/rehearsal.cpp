@@ -114,7 +114,7 @@ class Rehearsal {
     render::Frame held = frame_;
     held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool().rotation;
     held.tool_visible = true;
-    const glm::dvec3 goal_P_mm = plan_.cut ? plan_.cut->middle_P_mm : plan_.patient.focus_P_mm();
+    const glm::dvec3 goal_P_mm = plan_.cut ? plan_.cut->surface_P_mm : plan_.patient.focus_P_mm();
     const auto start_W_mm =
         startBeforeBone(held, goal_P_mm, [this](const render::Frame& frame) { return view_.gapOf(frame); });
     if (!start_W_mm) return;

@@ -9,14 +9,13 @@
 #include <cmath>
 
 #include "assets/load_error.h"
-#include "assets/tooth.h"
 #include "assets/vertex_normals.h"
 
 namespace assets {
 namespace {
 
-constexpr double kFlapRadius_mm = 12.5;
-constexpr double kFlapLift_mm = 2.0;
+constexpr double kWoundReach_mm = 6.0;  // of its distances beyond the cut
+constexpr double kSightStep_mm = 1.0, kSight_mm = 14.0;
 constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
 constexpr int kSmoothingSteps = 3;
@@ -60,45 +59,47 @@ openvdb::MaskGrid::Ptr gingivaVoxels(const CtVolume& ct) {
 }
 
 // Subtracts the flap from the level set. Visits every voxel near the wound, also those deep inside the gingiva.
-void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const OperativeSite& site) {
+void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& wound) {
   const double round = kEdgeRound_mm / voxels.spacing_mm;
-  const double reach_mm = kFlapRadius_mm + kFlapLift_mm + 2.0 * kEdgeRound_mm;
-  const glm::ivec3 low(glm::floor(voxels.indexFromPoint(site.centre_P_mm - reach_mm)));
-  const glm::ivec3 high(glm::ceil(voxels.indexFromPoint(site.centre_P_mm + reach_mm)));
+  const glm::ivec3 low(glm::floor(voxels.indexFromPoint(wound.low_P_mm())));
+  const glm::ivec3 high(glm::ceil(voxels.indexFromPoint(wound.high_P_mm())));
   auto accessor = grid.getAccessor();
-  for (int z = low.z; z <= high.z; ++z) {
-    for (int y = low.y; y <= high.y; ++y) {
-      for (int x = low.x; x <= high.x; ++x) {
-        const double flap = -flapDistance_mm(site, voxels.centre_P_mm({x, y, z})) / voxels.spacing_mm;
-        const double gingiva = accessor.getValue({x, y, z});
-        const double cut = roundedMax(gingiva, flap, round);
-        if (cut > gingiva) accessor.setValue({x, y, z}, static_cast<float>(std::min<double>(cut, kBandVoxels)));
-      }
-    }
-  }
+  forVoxels(low, high + 1, [&](glm::ivec3 at) {
+    const double gingiva = accessor.getValue({at.x, at.y, at.z});
+    if (gingiva >= kBandVoxels) return;
+    const double flap = -wound.distance_mm(voxels.centre_P_mm(at)) / voxels.spacing_mm;
+    const double cut = roundedMax(gingiva, flap, round);
+    if (cut > gingiva) accessor.setValue({at.x, at.y, at.z}, static_cast<float>(std::min<double>(cut, kBandVoxels)));
+  });
 }
 
 // Wet pink, paler away from the wound, deep red along its edge.
-glm::vec4 colourAt(const std::optional<OperativeSite>& site, const glm::dvec3& p_P) {
+glm::vec4 colourAt(const std::optional<Wound>& wound, const glm::dvec3& p_P) {
   const glm::vec3 pink(0.56f, 0.205f, 0.185f);
-  const glm::vec3 wound(0.30f, 0.035f, 0.03f);
+  const glm::vec3 edge(0.30f, 0.035f, 0.03f);
   const double speckle = 0.05 * std::sin(2.1 * p_P.x + 1.3 * std::sin(1.7 * p_P.y)) * std::sin(1.9 * p_P.z + p_P.y);
-  const double near = site ? std::exp(-std::pow(std::max(0.0, flapDistance_mm(*site, p_P)) / 1.5, 2.0)) : 0.0;
-  return {glm::mix(pink * static_cast<float>(1.0 + speckle), wound, static_cast<float>(0.85 * near)), 1.0f};
+  const double near = wound ? std::exp(-std::pow(std::max(0.0, wound->distance_mm(p_P)) / 1.5, 2.0)) : 0.0;
+  return {glm::mix(pink * static_cast<float>(1.0 + speckle), edge, static_cast<float>(0.85 * near)), 1.0f};
 }
 
 }  // namespace
 
-double flapDistance_mm(const OperativeSite& site, const glm::dvec3& p_P) {
-  const glm::dvec3 q = p_P - site.centre_P_mm;
-  // A ball around the crown, cut towards the tongue by a plane leaning over the ridge.
-  const double ball = glm::length(q - kFlapLift_mm * glm::normalize(site.axis_P)) - kFlapRadius_mm;
-  const double tongue =
-      -2.5 - glm::dot(q, glm::normalize(buccalDirection_P(site.fdi) + 0.45 * occlusalDirection_P(site.fdi)));
-  return roundedMax(ball, tongue, 3.0);
+Wound::Wound(const PlannedCut& cut)
+    : field_(cut, kWoundReach_mm, true, 0.5),
+      sight_P_(cut.sight_P),
+      low_P_mm_(glm::min(field_.low_P_mm(), field_.low_P_mm() + kSight_mm * cut.sight_P)),
+      high_P_mm_(glm::max(field_.high_P_mm(), field_.high_P_mm() + kSight_mm * cut.sight_P)) {}
+
+double Wound::distance_mm(const glm::dvec3& p_P_mm) const {
+  // Swept from the cut towards the eye.
+  double mm = field_.distance_mm(p_P_mm);
+  if (sight_P_ != glm::dvec3(0.0))
+    for (double way_mm = kSightStep_mm; way_mm <= kSight_mm; way_mm += kSightStep_mm)
+      mm = std::min(mm, field_.distance_mm(p_P_mm - way_mm * sight_P_));
+  return mm - kFlapMargin_mm;
 }
 
-MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>& site) {
+MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cut) {
   if (ct.label.size() != ct.grid.voxelCount() || !(ct.grid.spacing_mm > 0.0)) {
     throw LoadError("gingiva: labels and grid do not match, import the patient again");
   }
@@ -106,7 +107,8 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>&
   if (voxels->activeVoxelCount() == 0) return {};
   const openvdb::FloatGrid::Ptr surface =
       openvdb::tools::topologyToLevelSet(*voxels, kBandVoxels, 1, 0, kSmoothingSteps);
-  if (site) raiseFlap(*surface, ct.grid, *site);
+  const auto wound = cut ? std::optional<Wound>(*cut) : std::nullopt;
+  if (wound) raiseFlap(*surface, ct.grid, *wound);
 
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
@@ -123,7 +125,7 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>&
   for (const auto& p : points) {
     const glm::dvec3 p_P = ct.grid.origin_P_mm + ct.grid.spacing_mm * glm::dvec3(p.x(), p.y(), p.z());
     gingiva.position_mm.emplace_back(p_P);
-    gingiva.colour.push_back(colourAt(site, p_P));
+    gingiva.colour.push_back(colourAt(wound, p_P));
   }
   gingiva.normal = vertexNormals(gingiva.position_mm, gingiva.triangles);
   return {{std::move(gingiva)}};

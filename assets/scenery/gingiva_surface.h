@@ -1,22 +1,39 @@
-// Gingiva as a surface with the mucoperiosteal flap raised: bone and tooth are bare on the buccal and occlusal side of
-// the tooth at the site, within about 12 mm; the wound's edge is rounded and darker. Its underside lies a little inside
-// the bone, so the surfaces do not coincide. Drawn only, never cut. Envelope flap with buccal reflection (Koerner
-// 2006), extent our own choice. Frame P, mm. Any thread; about 1 s per 10^6 labelled voxels.
+// Gingiva as a surface with the mucoperiosteal flap raised for a planned cut: bone and tooth are bare over the whole
+// cut and 2 mm around it, also where gingiva would stand between the cut and the eye; the wound's edge is rounded and
+// darker. Its underside lies a little inside the bone, so the surfaces do not coincide. Drawn only, never cut. Envelope
+// flap with buccal reflection (Koerner 2006); the margin is our own choice. Frame P, mm. Any thread; about 1 s per 10^6
+// labelled voxels.
 #pragma once
 
 #include <optional>
 
 #include "assets/ct_volume.h"
+#include "assets/cut_field.h"
 #include "assets/mesh.h"
-#include "assets/patient.h"
+#include "assets/planned_cut.h"
 
 namespace assets {
 
-/// One part "Gum", or no part where nothing is labelled gingiva. The flap is raised only where there is a site.
-/// Throws LoadError if labels and grid do not fit.
-MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>& site);
+/// Bone bared around the cut.
+inline constexpr double kFlapMargin_mm = 2.0;
 
-/// Signed distance to the wound, negative where gingiva is removed.
-double flapDistance_mm(const OperativeSite& site, const glm::dvec3& p_P_mm);
+/// Where the flap is raised for a planned cut.
+class Wound {
+ public:
+  explicit Wound(const PlannedCut& cut);
+
+  /// Signed distance, negative where gingiva is removed; at most some millimetres.
+  double distance_mm(const glm::dvec3& p_P_mm) const;
+  glm::dvec3 low_P_mm() const { return low_P_mm_; }
+  glm::dvec3 high_P_mm() const { return high_P_mm_; }
+
+ private:
+  CutField field_;
+  glm::dvec3 sight_P_, low_P_mm_, high_P_mm_;
+};
+
+/// One part "Gum", or no part where nothing is labelled gingiva. The flap is raised only where there is a cut.
+/// Throws LoadError if labels and grid do not fit.
+MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cut);
 
 }  // namespace assets

@@ -11,7 +11,7 @@
 namespace assets {
 
 /// Part of the cache name; to be incremented with any change of the generated jaw, gingiva or face.
-inline constexpr int kSyntheticPatientRevision = 4;
+inline constexpr int kSyntheticPatientRevision = 11;
 
 struct JawParameters {
   bool right_side = true;

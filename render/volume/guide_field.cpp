@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/cut_field.h"
 #include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {
 
 constexpr double kReach_mm = 4.5;  // larger distances are not drawn
+constexpr double kCutReach_mm = 1.5;
 
 std::uint16_t packed(double mm) {
   const double share = (mm - GUIDE_LOW_MM) / (GUIDE_HIGH_MM - GUIDE_LOW_MM);
@@ -16,14 +18,6 @@ std::uint16_t packed(double mm) {
 }
 
 }  // namespace
-
-double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm) {
-  const glm::dvec3 offset = p_P_mm - cut.middle_P_mm;
-  const double along = glm::dot(offset, cut.along_P), outward = glm::dot(offset, cut.outward_P);
-  const glm::dvec3 nearest = std::clamp(along, -cut.half_length_mm, cut.half_length_mm) * cut.along_P +
-                             std::clamp(outward, -cut.half_height_mm, cut.half_height_mm) * cut.outward_P;
-  return glm::length(offset - nearest) - cut.radius_mm;
-}
 
 int visibleGuides(const Frame& frame) {
   return (frame.layers.clearance ? GUIDE_CLEARANCE : 0) | (frame.layers.planned_cut ? GUIDE_PLAN : 0);
@@ -53,10 +47,8 @@ GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides) {
           [&](const glm::dvec3& p) { return distanceToSegment(p, a, b) - guides.mandibular_canal_radius_mm; });
   }
   if (guides.cut) {
-    const PlannedCut& cut = *guides.cut;
-    const double reach_mm = cut.half_length_mm + cut.half_height_mm + cut.radius_mm + kReach_mm;
-    write(cut.middle_P_mm - reach_mm, cut.middle_P_mm + reach_mm, 1,
-          [&](const glm::dvec3& p) { return distanceToCut_mm(cut, p); });
+    const assets::CutField cut(*guides.cut, kCutReach_mm);
+    write(cut.low_P_mm(), cut.high_P_mm(), 1, [&](const glm::dvec3& p) { return cut.distance_mm(p); });
   }
   return field;
 }

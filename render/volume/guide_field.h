@@ -7,23 +7,17 @@
 #include <optional>
 #include <vector>
 
+#include "assets/planned_cut.h"
 #include "assets/volume_grid.h"
 #include "render/frame.h"
 #include "render/volume/bordered_field.h"
 
 namespace render {
 
-/// A planned cut: all points nearer to a rectangle than the radius.
-struct PlannedCut {
-  glm::dvec3 middle_P_mm{0.0};                      ///< of the rectangle
-  glm::dvec3 along_P{1, 0, 0}, outward_P{0, 0, 1};  ///< its edges, orthonormal
-  double half_length_mm = 0.0, half_height_mm = 0.0, radius_mm = 0.0;
-};
-
 struct Guides {
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line; empty: not known
   double mandibular_canal_radius_mm = 1.4;
-  std::optional<PlannedCut> cut;
+  std::optional<assets::PlannedCut> cut;
 };
 
 /// From point `p` to segment ab, in two or three dimensions.
@@ -34,9 +28,6 @@ double distanceToSegment(const Vector& p, const Vector& a, const Vector& b) {
   const double t = square > 0.0 ? glm::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0.0;
   return glm::distance(p, a + t * along);
 }
-
-/// Signed distance, positive outside.
-double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm);
 
 /// Per cell: distance to the canal wall and to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM or more.
 using GuideField = BorderedField<glm::u16vec2>;

@@ -12,8 +12,8 @@ namespace {
 using calibration::Device;
 using calibration::Vector;
 
-assets::PlannedCut plan() {
-  assets::PlannedCut cut;
+assets::StraightCut slot() {
+  assets::StraightCut cut;
   cut.middle_P_mm = {10.0, -5.0, 3.0};
   cut.outward_P = {0.0, 0.0, 1.0};
   cut.lateral_P = {1.0, 0.0, 0.2};
@@ -67,8 +67,8 @@ TEST(MouseDevice, IgnoresAnInvalidTarget) {
 }
 
 TEST(ScriptedDevice, SweepsTheTroughAndWithdraws) {
-  ScriptedDevice hand(plan());
-  const double R = plan().bur_radius_mm;
+  ScriptedDevice hand(assets::plannedAlong(slot()));
+  const double R = slot().bur_radius_mm;
   double lowest = 1e9, least_along = 1e9, most_along = -1e9;
   bool drilled = false;
   HandleState state;
@@ -79,30 +79,30 @@ TEST(ScriptedDevice, SweepsTheTroughAndWithdraws) {
     const glm::dvec3 place = state.X_DH.translation_mm;
     EXPECT_LT(glm::length(place - last), 0.1);
     last = place;
-    lowest = std::min(lowest, place.z - R - plan().middle_P_mm.z);
+    lowest = std::min(lowest, place.z - R - slot().middle_P_mm.z);
     if (!state.pedal) continue;
     drilled = true;
-    least_along = std::min(least_along, place.y - plan().middle_P_mm.y);
-    most_along = std::max(most_along, place.y - plan().middle_P_mm.y);
-    EXPECT_NEAR(place.x, plan().middle_P_mm.x, 1e-9);
+    least_along = std::min(least_along, place.y - slot().middle_P_mm.y);
+    most_along = std::max(most_along, place.y - slot().middle_P_mm.y);
+    EXPECT_NEAR(place.x, slot().middle_P_mm.x, 1e-9);
   }
   EXPECT_TRUE(drilled);
-  EXPECT_NEAR(lowest, -plan().depth_mm, 0.05);
+  EXPECT_NEAR(lowest, -slot().depth_mm, 0.05);
   EXPECT_NEAR(most_along, 4.0, 0.2);
   EXPECT_NEAR(least_along, -4.0, 0.2);
   EXPECT_FALSE(state.pedal);
-  EXPECT_NEAR(last.z - plan().middle_P_mm.z - R, CuttingMotion{}.clearance_mm, 0.01);
+  EXPECT_NEAR(last.z - slot().middle_P_mm.z - R, CuttingMotion{}.clearance_mm, 0.01);
 }
 
 TEST(ScriptedDevice, HoldsTheShaftOutOfTheMouth) {
-  ScriptedDevice hand(plan());
+  ScriptedDevice hand(assets::plannedAlong(slot()));
   const glm::dvec3 shaft = hand.exchange({}, 1e-3).X_DH.rotation * glm::dvec3(0.0, 0.0, 1.0);
   EXPECT_GT(shaft.z, 0.8);
   EXPECT_GT(shaft.x, 0.1);
 }
 
 TEST(ScriptedDevice, YieldsToForce) {
-  ScriptedDevice pushed(plan()), free(plan());
+  ScriptedDevice pushed(assets::plannedAlong(slot())), free(assets::plannedAlong(slot()));
   HandleState a, b;
   for (int i = 0; i < 1500; ++i) {
     a = pushed.exchange({{{0.0, 0.0, 0.5}}, {}}, 1e-3);
@@ -112,18 +112,18 @@ TEST(ScriptedDevice, YieldsToForce) {
 }
 
 TEST(ScriptedDevice, RefusesAPlanWithoutDirection) {
-  assets::PlannedCut bad = plan();
+  assets::StraightCut bad = slot();
   bad.lateral_P = bad.outward_P;
-  EXPECT_THROW(ScriptedDevice{bad}, DeviceError);
-  bad = plan();
+  EXPECT_THROW(ScriptedDevice{assets::plannedAlong(bad)}, DeviceError);
+  bad = slot();
   bad.depth_mm = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(ScriptedDevice{bad}, DeviceError);
+  EXPECT_THROW(ScriptedDevice{assets::plannedAlong(bad)}, DeviceError);
 }
 
 TEST(TroughPath, TakesThePlanOfThePatientIntoTheFrameOfTheDevice) {
   const calibration::Pose<Device, calibration::Patient> X_DP{
       glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, -2.0, 0.5))), {5.0, 6.0, -7.0}};
-  const TroughPath in_P(plan()), in_D(plan(), {}, X_DP);
+  const TroughPath in_P(assets::plannedAlong(slot())), in_D(assets::plannedAlong(slot()), {}, X_DP);
   for (double t_s = 0.0; t_s < in_P.duration_s(); t_s += 0.1) {
     const HandTarget a = in_P.at(t_s), b = in_D.at(t_s);
     EXPECT_LT(glm::distance((X_DP * calibration::Point<calibration::Patient>{a.position_mm}).mm, b.position_mm), 1e-9);

@@ -27,12 +27,12 @@ HandSample handAt(const glm::dvec3& p, bool pedal = false) {
 std::vector<Tick> session(double seconds) {
   CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
   Servo servo(bone);
-  assets::PlannedCut cut;
+  assets::StraightCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
   cut.lateral_P = {0.0, 1.0, 0.0};
   cut.bur_radius_mm = 1.5;
   cut.depth_mm = 2.0;
-  ScriptedDevice device(cut, {.clearance_mm = 2.0});
+  ScriptedDevice device(assets::plannedAlong(cut), {.clearance_mm = 2.0});
   Command command;
   command.tool.head.radius_mm = 1.5;
   TickLog log(100'000);

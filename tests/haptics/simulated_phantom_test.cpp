@@ -51,11 +51,11 @@ HandleState stepped(SimulatedPhantom& device, const glm::dvec3& force_N, int tic
 }
 
 TroughPath trough() {
-  assets::PlannedCut cut;
+  assets::StraightCut cut;
   cut.outward_P = {0.0, 0.4, 0.9};
   cut.lateral_P = {1.0, 0.0, 0.0};
   cut.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
-  return TroughPath(cut);
+  return TroughPath(assets::plannedAlong(cut));
 }
 
 TEST(SimulatedPhantom, HasTheParametersOfItsModel) {

@@ -12,14 +12,15 @@ using namespace phantom;
 
 /// A short trough across the top of the bone, from above.
 WorkCycle shortRound(const PhantomMechanics& mechanics) {
-  assets::PlannedCut cut;
+  assets::StraightCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
   cut.lateral_P = {0.0, 1.0, 0.0};
   cut.length_mm = 6.0;
   cut.depth_mm = 1.0;
   const auto rest_DH = mechanics.rest_DH();
   const HandTarget rest{rest_DH.translation_mm, rest_DH.rotation, false, 0, true};
-  return {TroughPath(cut, {.speed_mm_per_s = 20.0}), rest, {{0.0, -66.0, 30.0}, {0.0, 0.0, 40.0}}};
+  return {
+      TroughPath(assets::plannedAlong(cut), {.speed_mm_per_s = 20.0}), rest, {{0.0, -66.0, 30.0}, {0.0, 0.0, 40.0}}};
 }
 
 TEST(SimulatedSession, ArmsOnItsWayCarvesAndEndsWithoutForce) {

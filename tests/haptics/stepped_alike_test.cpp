@@ -25,12 +25,12 @@ namespace {
 using namespace phantom;
 
 assets::PlannedCut shortCut() {
-  assets::PlannedCut cut;
+  assets::StraightCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
   cut.lateral_P = {0.0, 1.0, 0.0};
   cut.length_mm = 6.0;
   cut.depth_mm = 1.0;
-  return cut;
+  return assets::plannedAlong(cut);
 }
 
 const CuttingMotion kQuickly{.speed_mm_per_s = 20.0, .clearance_mm = 3.0};

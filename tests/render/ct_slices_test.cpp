@@ -166,7 +166,9 @@ TEST(CtSlices, OutlineTheCanal) {
 
 TEST(CtSlices, OutlineThePlannedCutWithItsLayerOnly) {
   Scene scene([](glm::dvec3) { return 300.0; }, {80, 80, 80});
-  const PlannedCut cut{.middle_P_mm = {4.0, 3.0, 0.0}, .half_length_mm = 0.0, .half_height_mm = 0.0, .radius_mm = 3.0};
+  assets::PlannedCut cut;
+  cut.bur_radius_mm = 3.0;
+  cut.strokes_P_mm = {{{4.0, 3.0, 0.0}}};
   const GuideField guides = guideField(scene.ct.grid, {{}, 1.4, cut});
   const CtSlices slices(scene.ct.grid, scene.scan);
   const auto is_plan = [&](double x, double y) {

@@ -379,8 +379,10 @@ TEST(FrameRenderer, GuidesAreDrawnAtTheirPositionsOnlyWhenEnabled) {
       return renderer.readEye(Eye::cyclopean);
     };
     const Image bare = seen();
-    renderer.setGuides(
-        {{{-15, -6, 0}, {15, -6, 0}}, 1.0, PlannedCut{{0, -9, 5}, {1, 0, 0}, {0, -1, 0}, 1.0, 1.0, 2.0}});
+    assets::PlannedCut cut;
+    cut.bur_radius_mm = 2.0;
+    cut.strokes_P_mm = {{{-1, -9, 5}, {1, -9, 5}}, {{-1, -10, 5}, {1, -10, 5}}};
+    renderer.setGuides({{{-15, -6, 0}, {15, -6, 0}}, 1.0, cut});
     EXPECT_EQ(seen().rgba, bare.rgba);
     for (bool Layers::*layer : {&Layers::mandibular_canal, &Layers::clearance, &Layers::planned_cut}) {
       frame.layers.*layer = true;

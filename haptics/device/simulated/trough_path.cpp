@@ -9,62 +9,110 @@
 namespace haptics {
 namespace {
 
-constexpr double kApproach_mm_per_s = 20.0;
-constexpr int kFinishingPasses = 4;  // at full depth, while the bone gives way
-constexpr double kTilt_rad = 0.35;   // of the shaft towards the cheek, so that the handpiece clears the teeth
+constexpr double kTravel_mm_per_s = 40.0;
+constexpr double kApproach_mm_per_s = 13.0;
+constexpr double kPedalBefore = 0.1;  // of the approach
+constexpr double kMeets_mm = 1.6;     // ends of strokes that are joined in the bone
+constexpr double kOver_mm = 2.0;      // above the bone between others
+constexpr double kTilt_rad = 0.35;    // of the shaft towards the cheek, so that the handpiece clears the teeth
+constexpr double kLeast_s = 0.02;
 
 bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 
 }  // namespace
 
 TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motion,
-                       const calibration::Pose<calibration::Device, calibration::Patient>& X_DP)
-    : cut_(cut), motion_(motion), middle_D_mm_((X_DP * calibration::Point<calibration::Patient>{cut.middle_P_mm}).mm) {
+                       const calibration::Pose<calibration::Device, calibration::Patient>& X_DP) {
   const glm::dvec3 outward_D = X_DP.rotation * cut.outward_P;
   const glm::dvec3 across = glm::cross(outward_D, X_DP.rotation * cut.lateral_P);
+  std::vector<std::vector<glm::dvec3>> strokes_mm;
+  double sum = 0.0;
+  for (const auto& stroke : cut.strokes_P_mm) {
+    if (stroke.empty()) continue;
+    strokes_mm.emplace_back();
+    for (const glm::dvec3& p : stroke) {
+      strokes_mm.back().push_back((X_DP * calibration::Point<calibration::Patient>{p}).mm);
+      sum += glm::length(strokes_mm.back().back());
+    }
+  }
   const double area = glm::length(across);
-  if (!(std::isfinite(glm::length(middle_D_mm_)) && std::isfinite(area) && area > 1e-6))
+  if (strokes_mm.empty() || !(std::isfinite(sum) && std::isfinite(area) && area > 1e-6))
     throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");
   if (!std::isfinite(glm::length(motion.shaft_P)))
     throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
-  if (!positive(cut.bur_radius_mm) || !positive(cut.length_mm) || !positive(motion.speed_mm_per_s) ||
-      !positive(cut.depth_mm) || !positive(motion.clearance_mm))
+  if (!positive(cut.bur_radius_mm) || !positive(motion.speed_mm_per_s) || !positive(motion.clearance_mm))
     throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
 
-  outward_ = glm::normalize(outward_D);
-  along_ = across / area;
-  const glm::dvec3 buccal = glm::cross(along_, outward_), shaft_D = X_DP.rotation * motion.shaft_P;
+  const glm::dvec3 outward = glm::normalize(outward_D), along = across / area;
+  const glm::dvec3 buccal = glm::cross(along, outward), shaft_D = X_DP.rotation * motion.shaft_P;
   const double shaft_length = glm::length(shaft_D);
   const glm::dvec3 shaft =
-      shaft_length > 0.0 ? shaft_D / shaft_length : std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
+      shaft_length > 0.0 ? shaft_D / shaft_length : std::cos(kTilt_rad) * outward + std::sin(kTilt_rad) * buccal;
   rotation_ = glm::normalize(glm::dquat(glm::dvec3(0.0, 0.0, 1.0), shaft));
 
-  deepening_passes_ = std::max(1, static_cast<int>(std::ceil(cut.depth_mm / (cut.bur_radius_mm / 8.0))));
-  passes_ = deepening_passes_ + kFinishingPasses;
-  pass_s_ = cut.length_mm / motion.speed_mm_per_s;
-  approach_s_ = retreat_s_ = motion.clearance_mm / kApproach_mm_per_s * 1.5;
+  // Over everything that is cut.
+  double over_mm = -1e9;
+  for (const auto& stroke : strokes_mm)
+    for (const glm::dvec3& p : stroke) over_mm = std::max(over_mm, glm::dot(p, outward) + kOver_mm);
+
+  const auto lifted = [&](const glm::dvec3& p) { return p + std::max(over_mm - glm::dot(p, outward), 0.0) * outward; };
+  begins_s_.push_back(0.0);
+  corner_mm_.push_back(strokes_mm.front().front() + motion.clearance_mm * outward);
+  way_mm_.push_back(0.0);
+  first_.push_back(1);
+  go(strokes_mm.front().front(), kApproach_mm_per_s);
+  pedal_from_s_ = (1.0 - kPedalBefore) * begins_s_.back();
+  for (const auto& stroke : strokes_mm) {
+    if (glm::distance(corner_mm_.back(), stroke.front()) > kMeets_mm) {
+      go(lifted(corner_mm_.back()), kTravel_mm_per_s);
+      go(lifted(stroke.front()), kTravel_mm_per_s);
+      go(stroke.front(), kTravel_mm_per_s);
+    } else if (corner_mm_.back() != stroke.front()) {
+      go(stroke.front(), motion.speed_mm_per_s);
+    }
+    work(stroke, motion.speed_mm_per_s);
+  }
+  pedal_to_s_ = begins_s_.back();
+  const glm::dvec3 end_mm = corner_mm_.back();
+  const double above_mm = glm::dot(strokes_mm.front().front() - end_mm, outward) + motion.clearance_mm;
+  go(end_mm + std::max(above_mm, motion.clearance_mm) * outward, kApproach_mm_per_s);
+}
+
+void TroughPath::go(const glm::dvec3& to_mm, double speed_mm_per_s) {
+  work({corner_mm_.back(), to_mm}, speed_mm_per_s);
+}
+
+/// A leg that begins where the one before it ends.
+void TroughPath::work(const std::vector<glm::dvec3>& stroke_mm, double speed_mm_per_s) {
+  double way_mm = 0.0;
+  corner_mm_.push_back(stroke_mm.front());
+  way_mm_.push_back(0.0);
+  for (std::size_t n = 1; n < stroke_mm.size(); ++n) {
+    way_mm += glm::distance(stroke_mm[n - 1], stroke_mm[n]);
+    corner_mm_.push_back(stroke_mm[n]);
+    way_mm_.push_back(way_mm);
+  }
+  first_.push_back(corner_mm_.size());
+  begins_s_.push_back(begins_s_.back() + std::max(way_mm / speed_mm_per_s, kLeast_s));
 }
 
 HandTarget TroughPath::at(double t_s) const {
-  // Height of the bur's centre over the surface, position along the stroke.
-  const double rest_mm = cut_.bur_radius_mm, high_mm = rest_mm + motion_.clearance_mm;
-  const double cut_s = t_s - approach_s_, end_s = passes_ * pass_s_;
-  const double step_mm = cut_.depth_mm / deepening_passes_;
-  double height_mm = high_mm, along_mm = -0.5 * cut_.length_mm;
-  if (cut_s <= 0.0) {
-    height_mm = glm::mix(high_mm, rest_mm, eased(t_s / approach_s_));
-  } else if (cut_s < end_s) {
-    const double pass = std::floor(cut_s / pass_s_), u = cut_s / pass_s_ - pass;
-    // Eases in and out of each reversal; sinks to the pass's depth in its first fifth.
-    const double way = 0.5 - 0.5 * std::cos(u * calibration::kPi);
-    along_mm = cut_.length_mm * ((static_cast<int>(pass) % 2 == 0 ? way : 1.0 - way) - 0.5);
-    height_mm = rest_mm - std::min(cut_.depth_mm, step_mm * (pass + eased(5.0 * u)));
-  } else {
-    along_mm = cut_.length_mm * ((passes_ % 2 == 0 ? 0.0 : 1.0) - 0.5);
-    height_mm = glm::mix(rest_mm - cut_.depth_mm, high_mm, eased((cut_s - end_s) / retreat_s_));
-  }
-  const bool pedal = cut_s > -0.1 * approach_s_ && cut_s < end_s;
-  return {middle_D_mm_ + height_mm * outward_ + along_mm * along_, rotation_, pedal, 0, true};
+  const double t = std::clamp(t_s, 0.0, duration_s());
+  const auto next = std::upper_bound(begins_s_.begin() + 1, begins_s_.end() - 1, t);
+  const auto leg = static_cast<std::size_t>(next - begins_s_.begin()) - 1;
+
+  // Eases in and out of each reversal.
+  const double part = (t - begins_s_[leg]) / (begins_s_[leg + 1] - begins_s_[leg]);
+  const std::size_t last = first_[leg + 1] - 1;
+  const double way_mm = way_mm_[last] * (0.5 - 0.5 * std::cos(calibration::kPi * std::clamp(part, 0.0, 1.0)));
+  const auto begin = way_mm_.begin() + static_cast<std::ptrdiff_t>(first_[leg]);
+  const auto end = way_mm_.begin() + static_cast<std::ptrdiff_t>(last);
+  const auto corner = static_cast<std::size_t>(std::lower_bound(begin, end, way_mm) - way_mm_.begin());
+  glm::dvec3 position_mm = corner_mm_[corner];
+  if (corner > first_[leg] && way_mm_[corner] > way_mm_[corner - 1])
+    position_mm = glm::mix(corner_mm_[corner - 1], position_mm,
+                           (way_mm - way_mm_[corner - 1]) / (way_mm_[corner] - way_mm_[corner - 1]));
+  return {position_mm, rotation_, t_s > pedal_from_s_ && t_s < pedal_to_s_, 0, true};
 }
 
 }  // namespace haptics

@@ -6,96 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "app/case/gutter_plan.h"
 #include "assets/tooth.h"
+#include "tests/app/case/block_with_molar.h"
 
 namespace app {
 namespace {
-
-using assets::Tissue;
-
-/// A block of bone up to z = 0 with a third molar standing in it, right side.
-assets::Patient blockWithMolar() {
-  assets::Patient patient;
-  assets::CtVolume& ct = patient.ct;
-  ct.grid = {{80, 80, 60}, 0.5, {-40.0, 20.0, -24.0}};
-  ct.solid.assign(ct.grid.voxelCount(), 0);
-  ct.label.assign(ct.grid.voxelCount(), 0);
-  patient.site = {48, {-20.0, 40.0, -3.0}, {0.0, 0.0, 1.0}};
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i) {
-        const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
-        const bool molar = glm::length(glm::dvec2(p.x + 20.0, p.y - 40.0)) < 5.0 && p.z < 3.0;
-        const bool neighbour = glm::length(glm::dvec2(p.x + 20.0, p.y - 28.0)) < 5.0 && p.z < 3.0;
-        if (!molar && !neighbour && p.z > 0.0) continue;
-        ct.solid[ct.grid.index({i, j, k})] = 255;
-        ct.label[ct.grid.index({i, j, k})] = static_cast<std::uint8_t>(molar       ? Tissue::enamel
-                                                                       : neighbour ? Tissue::other_teeth
-                                                                                   : Tissue::cortical);
-      }
-  return patient;
-}
-
-TEST(TroughPlan, LiesOnTheBoneNextToTheCrown) {
-  const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
-  ASSERT_TRUE(plan.has_value());
-  EXPECT_NEAR(plan->middle_P_mm.z, 0.0, 0.5) << "on the surface";
-  EXPECT_LT(plan->middle_P_mm.x, -24.5) << "buccal of the crown, on the patient's right";
-  EXPECT_NEAR(plan->middle_P_mm.y, 40.0, 2.0) << "beside the third molar";
-  EXPECT_NEAR(glm::length(plan->outward_P), 1.0, 1e-12);
-  EXPECT_GT(plan->outward_P.z, 0.5);
-  EXPECT_LT(plan->lateral_P.x, 0.0);
-  EXPECT_NEAR(glm::dot(plan->outward_P, plan->lateral_P), 0.0, 1e-9);
-}
-
-TEST(TroughPlan, AvoidsTheNeighbouringTooth) {
-  const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
-  ASSERT_TRUE(plan.has_value());
-  const glm::dvec2 neighbour{-20.0, 28.0};
-  const glm::dvec3 along = glm::cross(plan->outward_P, plan->lateral_P);
-  for (double s = -0.5; s <= 0.5; s += 0.1) {
-    const glm::dvec3 p = plan->middle_P_mm + s * plan->length_mm * along;
-    EXPECT_GT(glm::distance(glm::dvec2(p), neighbour), 5.0 + 2.0) << "crown and bur";
-  }
-}
-
-TEST(TroughPlan, IsNoneWithoutBoneOrMolar) {
-  assets::Patient no_molar = blockWithMolar();
-  no_molar.site.reset();
-  EXPECT_FALSE(planBuccalTrough(no_molar, 2.0).has_value());
-  assets::Patient no_bone = blockWithMolar();
-  no_bone.ct.solid.assign(no_bone.ct.solid.size(), 0);
-  EXPECT_FALSE(planBuccalTrough(no_bone, 2.0).has_value());
-}
-
-/// A first molar on the left between two others, distinguished by number only.
-TEST(TroughPlan, LiesNextToAToothInTheMiddleOfTheRow) {
-  assets::Patient patient = blockWithMolar();
-  assets::CtVolume& ct = patient.ct;
-  ct.grid.origin_P_mm.x = 0.0;
-  ct.tooth.assign(ct.label.size(), 0);
-  std::ranges::fill(ct.solid, std::uint8_t{0});
-  std::ranges::fill(ct.label, std::uint8_t{0});
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i) {
-        const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
-        const std::size_t v = ct.grid.index({i, j, k});
-        for (const auto& [fdi, y_mm] : {std::pair{35, 29.0}, {36, 40.0}, {37, 51.0}})
-          if (glm::length(glm::dvec2(p.x - 20.0, p.y - y_mm)) < 5.0 && p.z < 3.0)
-            ct.tooth[v] = static_cast<std::uint8_t>(fdi);
-        if (ct.tooth[v] == 0 && p.z > 0.0) continue;
-        ct.solid[v] = 255;
-        ct.label[v] = static_cast<std::uint8_t>(ct.tooth[v] != 0 ? Tissue::enamel : Tissue::cortical);
-      }
-  patient.site = {36, {20.0, 40.0, -3.0}, {0.0, 0.0, 1.0}};
-  const auto plan = planBuccalTrough(patient, 1.0);
-  ASSERT_TRUE(plan.has_value());
-  EXPECT_GT(plan->middle_P_mm.x, 24.5) << "buccal of the crown, on the patient's left";
-  EXPECT_NEAR(plan->middle_P_mm.y, 40.0, 4.0);
-  const glm::dvec3 along = glm::cross(plan->outward_P, plan->lateral_P);
-  EXPECT_GT(std::abs(along.y), 0.95) << "along the row";
-}
 
 /// Teeth of a lower arch on a parabola, by typical crown widths; y from the incisors to the back.
 glm::dvec3 inArch_P_mm(int fdi) {
@@ -138,23 +54,23 @@ TEST(ArchDirection, FollowsTheArchAtEveryToothWhateverTeethAreMissing) {
     }
 }
 
-TEST(PlannedCut, IsTheTroughWhereOneFits) {
-  const auto plan = plannedCut(blockWithMolar(), 2.0);
+TEST(PlannedCut, IsTheGutterWhereOneFits) {
+  const auto plan = plannedCut(test::blockWithMolar(), 1.5);
   ASSERT_TRUE(plan.has_value());
-  EXPECT_EQ(plan->kind, CutKind::buccal_trough);
-  EXPECT_EQ(plan->cut.middle_P_mm, planBuccalTrough(blockWithMolar(), 2.0)->middle_P_mm);
+  EXPECT_EQ(plan->kind, CutKind::gutter);
+  EXPECT_EQ(plan->cut.strokes_P_mm, planGutter(test::blockWithMolar(), 1.5)->strokes_P_mm);
 }
 
 TEST(PlannedCut, LiesOnTheNearestBoneOfAPatientWithoutASite) {
-  assets::Patient patient = blockWithMolar();
+  assets::Patient patient = test::blockWithMolar();
   patient.site.reset();
   patient.jaw_P_mm = {-10.0, 38.0, -8.0};
   const auto plan = plannedCut(patient, 1.5);
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(plan->kind, CutKind::nearest_bone);
   const assets::PlannedCut& cut = plan->cut;
-  EXPECT_NEAR(cut.middle_P_mm.z, 0.0, 0.6) << "the block's upper face is what the eye sees";
-  EXPECT_LT(glm::distance(cut.middle_P_mm, patient.jaw_P_mm), 20.0);
+  EXPECT_NEAR(cut.surface_P_mm.z, 0.0, 0.6) << "the block's upper face is what the eye sees";
+  EXPECT_LT(glm::distance(cut.surface_P_mm, patient.jaw_P_mm), 20.0);
   EXPECT_GT(cut.outward_P.z, 0.2);
   std::ranges::fill(patient.ct.solid, std::uint8_t{0});
   EXPECT_FALSE(plannedCut(patient, 1.5).has_value());

@@ -4,7 +4,7 @@
 
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
-#include "app/case/trough_plan.h"
+#include "app/case/gutter_plan.h"
 #include "app/device/pose_source.h"
 #include "app/text/usage_error.h"
 #include "assets/solid_sample.h"
@@ -26,7 +26,7 @@ struct Scene {
     patient = builtInPatient(jaw);
     rig.X_WP = placePatient({patient.focus_P_mm()}, {assets::surgeonEyeDirection(patient.operatedTooth())},
                             {assets::kFaceAxes_PF.rotation * glm::dvec3(0.0, 1.0, 0.0)});
-    cut = planBuccalTrough(patient, 1.5);
+    cut = planGutter(patient, 1.5);
     manner.shaft_P = glm::conjugate(rig.X_WP.rotation) * restingTool().rotation * glm::dvec3(0.0, 0.0, 1.0);
   }
 };
@@ -43,7 +43,7 @@ TEST(PhantomWorkCycle, AvoidsTheJawWithEveryPhantom) {
       const calibration::Point<calibration::Patient> place_P =
           X_PD * calibration::Point<calibration::Device>{target.position_mm};
       works_s += target.pedal ? 0.01 : 0.0;
-      if (glm::distance(place_P.mm, scene.cut->middle_P_mm) > 8.0)
+      if (glm::distance(place_P.mm, assets::middleOf_P_mm(*scene.cut)) > 10.0)
         deepest = std::max(deepest, assets::solidAt(scene.patient.ct, place_P.mm));
     }
     EXPECT_GT(works_s, 10.0) << mechanics.key;

@@ -28,9 +28,16 @@ CtVolume ridge() {
   return ct;
 }
 
-OperativeSite siteAt(const glm::dvec3& centre_P) { return {38, centre_P, {0, 0, 1}}; }
-
-const glm::dvec3 kSite{20.0, 0.0, -4.0};
+/// A stroke along the crest, seen from the front and above.
+PlannedCut cutAlongTheCrest() {
+  PlannedCut cut;
+  cut.strokes_P_mm = {{{20.0, -5.0, 0.0}, {20.0, 5.0, 0.0}}};
+  cut.outward_P = {0.0, 0.0, 1.0};
+  cut.lateral_P = {1.0, 0.0, 0.0};
+  cut.sight_P = {0.0, -0.6, 0.8};
+  cut.bur_radius_mm = 1.5;
+  return cut;
+}
 
 TEST(GingivaSurface, LiesOnTheTopOfTheLabelledGingiva) {
   const MeshModel model = gingivaSurface(ridge(), std::nullopt);
@@ -55,28 +62,38 @@ TEST(GingivaSurface, KeepsItsUndersideInsideTheBone) {
   }
 }
 
-TEST(GingivaSurface, ExposesTheThirdMolarOnTheBuccalSide) {
-  const MeshModel model = gingivaSurface(ridge(), siteAt(kSite));
+TEST(GingivaSurface, BaresTheCutAndTwoMillimetresAroundItAndKeepsTheRest) {
+  const MeshModel model = gingivaSurface(ridge(), cutAlongTheCrest());
   double nearest_mm = 1e9;
-  int tongue_side = 0;
-  for (const glm::vec3& p : model.parts.at(0).position_mm) {
-    EXPECT_GT(flapDistance_mm(siteAt(kSite), glm::dvec3(p)), -0.7);
-    if (p.x > kSite.x - 1.0) nearest_mm = std::min<double>(nearest_mm, glm::distance(glm::dvec3(p), kSite));
-    tongue_side += p.x < kSite.x - 7.0 && std::abs(p.y) < 8.0 ? 1 : 0;
+  int beside = 0;
+  for (const glm::vec3& v : model.parts.at(0).position_mm) {
+    const glm::dvec3 p(v);
+    if (p.z > 0.5) nearest_mm = std::min(nearest_mm, std::hypot(p.x - 20.0, std::max(std::abs(p.y) - 5.0, 0.0)));
+    beside += p.z > 1.0 && p.x > 26.0 && p.x < 32.0 && std::abs(p.y) < 8.0 ? 1 : 0;
   }
-  EXPECT_GT(nearest_mm, 9.0);
-  EXPECT_LT(nearest_mm, 14.0);
-  EXPECT_GT(tongue_side, 500);
+  EXPECT_GT(nearest_mm, 1.5 + kFlapMargin_mm - 1.2) << "rounded edge";
+  EXPECT_LT(nearest_mm, 1.5 + kFlapMargin_mm + 1.0);
+  EXPECT_GT(beside, 300);
+}
+
+TEST(Wound, ReachesFromTheCutTowardsTheEye) {
+  const PlannedCut cut = cutAlongTheCrest();
+  const Wound wound(cut);
+  EXPECT_NEAR(wound.distance_mm({20.0, 0.0, 0.0}), -1.5 - kFlapMargin_mm, 0.3);
+  EXPECT_NEAR(wound.distance_mm({24.5, 0.0, 0.0}), 1.0, 0.2);
+  EXPECT_LT(wound.distance_mm(glm::dvec3(20.0, -5.0, 0.0) + 8.0 * cut.sight_P), -1.0) << "in the line of sight";
+  EXPECT_GT(wound.distance_mm({20.0, 13.0, 6.4}), 0.0) << "the other way";
 }
 
 TEST(GingivaSurface, IsDarkerAtTheWoundsEdge) {
-  const MeshModel model = gingivaSurface(ridge(), siteAt(kSite));
+  const Wound wound(cutAlongTheCrest());
+  const MeshModel model = gingivaSurface(ridge(), cutAlongTheCrest());
   double edge = 0.0, far = 0.0;
   int edges = 0, fars = 0;
   for (std::size_t n = 0; n < model.parts[0].position_mm.size(); ++n) {
-    const double d = flapDistance_mm(siteAt(kSite), glm::dvec3(model.parts[0].position_mm[n]));
+    const double d = wound.distance_mm(glm::dvec3(model.parts[0].position_mm[n]));
     if (d < 0.5) edge += model.parts[0].colour[n].r, ++edges;
-    if (d > 6.0) far += model.parts[0].colour[n].r, ++fars;
+    if (d > 3.5) far += model.parts[0].colour[n].r, ++fars;
   }
   ASSERT_GT(edges, 50);
   ASSERT_GT(fars, 50);
@@ -86,7 +103,7 @@ TEST(GingivaSurface, IsDarkerAtTheWoundsEdge) {
 TEST(GingivaSurface, IsEmptyWithoutGingiva) {
   CtVolume ct = ridge();
   for (std::uint8_t& label : ct.label) label = label == 9 ? 0 : label;
-  EXPECT_TRUE(gingivaSurface(ct, siteAt(kSite)).parts.empty());
+  EXPECT_TRUE(gingivaSurface(ct, cutAlongTheCrest()).parts.empty());
 }
 
 TEST(GingivaSurface, RefusesLabelsOfAnotherGrid) {

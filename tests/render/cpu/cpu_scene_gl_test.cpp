@@ -166,7 +166,8 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   open();
   Guides guides;
   guides.mandibular_canal_P_mm = {{-16, -6, -3}, {-4, -7, -1}, {4, -5, 0}, {16, -6, 2}};
-  guides.cut = PlannedCut{.middle_P_mm = {-4, -7, 4}, .half_length_mm = 3.0, .half_height_mm = 2.0, .radius_mm = 2.0};
+  guides.cut.emplace().bur_radius_mm = 2.0;
+  guides.cut->strokes_P_mm = {{{-7, -7, 6}, {-1, -7, 6}}, {{-1, -7, 4}, {-7, -7, 4}}, {{-7, -7, 2}, {-1, -7, 2}}};
   both([&](FrameRenderer& r) {
     r.setGuides(guides);
     r.setFace({{ballMesh({-12, -9, 0}, 4.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});

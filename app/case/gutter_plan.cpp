@@ -1,0 +1,392 @@
+#include "app/case/gutter_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/case/trough_plan.h"
+#include "assets/synthetic/face.h"
+#include "assets/tooth.h"
+
+namespace app {
+namespace {
+
+using assets::CtVolume;
+using assets::Tissue;
+
+constexpr double kOffTooth_mm = 0.2, kOffNeighbour_mm = 0.8, kOffCanal_mm = 1.5;
+constexpr double kBelowCervix_mm = 0.5;    ///< of the bur's lowest point
+constexpr double kBehindAxis_mm = 1.0;     ///< of the bur's centre, on the crown's far side
+constexpr double kLingual_mm = 1.5;        ///< of the bur's centre from the crown's middle
+constexpr double kWithoutEnamel_mm = 7.5;  ///< height of a crown whose enamel is not labelled
+constexpr double kCervixShare = 0.05;      ///< of the enamel that lies below the cervical line
+constexpr double kReach_mm = 12.0;         ///< of the map from the crown's middle
+constexpr double kBoneReach_mm = 22.0;     ///< of the bone that is looked at
+constexpr double kColumn_mm = 0.3;
+constexpr int kRow = 4;            ///< columns from one row of strokes to the next
+constexpr double kLevel_mm = 0.5;  ///< depth of one pass
+constexpr double kLeastDepth_mm = 0.15, kMostDepth_mm = 10.0, kRamusDepth_mm = 13.0;
+constexpr double kLeastStroke_mm = 0.25;
+constexpr double kSightStep_mm = 0.5, kSightLength_mm = 26.0;
+constexpr double kStraight_mm = 0.05;  ///< corners that a stroke leaves out
+constexpr std::size_t kLeastColumns = 40;
+constexpr int kFinishingPasses = 2;
+
+/// Axes of the map: distal, across (buccal), outward.
+struct WayIn {
+  glm::dvec3 middle_P_mm, along, across, outward;
+
+  glm::dvec3 local(const glm::dvec3& p) const {
+    const glm::dvec3 q = p - middle_P_mm;
+    return {glm::dot(q, along), glm::dot(q, across), glm::dot(q, outward)};
+  }
+  glm::dvec3 inPatient(const glm::dvec3& q) const { return middle_P_mm + q.x * along + q.y * across + q.z * outward; }
+};
+
+/// The crown of the operated tooth.
+struct Crown {
+  std::vector<glm::dvec3> voxels_P_mm;
+  glm::dvec3 middle_P_mm{0.0};
+  double cervix_mm = 0.0;  ///< along the tooth's axis, from the origin of P
+};
+
+constexpr double kNone = -1e9;
+
+/// One number per column of the map.
+class HeightMap {
+ public:
+  HeightMap() : mm_(static_cast<std::size_t>(kSide) * kSide, kNone) {}
+  static constexpr int kHalf = static_cast<int>(kReach_mm / kColumn_mm), kSide = 2 * kHalf + 1;
+
+  double& at(int i, int j) { return mm_[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)]; }
+  double at(int i, int j) const { return mm_[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)]; }
+  static double place_mm(int i) { return kColumn_mm * (i - kHalf); }
+
+  /// visit(i, j, squared distance) for the columns within a radius.
+  template <class Visit>
+  static void near(const glm::dvec3& q, double radius_mm, const Visit& visit) {
+    const auto bound = [](double mm) {
+      return static_cast<int>(std::ceil(std::clamp(mm / kColumn_mm, -1e6, 1e6))) + kHalf;
+    };
+    for (int j = std::max(bound(q.y - radius_mm), 0); j < std::min(bound(q.y + radius_mm), kSide); ++j)
+      for (int i = std::max(bound(q.x - radius_mm), 0); i < std::min(bound(q.x + radius_mm), kSide); ++i) {
+        const double x = place_mm(i) - q.x, y = place_mm(j) - q.y, square = x * x + y * y;
+        if (square < radius_mm * radius_mm) visit(i, j, square);
+      }
+  }
+  /// Rests a ball of this radius on a point.
+  void rest(const glm::dvec3& q, double radius_mm) {
+    near(q, radius_mm, [&](int i, int j, double square) {
+      at(i, j) = std::max(at(i, j), q.z + std::sqrt(radius_mm * radius_mm - square));
+    });
+  }
+
+ private:
+  std::vector<double> mm_;
+};
+
+bool isOperated(const CtVolume& ct, std::size_t v, int fdi) {
+  return ct.tooth.empty() ? assets::isToothPart(ct.label[v]) : ct.tooth[v] == fdi;
+}
+
+std::optional<Crown> crownOf(const CtVolume& ct, const assets::OperativeSite& site) {
+  const glm::dvec3 axis = glm::normalize(site.axis_P);
+  std::vector<double> enamel_mm;
+  std::vector<std::pair<glm::dvec3, double>> tooth;
+  double top_mm = kNone;
+  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (!isOperated(ct, v, site.fdi)) return;
+    const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
+    const double along_mm = glm::dot(p, axis);
+    tooth.emplace_back(p, along_mm);
+    top_mm = std::max(top_mm, along_mm);
+    if (Tissue{ct.label[v]} == Tissue::enamel) enamel_mm.push_back(along_mm);
+  });
+  if (tooth.empty()) return std::nullopt;
+  Crown crown;
+  crown.cervix_mm = top_mm - kWithoutEnamel_mm;
+  // A tooth that is enamel alone in its labels has no cervical line.
+  if (!enamel_mm.empty() && enamel_mm.size() < tooth.size()) {
+    const auto cervix = enamel_mm.begin() + static_cast<std::ptrdiff_t>(kCervixShare * double(enamel_mm.size()));
+    std::ranges::nth_element(enamel_mm, cervix);
+    crown.cervix_mm = *cervix;
+  }
+  for (const auto& [p, along_mm] : tooth)
+    if (along_mm >= crown.cervix_mm) crown.voxels_P_mm.push_back(p), crown.middle_P_mm += p;
+  crown.middle_P_mm /= static_cast<double>(crown.voxels_P_mm.size());
+  return crown;
+}
+
+/// Up, to the cheek and to the front: between the surgeon's line of sight and the tooth.
+WayIn wayIn(const CtVolume& ct, const assets::OperativeSite& site, const glm::dvec3& middle_P_mm) {
+  const glm::dvec3 distal = archDirection_P(ct, site), up = assets::occlusalDirection_P(site.fdi);
+  glm::dvec3 buccal = glm::cross(up, distal);
+  if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
+  const glm::dvec3 outward = glm::normalize(up + 0.45 * buccal - 0.3 * distal);
+  const glm::dvec3 along = glm::normalize(distal - glm::dot(distal, outward) * outward);
+  glm::dvec3 across = glm::cross(outward, along);
+  if (glm::dot(across, buccal) < 0.0) across = -across;
+  return {middle_P_mm, along, across, outward};
+}
+
+/// Heights of the bur's centre on each line along the way in.
+struct Heights {
+  HeightMap bone;    ///< touching bone from above
+  HeightMap tooth;   ///< resting on the operated tooth
+  HeightMap lowest;  ///< that is allowed
+  HeightMap crown;   ///< any number where the line belongs to crown or gutter
+};
+
+Heights heightsOf(const assets::Patient& patient, const WayIn& way, const Crown& crown, double bur_radius_mm) {
+  const CtVolume& ct = patient.ct;
+  const int fdi = patient.site->fdi;
+  const double rest_mm = bur_radius_mm + kOffTooth_mm,
+               beside_mm = std::max(rest_mm + 0.5 * kColumn_mm, kGutterWidth_mm - bur_radius_mm);
+  Heights h;
+  const auto is_bone = [&](std::size_t v) {
+    const Tissue tissue{ct.label[v]};
+    return (tissue == Tissue::cortical || tissue == Tissue::trabecular) && ct.solid[v] >= assets::kHalfSolid;
+  };
+  const glm::ivec3 low(glm::floor(ct.grid.indexFromPoint(way.middle_P_mm - kBoneReach_mm)));
+  const glm::ivec3 high(glm::ceil(ct.grid.indexFromPoint(way.middle_P_mm + kBoneReach_mm)));
+  assets::forVoxels(glm::max(low, glm::ivec3(1)), glm::min(high, ct.grid.size - 1), [&](glm::ivec3 ijk) {
+    const std::size_t v = ct.grid.index(ijk);
+    const bool operated = isOperated(ct, v, fdi), other = isOtherTooth(ct, v, fdi), bone = is_bone(v);
+    if (!operated && !other && !bone) return;
+    const glm::dvec3 q = way.local(ct.grid.centre_P_mm(ijk));
+    if (operated) h.tooth.rest(q, rest_mm);
+    if (other) h.lowest.rest(q, bur_radius_mm + kOffNeighbour_mm);
+    // Only what is on a surface can be touched first.
+    const std::size_t row = static_cast<std::size_t>(ct.grid.size.x),
+                      slice = row * static_cast<std::size_t>(ct.grid.size.y);
+    if (bone && !(is_bone(v - 1) && is_bone(v + 1) && is_bone(v - row) && is_bone(v + row) && is_bone(v - slice) &&
+                  is_bone(v + slice)))
+      h.bone.rest(q, bur_radius_mm);
+  });
+  for (const glm::dvec3& p : crown.voxels_P_mm)
+    HeightMap::near(way.local(p), beside_mm, [&](int i, int j, double) { h.crown.at(i, j) = 0.0; });
+  for (const glm::dvec3& p : patient.mandibular_canal_P_mm)
+    h.lowest.rest(way.local(p), bur_radius_mm + patient.mandibular_canal_radius_mm + kOffCanal_mm);
+
+  // Down to the cervical line, on the side of the crown that faces the way in.
+  const glm::dvec3 axis = glm::normalize(patient.site->axis_P);
+  const double steep = glm::dot(axis, way.outward);
+  const glm::dvec3 facing = way.outward - steep * axis;
+  const double slope = glm::dot(facing, way.outward);
+  for (int j = 0; j < HeightMap::kSide; ++j)
+    for (int i = 0; i < HeightMap::kSide; ++i) {
+      double& lowest = h.lowest.at(i, j);
+      const glm::dvec3 foot = way.inPatient({HeightMap::place_mm(i), HeightMap::place_mm(j), 0.0});
+      lowest = std::max(lowest, h.tooth.at(i, j));
+      const double over_mm = crown.cervix_mm - kBelowCervix_mm + bur_radius_mm - glm::dot(foot, axis);
+      if (steep > 0.05)
+        lowest = std::max(lowest, over_mm / steep);
+      else if (over_mm - steep * h.bone.at(i, j) > 0.0)
+        h.crown.at(i, j) = kNone;
+      if (slope > 0.05)
+        lowest = std::max(lowest, (-kBehindAxis_mm - glm::dot(foot - crown.middle_P_mm, facing)) / slope);
+      if (HeightMap::place_mm(j) < -kLingual_mm) h.crown.at(i, j) = kNone;
+    }
+  return h;
+}
+
+/// Nothing hard stands between a place on the bone and an eye.
+bool isSeenBy(const CtVolume& ct, int fdi, const glm::dvec3& from_P_mm, const glm::dvec3& sight) {
+  for (double way_mm = 1.0; way_mm < kSightLength_mm; way_mm += kSightStep_mm) {
+    const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(from_P_mm + way_mm * sight)));
+    if (!ct.grid.contains(ijk)) continue;
+    const std::size_t v = ct.grid.index(ijk);
+    if (isOtherTooth(ct, v, fdi) || (way_mm > 2.0 && ct.solid[v] >= assets::kHalfSolid)) return false;
+  }
+  return true;
+}
+
+/// Both eyes, a little farther apart than they are: half of 63 mm in 500 mm is 3.6 degrees.
+bool isSeen(const CtVolume& ct, int fdi, const glm::dvec3& from_P_mm, const glm::dvec3& sight) {
+  constexpr double kHalfApart = 0.1;
+  const glm::dvec3 aside = kHalfApart * glm::normalize(glm::cross(sight, assets::occlusalDirection_P(fdi)));
+  return isSeenBy(ct, fdi, from_P_mm, sight) && isSeenBy(ct, fdi, from_P_mm, glm::normalize(sight - aside)) &&
+         isSeenBy(ct, fdi, from_P_mm, glm::normalize(sight + aside));
+}
+
+/// The largest connected part of the columns that are to be cut; 1 where a column belongs to it.
+std::vector<char> largestPart(const std::vector<char>& wanted) {
+  constexpr int kSide = HeightMap::kSide;
+  std::vector<int> part(wanted.size(), 0);
+  int parts = 0, best = 0;
+  std::size_t most = 0;
+  std::vector<int> open;
+  for (int first = 0; first < kSide * kSide; ++first) {
+    if (!wanted[static_cast<std::size_t>(first)] || part[static_cast<std::size_t>(first)]) continue;
+    part[static_cast<std::size_t>(first)] = ++parts;
+    open.assign(1, first);
+    std::size_t count = 0;
+    while (!open.empty()) {
+      const int at = open.back();
+      open.pop_back();
+      ++count;
+      const int i = at % kSide, j = at / kSide;
+      for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
+        const auto next = static_cast<std::size_t>(y * kSide + x);
+        if (x < 0 || y < 0 || x >= kSide || y >= kSide || !wanted[next] || part[next]) continue;
+        part[next] = parts;
+        open.push_back(static_cast<int>(next));
+      }
+    }
+    if (count > most) most = count, best = parts;
+  }
+  std::vector<char> kept(wanted.size());
+  std::ranges::transform(part, kept.begin(), [best](int one) { return static_cast<char>(best > 0 && one == best); });
+  return kept;
+}
+
+/// Leaves out the corners that lie on the line between their neighbours.
+std::vector<glm::dvec3> straightened(const std::vector<glm::dvec3>& stroke) {
+  std::vector<glm::dvec3> kept{stroke.front()};
+  for (std::size_t begin = 0, end = 2; end < stroke.size(); ++end) {
+    const glm::dvec3 line = glm::normalize(stroke[end] - stroke[begin]);
+    const auto off_mm = [&](const glm::dvec3& p) { return glm::length(glm::cross(p - stroke[begin], line)); };
+    bool straight = true;
+    for (std::size_t n = begin + 1; n < end; ++n) straight = straight && off_mm(stroke[n]) < kStraight_mm;
+    if (straight) continue;
+    begin = end - 1;
+    kept.push_back(stroke[begin]);
+  }
+  if (stroke.size() > 1) kept.push_back(stroke.back());
+  return kept;
+}
+
+/// Level by level from the top, row by row along the crown, to and fro.
+class Strokes {
+ public:
+  Strokes(const WayIn& way, const Heights& heights, const std::vector<char>& planned)
+      : way_(way), h_(heights), planned_(planned) {}
+
+  std::vector<std::vector<glm::dvec3>> make() {
+    double top_mm = kNone, bottom_mm = -kNone;
+    for (int j = 0; j < HeightMap::kSide; ++j)
+      for (int i = 0; i < HeightMap::kSide; ++i)
+        if (isPlanned(i, j)) {
+          top_mm = std::max(top_mm, h_.bone.at(i, j));
+          bottom_mm = std::min(bottom_mm, h_.lowest.at(i, j));
+        }
+    double level_mm = top_mm;
+    while (level_mm > bottom_mm) {
+      const double above_mm = level_mm;
+      level_mm = std::max(level_mm - kLevel_mm, bottom_mm);
+      for (int j = HeightMap::kSide - 1; j >= 0; --j)
+        if (j % kRow == 0) row(j, level_mm, above_mm);
+    }
+    // Along the bottom, between the rows too, while the bone gives way.
+    for (int pass = 0; pass < kFinishingPasses; ++pass)
+      for (int j = HeightMap::kSide - 1; j >= 0; --j)
+        if (pass > 0 || j % (kRow / 2) == 0) row(j, bottom_mm, -kNone);
+    return std::move(strokes_);
+  }
+
+ private:
+  bool isPlanned(int i, int j) const {
+    return planned_[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)] != 0;
+  }
+
+  void row(int j, double level_mm, double above_mm) {
+    std::vector<std::vector<glm::dvec3>> runs;
+    bool in_run = false;
+    double former_mm = 0.0;
+    for (int i = 0; i < HeightMap::kSide; ++i) {
+      const double height_mm = std::max(level_mm, h_.lowest.at(i, j));
+      const bool cuts = isPlanned(i, j) && height_mm < h_.bone.at(i, j) && height_mm < above_mm;
+      if (cuts) {
+        if (!in_run) runs.emplace_back();
+        // Over an edge: across while high, then down; up first, then across.
+        if (in_run && std::abs(height_mm - former_mm) > kColumn_mm)
+          runs.back().push_back(way_.inPatient({HeightMap::place_mm(height_mm < former_mm ? i : i - 1),
+                                                HeightMap::place_mm(j), std::max(height_mm, former_mm)}));
+        former_mm = height_mm;
+        runs.back().push_back(way_.inPatient({HeightMap::place_mm(i), HeightMap::place_mm(j), height_mm}));
+      }
+      in_run = cuts;
+    }
+    std::erase_if(runs, [](const auto& run) { return glm::distance(run.front(), run.back()) < kLeastStroke_mm; });
+    if (runs.empty()) return;
+    // From the end that is nearer to where the bur is.
+    const auto way_mm = [&](const glm::dvec3& p) {
+      return strokes_.empty() ? 0.0 : glm::distance(strokes_.back().back(), p);
+    };
+    if (way_mm(runs.back().back()) < way_mm(runs.front().front())) {
+      std::ranges::reverse(runs);
+      for (auto& run : runs) std::ranges::reverse(run);
+    }
+    for (const auto& run : runs) strokes_.push_back(straightened(run));
+  }
+
+  const WayIn& way_;
+  const Heights& h_;
+  const std::vector<char>& planned_;
+  std::vector<std::vector<glm::dvec3>> strokes_;
+};
+
+}  // namespace
+
+std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, double bur_radius_mm) {
+  if (!patient.site) return std::nullopt;
+  const auto crown = crownOf(patient.ct, *patient.site);
+  if (!crown) return std::nullopt;
+  const int fdi = patient.site->fdi;
+  const WayIn way = wayIn(patient.ct, *patient.site, crown->middle_P_mm);
+  Heights h = heightsOf(patient, way, *crown, bur_radius_mm);
+  const glm::dvec3 sight = assets::surgeonEyeDirection(fdi);
+
+  // Where the bone under a line would be hidden from an eye.
+  const auto at = [&](int i, int j, double height_mm) {
+    return way.inPatient({HeightMap::place_mm(i), HeightMap::place_mm(j), height_mm});
+  };
+  HeightMap hidden;
+  for (int j = 0; j < HeightMap::kSide; ++j)
+    for (int i = 0; i < HeightMap::kSide; ++i) {
+      if (h.bone.at(i, j) == kNone) continue;
+      const glm::dvec3 surface = at(i, j, h.bone.at(i, j) - bur_radius_mm);
+      if (!isSeen(patient.ct, fdi, surface, sight))
+        HeightMap::near(way.local(surface), bur_radius_mm, [&](int x, int y, double) { hidden.at(x, y) = 0.0; });
+    }
+
+  // Columns with bone over the lowest place; those without still bare the crown.
+  assets::PlannedCut cut;
+  cut.outward_P = way.outward;
+  cut.lateral_P = way.across;
+  cut.sight_P = sight;
+  cut.bur_radius_mm = bur_radius_mm;
+  std::vector<char> wanted(static_cast<std::size_t>(HeightMap::kSide) * HeightMap::kSide, 0);
+  for (int j = 0; j < HeightMap::kSide; ++j)
+    for (int i = 0; i < HeightMap::kSide; ++i) {
+      if (h.crown.at(i, j) == kNone || h.bone.at(i, j) == kNone) continue;
+      // Never far down into the ramus; elsewhere no deeper than a bur can be led.
+      const double depth_mm = h.bone.at(i, j) - h.lowest.at(i, j);
+      if (depth_mm > kRamusDepth_mm) continue;
+      h.lowest.at(i, j) = std::max(h.lowest.at(i, j), h.bone.at(i, j) - kMostDepth_mm);
+      if (depth_mm > kLeastDepth_mm && hidden.at(i, j) == kNone)
+        wanted[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)] = 1;
+      else if (depth_mm <= kLeastDepth_mm && h.tooth.at(i, j) > h.bone.at(i, j) && i % 3 == 0 && j % 3 == 0)
+        cut.bare_P_mm.push_back(at(i, j, h.tooth.at(i, j)));
+    }
+  const std::vector<char> planned = largestPart(wanted);
+  if (static_cast<std::size_t>(std::ranges::count(planned, 1)) < kLeastColumns) return std::nullopt;
+  cut.strokes_P_mm = Strokes(way, h, planned).make();
+  if (cut.strokes_P_mm.empty()) return std::nullopt;
+
+  // The column nearest to the middle of the cut.
+  const glm::dvec3 middle = way.local(middleOf_P_mm(cut));
+  double nearest = -kNone;
+  for (int j = 0; j < HeightMap::kSide; ++j)
+    for (int i = 0; i < HeightMap::kSide; ++i) {
+      if (!planned[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)]) continue;
+      const double off = std::hypot(HeightMap::place_mm(i) - middle.x, HeightMap::place_mm(j) - middle.y);
+      if (off >= nearest) continue;
+      nearest = off;
+      cut.surface_P_mm =
+          way.inPatient({HeightMap::place_mm(i), HeightMap::place_mm(j), h.bone.at(i, j) - bur_radius_mm});
+    }
+  return cut;
+}
+
+}  // namespace app

@@ -1,0 +1,138 @@
+// Every named case, as the surgeon finds it: the whole cut is seen by both eyes, and the scripted hand exposes the
+// crown with it. Coarse voxels, the CPU renderer, stepped time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "app/case/case.h"
+#include "app/case/enamel_exposure.h"
+#include "app/case/gutter_plan.h"
+#include "app/case/patient_placement.h"
+#include "app/case/patient_source.h"
+#include "app/device/pose_sources.h"
+#include "app/view/patient_renderer.h"
+#include "assets/cut_field.h"
+#include "haptics/bone/carved_bone.h"
+#include "haptics/device/simulated/scripted_device.h"
+#include "haptics/servo/servo.h"
+#include "render/display/eye_projection.h"
+
+namespace app {
+namespace {
+
+constexpr double kVoxel_mm = 0.5;
+constexpr double kSeenWithin_mm = 1.2;  ///< about two voxels: the drawn surface lies between their centres
+
+struct Scene {
+  assets::Patient patient;
+  assets::PlannedCut cut;
+  calibration::Rig rig = calibration::desktopRig({640, 400}, calibration::kDeskMonitorWidth_mm / 4.0);
+
+  explicit Scene(const Case& one) {
+    setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
+    assets::JawParameters jaw = one.jaw;
+    jaw.spacing_mm = kVoxel_mm;
+    patient = builtInPatient(jaw);
+    cut = planGutter(patient, kUsualBurRadius_mm).value_or(assets::PlannedCut{});
+    rig.X_WP = placePatientAtSite(patient, assets::kFaceAxes_PF);
+  }
+};
+
+/// Where the planned bone is met on the way in.
+std::vector<glm::dvec3> planSurface_P_mm(const Scene& scene) {
+  const assets::CtVolume& ct = scene.patient.ct;
+  const assets::CutField field(scene.cut, 1.0);
+  const glm::dvec3 out = glm::normalize(scene.cut.outward_P);
+  std::vector<glm::dvec3> surface;
+  const auto is_solid = [&](const glm::dvec3& p) {
+    const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(p)));
+    return ct.grid.contains(ijk) && ct.solid[ct.grid.index(ijk)] >= assets::kHalfSolid;
+  };
+  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
+    if (ct.solid[v] < assets::kHalfSolid || assets::isTooth(ct.label[v]) || !field.contains(p)) return;
+    for (double way_mm = 1.5 * kVoxel_mm; way_mm < 14.0; way_mm += 0.5 * kVoxel_mm)
+      if (is_solid(p + way_mm * out)) return;
+    surface.push_back(p);
+  });
+  return surface;
+}
+
+/// Share of the places that nothing hides from an eye.
+double seenShare(const std::vector<glm::dvec3>& places_P_mm, const render::DistanceImage& distance,
+                 const render::EyeView& view, const calibration::Pose<calibration::World, calibration::Patient>& X_WP) {
+  int seen = 0;
+  for (const glm::dvec3& p : places_P_mm) {
+    const calibration::Point<calibration::World> at = X_WP * calibration::Point<calibration::Patient>{p};
+    const glm::dvec4 clip = view.clip_from_W * glm::dvec4(at.mm, 1.0);
+    const int x = static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * distance.w);
+    const int y = static_cast<int>((0.5 - 0.5 * clip.y / clip.w) * distance.h);
+    if (x < 0 || y < 0 || x >= distance.w || y >= distance.h) continue;
+    const double drawn_mm = double{distance.mm[static_cast<std::size_t>(y * distance.w + x)]};
+    seen += drawn_mm == 0.0 || drawn_mm > glm::distance(at.mm, view.eye_W.mm) - kSeenWithin_mm;
+  }
+  return places_P_mm.empty() ? 0.0 : static_cast<double>(seen) / static_cast<double>(places_P_mm.size());
+}
+
+class EveryCase : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryCase, ShowsTheWholePlanToBothEyes) {
+  const Scene scene(*caseNamed(GetParam()));
+  const std::vector<glm::dvec3> surface = planSurface_P_mm(scene);
+  ASSERT_GT(surface.size(), 100u);
+  render::RenderOptions how;
+  how.backend = render::Backend::cpu;
+  const auto renderer = patientRenderer(scene.patient, {}, scene.cut, scene.patient.ct.solid, how);
+  render::Frame frame;
+  frame.rig = scene.rig;
+  frame.tool_visible = false;
+  for (const render::Eye eye : {render::Eye::left, render::Eye::right}) {
+    renderer->renderEye(frame, eye);
+    const double share = seenShare(surface, renderer->readDistance(eye), eyeView(scene.rig, eye), scene.rig.X_WP);
+    RecordProperty(eye == render::Eye::left ? "seen_left" : "seen_right", std::to_string(share));
+    EXPECT_GE(share, 0.95) << GetParam() << (eye == render::Eye::left ? ", left eye" : ", right eye");
+  }
+}
+
+TEST_P(EveryCase, IsExposedByTheScriptedHand) {
+  const Scene scene(*caseNamed(GetParam()));
+  const assets::CtVolume& ct = scene.patient.ct;
+  const EnamelExposure exposure(ct, *scene.patient.site, scene.cut);
+  ASSERT_GT(exposure.planned_mm2(), 10.0);
+  EXPECT_EQ(exposure.share(ct.solid), 0.0);
+
+  haptics::CarvedBone bone(ct.grid, ct.solid, ct.label);
+  haptics::Servo servo(bone);
+  haptics::ScriptedDevice device(scene.cut, cuttingMotion(scene.cut, scene.rig));
+  haptics::Command command;
+  command.tool.head.radius_mm = kUsualBurRadius_mm;
+  command.tool.shaft = haptics::standardShaft(command.tool.head);
+  calibration::Vector<calibration::Patient> force;
+  for (int tick = 0; tick < static_cast<int>(device.duration_s() * 500.0); ++tick) {
+    const haptics::HandleState state = device.exchange({{force.xyz}, {}}, 2e-3);
+    haptics::HandSample hand;
+    hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
+    hand.velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;
+    hand.drill_pedal = state.pedal;
+    force = servo.step(hand, command, 2e-3).commanded_force_P_N;
+  }
+  const double share = exposure.share(bone.solidInGridOrder());
+  const auto removed = bone.removedByTissue_mm3();
+  RecordProperty("exposed", std::to_string(share));
+  std::printf(
+      "%s: plan %.0f mm2, exposed %.2f, %.0f s, cortical %.0f trabecular %.0f enamel %.2f dentine %.2f other %.2f "
+      "mm3\n",
+      GetParam().c_str(), exposure.planned_mm2(), share, device.duration_s(), removed[1], removed[2], removed[4],
+      removed[5], removed[3]);
+  EXPECT_GE(share, 0.6) << GetParam();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryCase, testing::ValuesIn(caseNames()), [](const auto& one) {
+  std::string name = one.param;
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace app
