@@ -20,40 +20,58 @@ struct ToolPart {
         growth(tool.to_P[n].w - radius) {}
 };
 
-inline Float besidePart(const ToolPart& part, const Float3& p_P, const Float3& normal) {
-  const Float3 begin = splat(part.from_P) - p_P, axis = splat(part.axis);
-  const Float at = clamp(-dot(begin, axis) * (1.0f / part.square), 0.0f, 1.0f);
-  const Float3 way = begin + at * axis;
-  const Float square = maximum(dot(way, way), 1e-6f), radius = part.radius + at * part.growth;
-  return 1.0f - TOOL_SHADE * maximum(dot(normal, way) * inverseSquareRoot(square), 0.0f) *
-                    minimum(radius * radius / square, 1.0f);
+/// A part as seen from the points.
+struct ToolPartBeside {
+  Float3 begin, axis;
+  Float begin_axis;
+
+  ToolPartBeside(const ToolPart& part, const Float3& p_P)
+      : begin(splat(part.from_P) - p_P), axis(splat(part.axis)), begin_axis(dot(begin, axis)) {}
+};
+
+inline Float besidePart(const ToolPart& part, const ToolPartBeside& seen, const Float3& normal) {
+  const Float at = clamp(-seen.begin_axis * (1.0f / part.square), 0.0f, 1.0f);
+  const Float3 way = seen.begin + at * seen.axis;
+  const Float inverse = inverseSquareRoot(maximum(dot(way, way), 1e-6f)), radius = part.radius + at * part.growth;
+  const Float share = radius * inverse;
+  return 1.0f - TOOL_SHADE * maximum(dot(normal, way) * inverse, 0.0f) * minimum(share * share, 1.0f);
 }
 
-inline Float pastPart(const ToolPart& part, const Float3& p_P, const Float3& to_lamp) {
-  const Float3 begin = splat(part.from_P) - p_P, axis = splat(part.axis);
-  const Float along = dot(begin, to_lamp), slope = dot(axis, to_lamp);
+inline Float eased(Float t) { return t * t * (3.0f - 2.0f * t); }
+
+inline Float pastPart(const ToolPart& part, const ToolPartBeside& seen, const Float3& to_lamp) {
+  const Float along = dot(seen.begin, to_lamp), slope = dot(seen.axis, to_lamp);
   const Float across = maximum(part.square - slope * slope, 1e-6f);
-  const Float at = clamp((along * slope - dot(begin, axis)) / across, 0.0f, 1.0f);
+  const Float at = clamp((along * slope - seen.begin_axis) / across, 0.0f, 1.0f);
   const Float reach = along + at * slope;
-  const Float away = length(begin + at * axis - reach * to_lamp), radius = part.radius + at * part.growth;
-  const Float soft = TOOL_LAMP_SPREAD * maximum(reach, 0.0f) + TOOL_LAMP_SOFT;
-  const Float covered = smoothStep(-soft, soft, away + radius) - smoothStep(-soft, soft, away - radius);
-  return 1.0f - covered * smoothStep(-0.5f * radius, 0.5f * radius, reach);
+  const Float away = length(seen.begin + at * seen.axis - reach * to_lamp), radius = part.radius + at * part.growth;
+  const Float half_per_soft = 0.5f / (TOOL_LAMP_SPREAD * maximum(reach, 0.0f) + TOOL_LAMP_SOFT);
+  const Float middle = 0.5f + half_per_soft * away, edge = half_per_soft * radius;
+  const Float covered = eased(clamp(middle + edge, 0.0f, 1.0f)) - eased(clamp(middle - edge, 0.0f, 1.0f));
+  return 1.0f - covered * eased(clamp(0.5f + reach / radius, 0.0f, 1.0f));
 }
 
 inline Float lampPastTool(const ShadeScene& scene, const Float3& p_P, const Float3& to_lamp) {
   if (scene.tool.from_P[0].w == 0.0f) return splat(1.0f);
   Float passes = splat(1.0f);
-  for (std::size_t n = 0; n < TOOL_PARTS; ++n)
-    passes = minimum(passes, pastPart(ToolPart(scene.tool, n), p_P, to_lamp));
+  for (std::size_t n = 0; n < TOOL_PARTS; ++n) {
+    const ToolPart part(scene.tool, n);
+    passes = minimum(passes, pastPart(part, ToolPartBeside(part, p_P), to_lamp));
+  }
   return TOOL_LAMP_MIN + (1.0f - TOOL_LAMP_MIN) * passes;
 }
 
 inline Visibility besideTool(const ShadeScene& scene, Visibility visibility, const Float3& p_P, const Float3& normal) {
   if (scene.tool.from_P[0].w == 0.0f) return visibility;
-  for (std::size_t n = 0; n < TOOL_PARTS; ++n)
-    visibility.ambient = visibility.ambient * besidePart(ToolPart(scene.tool, n), p_P, normal);
-  visibility.lamp = visibility.lamp * lampPastTool(scene, p_P, normalised(splat(scene.eye.lamp_P) - p_P));
+  const Float3 to_lamp = normalised(splat(scene.eye.lamp_P) - p_P);
+  Float passes = splat(1.0f);
+  for (std::size_t n = 0; n < TOOL_PARTS; ++n) {
+    const ToolPart part(scene.tool, n);
+    const ToolPartBeside seen(part, p_P);
+    visibility.ambient = visibility.ambient * besidePart(part, seen, normal);
+    passes = minimum(passes, pastPart(part, seen, to_lamp));
+  }
+  visibility.lamp = visibility.lamp * (TOOL_LAMP_MIN + (1.0f - TOOL_LAMP_MIN) * passes);
   return visibility;
 }
 
