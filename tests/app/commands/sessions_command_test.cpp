@@ -29,10 +29,10 @@ class SessionsCommand : public ProgramTest {
   }
 };
 
-constexpr char kCoarse[] = "rehearse --headless --pace fast --device scripted --voxel 0.6 --size 96x64 ";
+constexpr char kCoarseRun[] = "rehearse --headless --pace fast --device scripted --voxel 0.6 --size 96x64 ";
 
 TEST_F(SessionsCommand, EveryRehearsalIsRecordedAndNamedAndTheLastIsAtHand) {
-  const ProgramOutput said = molar(kCoarse + std::string("--seconds 3"));
+  const ProgramOutput said = molar(kCoarseRun + std::string("--seconds 3"));
   ASSERT_EQ(said.status, 0) << said.err;
   const nlohmann::json list = sessions();
   ASSERT_EQ(list.size(), 1u);
@@ -47,13 +47,13 @@ TEST_F(SessionsCommand, EveryRehearsalIsRecordedAndNamedAndTheLastIsAtHand) {
   EXPECT_EQ(molar("export last --out " + at("a.stl")).status, 0);
   EXPECT_EQ(molar("rehearse --headless --pace fast --voxel 0.6 --no-record --device replay:last").status, 0);
   EXPECT_EQ(sessions().size(), 1u) << "--no-record records nothing";
-  ASSERT_EQ(molar(kCoarse + std::string("--seconds 0.2 --record ") + at("mine.molar")).status, 0);
+  ASSERT_EQ(molar(kCoarseRun + std::string("--seconds 0.2 --record ") + at("mine.molar")).status, 0);
   EXPECT_EQ(sessions().size(), 1u) << "nor does --record into the data folder";
 }
 
 TEST_F(SessionsCommand, GoesOnWithoutADataFolderAndSaysSo) {
   setenv("XDG_DATA_HOME", write("a_file", "not a folder").c_str(), 1);
-  const ProgramOutput said = molar(kCoarse + std::string("--seconds 0.2"));
+  const ProgramOutput said = molar(kCoarseRun + std::string("--seconds 0.2"));
   EXPECT_EQ(said.status, 0) << said.err;
   const std::size_t first = said.err.find("not recording, the rehearsal goes on: ");
   ASSERT_NE(first, std::string::npos) << said.err;
@@ -78,15 +78,15 @@ TEST_F(SessionsCommand, AKilledRehearsalIsListedAndIsTheLast) {
   EXPECT_EQ(molar("metrics last --json").status, 0);
   EXPECT_EQ(molar("replay last --verify").status, 0);
   // It goes on from there, too.
-  const ProgramOutput said = molar(kCoarse + std::string("--seconds 0.2 --continue last"));
+  const ProgramOutput said = molar(kCoarseRun + std::string("--seconds 0.2 --continue last"));
   EXPECT_EQ(said.status, 0) << said.err;
 }
 
 TEST_F(SessionsCommand, GoesOnWhereItEnded) {
-  ASSERT_EQ(molar(kCoarse + std::string("--seconds 6 --depth 4 --tool sphere:1 --tool sphere:0.8")).status, 0);
+  ASSERT_EQ(molar(kCoarseRun + std::string("--seconds 6 --depth 4 --tool sphere:1 --tool sphere:0.8")).status, 0);
   const std::string former = sessions()[0].at("file");
   const BoneAtTime ended = boneAtTime(former, {});
-  ASSERT_EQ(molar(kCoarse + std::string("--seconds 6 --continue last --record ") + at("next.molar")).status, 0);
+  ASSERT_EQ(molar(kCoarseRun + std::string("--seconds 6 --continue last --record ") + at("next.molar")).status, 0);
   SessionReader next(at("next.molar"));
   const StoredStart start = next.start();
   EXPECT_TRUE(start.solid == ended.solid) << "the bone as it was";
@@ -120,7 +120,7 @@ TEST_F(SessionsCommand, RefusesToGoOnWithAnotherPatient) {
 
 TEST_F(SessionsCommand, UndoesAndRedoesByScriptBitForBit) {
   // Three cuts into the buccal plate, then undo twice, redo once, undo once, and a new cut.
-  ASSERT_EQ(molar(kCoarse + std::string("--seconds 12 --record ") + at("find.molar")).status, 0);
+  ASSERT_EQ(molar(kCoarseRun + std::string("--seconds 12 --record ") + at("find.molar")).status, 0);
   std::vector<haptics::Tick> ticks;
   SessionReader find(at("find.molar"));
   for (TickBlock block = find.nextBlock(); !block.ticks.empty(); block = find.nextBlock())
@@ -144,8 +144,8 @@ TEST_F(SessionsCommand, UndoesAndRedoesByScriptBitForBit) {
     t_s += 1.8;
   }
   for (const char* action : {"undo", "undo", "redo", "undo"}) rows += row(t_s += 0.5, out, 0, action);
-  rows += row(t_s += 0.5, out, 1, "") + row(t_s += 0.6, in, 1, "") + row(t_s += 0.4, out, 0, "");
-  rows += row(t_s += 0.5, out, 0, "redo") + row(t_s += 0.5, out, 0, "");
+  rows += row(t_s + 0.5, out, 1, "") + row(t_s + 1.1, in, 1, "") + row(t_s + 1.5, out, 0, "");
+  rows += row(t_s + 2.0, out, 0, "redo") + row(t_s + 2.5, out, 0, "");
   write("p.csv", rows);
   const ProgramOutput said =
       molar("rehearse --headless --pace fast --voxel 0.6 --size 96x64 --device poses:" + at("p.csv") + " --record " +
