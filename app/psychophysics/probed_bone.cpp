@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/case/patient_source.h"
 #include "app/case/gutter_plan.h"
+#include "app/case/patient_source.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"

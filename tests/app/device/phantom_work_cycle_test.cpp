@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/case/gutter_plan.h"
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
-#include "app/case/gutter_plan.h"
 #include "app/device/pose_source.h"
 #include "app/text/usage_error.h"
 #include "assets/solid_sample.h"
