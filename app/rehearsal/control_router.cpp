@@ -78,7 +78,6 @@ void ControlRouter::executeScript(const haptics::Tick& newest, render::Frame& fr
 void ControlRouter::execute(const ControlRequest& request, render::Frame& frame, const std::string& where) {
   if (request.control == Control::stop) return stopMotors();
   if (head_up_.execute(request)) return;
-  if (request.control == Control::end && head_up_.closeKeys()) return;
   if (request.control == Control::end) return monitor_.endByUser();
   if ((plan_.procedure && plan_.procedure->take(request)) || active_command_.execute(request, where)) return;
   frame.layers = layersAfter(frame.layers, request);
@@ -124,9 +123,10 @@ void ControlRouter::showDeskView(render::Frame& frame) {
 /// A procedure has its own way to end.
 bool ControlRouter::isTakenByEndQuestion(const render::WindowEvent& event) {
   const auto* key = std::get_if<render::KeyPressed>(&event);
-  if (plan_.procedure || !key) return false;
+  if (!key) return false;
   // What is open is closed first.
   if (key->key == render::Key::escape && key->down && !end_question_.isOpen() && head_up_.closeKeys()) return true;
+  if (plan_.procedure) return false;
   const EndQuestion::Answer answer = end_question_.take(*key);
   if (answer == EndQuestion::Answer::end) monitor_.endByUser();
   return answer != EndQuestion::Answer::not_concerned;
