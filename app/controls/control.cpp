@@ -17,10 +17,10 @@ namespace {
 constexpr std::array<KeyMeaning, 8> kMovements = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
-    {"Wheel", "away from you: into the picture; steps as fine as the gap is small"},
-    {"Shift+Wheel", "the same in steps five times as long"},
-    {"Wheel on a CT slice", "through the slices; drilling brings them back to the bur"},
-    {"Right drag", "turn the view, on a desk without a measured rig"},
+    {"Wheel", "away from you: into the picture"},
+    {"Shift+Wheel", "the same, five times as far"},
+    {"Wheel", "on a CT slice: through the slices"},
+    {"Right drag", "turn the view (on a desk)"},
     {"Arrows", "tilt the handpiece"},
     {"Q, E", "rotate the handpiece"},
 }};
@@ -127,7 +127,7 @@ std::vector<KeyMeaning> keyMeanings(bool with_laws, bool with_motors) {
 
 std::string keyHelp() {
   std::string text = "Keys:\n";
-  for (const KeyMeaning& key : keyMeanings()) text += fmt::format("  {:8} {}\n", key.key, key.does);
+  for (const KeyMeaning& key : keyMeanings()) text += fmt::format("  {:13}{}\n", key.key, key.does);
   return text;
 }
 

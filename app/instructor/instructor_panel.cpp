@@ -25,7 +25,7 @@ namespace {
 
 using Requests = std::vector<ControlRequest>;
 
-constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 118;
+constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 182;
 constexpr double kPanoramicShare = 0.3;  ///< of the window's height
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";

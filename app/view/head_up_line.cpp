@@ -200,14 +200,16 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
            plate(to, size, 0.8 * letters, kSheet);
            to.text("Keys and mouse", {1.2 * letters, 1.3 * row_px}, 1.25 * letters, kWhite, Align::left, true);
            to.text("F1 or Esc closes", {size.x - 1.2 * letters, 1.3 * row_px}, letters, kDim, Align::right, true);
+           double key_px = 0.0;
+           for (const auto& key : keys) key_px = std::max(key_px, to.textWidth(key.first, letters, true) + letters);
            for (std::size_t n = 0; n < keys.size(); ++n) {
              const double left = (n < rows ? 0.0 : 0.5 * size.x) + 1.2 * letters;
              const double middle = (static_cast<double>(n % rows) + 2.8) * row_px;
              to.text(keys[n].first, {left, middle}, letters, kBlueWater, Align::left, true);
-             const double room = 0.5 * size.x - 7.2 * letters;
+             const double room = 0.5 * size.x - key_px - 2.2 * letters;
              const double wide = to.textWidth(keys[n].second, letters, true);
-             to.text(keys[n].second, {left + 5.6 * letters, middle}, letters * std::min(1.0, room / wide), kWhite,
-                     Align::left, true);
+             to.text(keys[n].second, {left + key_px, middle}, letters * std::min(1.0, room / wide), kWhite, Align::left,
+                     true);
            }
          }});
   }

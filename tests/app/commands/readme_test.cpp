@@ -158,9 +158,11 @@ TEST_F(ReadmeTest, QuotesEveryKeyOfARehearsalAndNoOther) {
   std::istringstream lines(help.substr(help.find("Keys:\n") + 6));
   std::set<std::string> keys;
   for (std::string line; std::getline(lines, line) && line.starts_with("  ");) {
-    std::istringstream names(line.substr(2, 8));  // "1 - 7", "Q, E", "Esc"
-    for (std::string name; std::getline(names, name, ' ');)
-      if (std::erase(name, ','); !name.empty() && name != "-") keys.insert(name);
+    std::string names = line.substr(2, 13);  // "1 - 7", "Q, E", "-", "Right drag"
+    names.erase(names.find_last_not_of(' ') + 1);
+    static const std::regex kBetween(", | - ");
+    for (std::sregex_token_iterator name(names.begin(), names.end(), kBetween, -1), end; name != end; ++name)
+      keys.insert(*name);
   }
   ASSERT_TRUE(keys.contains("Esc"));
   const std::string text = textOf(root_ / "README.md");
