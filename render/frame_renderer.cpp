@@ -15,7 +15,8 @@
 namespace render {
 namespace {
 
-constexpr double kSliceHeight = 0.3, kInsetGap = 0.025, kLegendHeight = 0.12;  // of the viewer's screen
+constexpr double kSliceHeight = 0.3, kInsetGap = 0.025, kLegendHeight = 0.12,
+                 kMaxLegendHeight = 0.25;  // of the viewer's screen
 
 // Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.
 PixelBox sliceBox(std::size_t n, const glm::dvec2& per_height) {
@@ -101,7 +102,9 @@ void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
       const PixelBox seen = sliceBox(n, per_height);
       add(seen, slice(kSlicePlanes[n], frame, seen.size_px.y));
     }
-  if (frame.layers.clearance && has_canal_) {
+  // Translucent bone shows no bands; in a small image the legend would cover what it explains.
+  const bool has_room = clearanceLegendSize(1).y <= kMaxLegendHeight * per_height.y;
+  if (frame.layers.clearance && has_canal_ && frame.mode != ViewMode::dvr && has_room) {
     const int dot_px = std::max(static_cast<int>(kLegendHeight * per_height.y) / clearanceLegendSize(1).y, 1);
     const glm::dvec2 size_px = glm::dvec2(clearanceLegendSize(dot_px)) * glm::dvec2(per_height.x / per_height.y, 1.0);
     PixelBox seen;

@@ -71,14 +71,14 @@ set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
 set(haptics/servo ${haptics})
 set(render ${assets} render/)
 set(render_words ${assets} render/frame.h render/image.h render/shaders/shared_constants.glsl
-    render/shaders/anaglyph_constants.glsl)
+    render/shaders/anaglyph_constants.glsl render/shaders/light_constants.glsl)
 set(render/gpu ${render_words} render/gpu/)
 foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)
 endforeach()
 # The CPU back-end is an alternative to gpu: of that folder it may include the exception and the window target only.
 set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_target.h render/cpu/ render/volume/ render/display/
-    render/scene/models.h render/eye_block.h
+    render/scene/models.h render/eye_block.h render/tool_block.h
     render/scene_renderer.h render/render_options.h render/shaders/)
 
 # Third parties: a regular expression of what is included, and the folders or rooms that may.

@@ -79,8 +79,8 @@ TEST_F(PsychophysicsCommand, ExitsWithOneIfTheRecordingIsLost) {
                    at("said") + " && kill -0 $p; do sleep 0.05; done; kill -TERM $p; wait $p")
                       .c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1) << read("said");
-  EXPECT_NE(read("said").find("in " + at("s.molar") + "; the recording ended early: "), std::string::npos)
-      << read("said");
+  EXPECT_NE(read("said").find("recorded in      " + at("s.molar") + ", "), std::string::npos) << read("said");
+  EXPECT_NE(read("said").find("ticks lost; the recording ended early: "), std::string::npos) << read("said");
 }
 
 TEST_F(PsychophysicsCommand, KeepsEveryAnsweredTrialWhenKilled) {
