@@ -11,6 +11,7 @@
 
 #include "app/commands/command.h"
 #include "app/options/display_option.h"
+#include "app/options/settings_text.h"
 #include "app/options/view_option.h"
 #include "app/pattern/test_pattern.h"
 #include "app/station/rig_choice.h"

@@ -85,12 +85,12 @@ std::string acceptedValues(ControlValue kind) {
 
 /// One of "U", "Shift+U", "Ctrl+Shift+Z".
 bool isKey(std::string_view text, char key, bool shift, bool control) {
-  const auto takePrefix = [&](std::string_view prefix) {
+  const auto take_prefix = [&](std::string_view prefix) {
     const bool found = text.starts_with(prefix);
     if (found) text.remove_prefix(prefix.size());
     return found;
   };
-  return takePrefix("Ctrl+") == control && takePrefix("Shift+") == shift && text.size() == 1 && text.front() == key;
+  return take_prefix("Ctrl+") == control && take_prefix("Shift+") == shift && text.size() == 1 && text.front() == key;
 }
 
 }  // namespace

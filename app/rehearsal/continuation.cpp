@@ -31,10 +31,10 @@ Continuation continuationOf(const std::string& path) {
 }
 
 void Continuation::applyTo(assets::Patient& patient) const {
-  const auto isUnlabelled = [](const std::vector<std::uint8_t>& labels) {
+  const auto is_unlabelled = [](const std::vector<std::uint8_t>& labels) {
     return std::ranges::all_of(labels, [](std::uint8_t value) { return value == 0; });
   };
-  const bool same_label = patient.ct.label.empty() ? isUnlabelled(label) : patient.ct.label == label;
+  const bool same_label = patient.ct.label.empty() ? is_unlabelled(label) : patient.ct.label == label;
   if (!(patient.ct.grid == grid) || !same_label)
     throw UsageError("--continue " + path + ": is of another patient or case, " +
                      (setup.built_in ? "or of another version of the built-in one"

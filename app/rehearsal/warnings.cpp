@@ -146,7 +146,8 @@ std::optional<int> neighbourAt(const haptics::Tick& tick, const haptics::BurShap
                                const assets::Patient& patient) {
   const assets::CtVolume& ct = patient.ct;
   if (ct.tooth.empty() || tick.depth_mm <= 0.0) return {};
-  const auto [from, to] = axisOf(tick, head);
+  const auto axis = axisOf(tick, head);
+  const glm::dvec3 from = axis.first, to = axis.second;
   const double reach_mm = head.radius_mm + 0.5 * ct.grid.spacing_mm;
   const glm::ivec3 low = glm::max(glm::ivec3(glm::floor(ct.grid.indexFromPoint(glm::min(from, to) - reach_mm))), 0);
   const glm::ivec3 end =

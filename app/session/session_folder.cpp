@@ -36,14 +36,14 @@ std::string newSessionPath(const fs::path& folder, std::int64_t unix_s, int fdi)
   std::tm local{};
   localtime_r(&seconds, &local);
   const std::string name = fmt::format("{:%Y-%m-%d-%H%M%S}-", local) + (fdi > 0 ? fmt::format("tooth-{}", fdi) : "jaw");
-  const auto isTaken = [&](const std::string& stem) {
+  const auto is_taken = [&](const std::string& stem) {
     std::error_code failed;
     for (const std::string& file : sessionFiles((folder / (stem + ".molar")).string()))
       if (fs::exists(file, failed) || fs::exists(file + ".new", failed)) return true;
     return false;
   };
   std::string stem = name;
-  for (int n = 2; isTaken(stem) && n <= kMaxSameSecond; ++n) stem = fmt::format("{}-{}", name, n);
+  for (int n = 2; is_taken(stem) && n <= kMaxSameSecond; ++n) stem = fmt::format("{}-{}", name, n);
   return (folder / (stem + ".molar")).string();
 }
 

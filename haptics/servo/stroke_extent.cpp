@@ -1,5 +1,7 @@
 #include "haptics/servo/stroke_extent.h"
 
+#include <glm/glm.hpp>
+
 namespace haptics {
 
 void StrokeExtent::begin(const calibration::Point<calibration::Patient>& at_P) noexcept {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
 
 namespace haptics {
 

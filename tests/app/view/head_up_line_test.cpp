@@ -18,7 +18,7 @@ HeadUpContent atWork() {
   content.force_share = 0.4;
   content.gap_mm = 3.2;
   content.time_s = 65.4;
-  content.said = "snapshot /home/surgeon/cases/molar-snapshot-12.png";
+  content.said = "snapshot /data/molar/pictures/molar-snapshot-12.png";
   content.warnings = {
       {"Lower right second molar touched", true}, {"Cutting dry: water on with I", false}, {"third", false}};
   return content;
