@@ -1,6 +1,8 @@
 #include "app/case/patient_placement.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "assets/synthetic/face.h"
 
@@ -11,6 +13,29 @@ using calibration::Point;
 using calibration::Pose;
 using calibration::Vector;
 using calibration::World;
+
+namespace {
+
+/// Elevation of the line of sight over the horizontal, with the head bent down to the mouth.
+constexpr double kEyeElevation_rad = calibration::radFromDegrees(60.0);
+
+double clockHour(PatientPosition position) {
+  return position == PatientPosition::right ? 10.0 : position == PatientPosition::left ? 2.0 : 12.0;
+}
+
+/// From the mouth to the eye, in the axes of a straight lying head: x to its left, y to its crown, z to the ceiling.
+glm::dvec3 lyingEyeDirection(PatientPosition position) {
+  const double turn_rad = calibration::radFromDegrees(30.0 * (clockHour(position) - 12.0));
+  const double level = std::cos(kEyeElevation_rad);
+  return {level * std::sin(turn_rad), level * std::cos(turn_rad), std::sin(kEyeElevation_rad)};
+}
+
+/// The line of sight through the open mouth, in the axes of the head.
+glm::dvec3 bestEyeDirection_F(int tooth_fdi) {
+  return (assets::kFaceAxes_PF.inverse() * Vector<Patient>{assets::surgeonEyeDirection(tooth_fdi)}).xyz;
+}
+
+}  // namespace
 
 Pose<World, Patient> placePatient(const Point<Patient>& site_P, const Vector<Patient>& eye_direction_P,
                                   const Vector<Patient>& up_P) {
@@ -23,10 +48,34 @@ Pose<World, Patient> placePatient(const Point<Patient>& site_P, const Vector<Pat
   return {R_WP, -(R_WP * site_P.mm)};
 }
 
-Pose<World, Patient> placePatientAtSite(const assets::Patient& patient, const assets::FacePose& X_PF) {
-  // LPS axes of the head to F, then with the head to P.
-  const Vector<Patient> eye_P{assets::surgeonEyeDirection(patient.operatedTooth())};
-  const Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
+PatientPosition patientPositionNamed(std::string_view name) {
+  const auto found = std::ranges::find(kPatientPositions, name);
+  assert(found != kPatientPositions.end());
+  return static_cast<PatientPosition>(found - kPatientPositions.begin());
+}
+
+HeadPose headPose(PatientPosition position, int tooth_fdi) {
+  if (position == PatientPosition::seated) return {};
+  const glm::dvec3 eye = lyingEyeDirection(position), best = bestEyeDirection_F(tooth_fdi);
+  // A turn about the long axis y gives the lateral component, a tilt about x the other two.
+  const double across = std::hypot(eye.x, eye.z);
+  const double turn_rad = std::atan2(eye.x, eye.z) - std::asin(std::clamp(best.x / across, -1.0, 1.0));
+  const double turned_rad = std::clamp(turn_rad, -kMaxHeadTurn_rad, kMaxHeadTurn_rad);
+  const double z = across * std::cos(std::atan2(eye.x, eye.z) - turned_rad);
+  const double tilt_rad = std::atan2(eye.y, z) - std::atan2(best.y, best.z);
+  return {turned_rad, std::clamp(tilt_rad, -kMaxHeadTilt_rad, kMaxHeadTilt_rad)};
+}
+
+Pose<World, Patient> placePatientAtSite(const assets::Patient& patient, const assets::FacePose& X_PF,
+                                        PatientPosition position) {
+  Vector<calibration::Face> eye_F{bestEyeDirection_F(patient.operatedTooth())}, up_F{{0.0, 1.0, 0.0}};
+  if (position != PatientPosition::seated) {
+    const HeadPose head = headPose(position, patient.operatedTooth());
+    const glm::dquat head_from_room = glm::angleAxis(head.tilt_rad, glm::dvec3(1.0, 0.0, 0.0)) *
+                                      glm::angleAxis(-head.turn_rad, glm::dvec3(0.0, 1.0, 0.0));
+    eye_F = {head_from_room * lyingEyeDirection(position)};
+    up_F = {head_from_room * glm::dvec3(0.0, 0.0, 1.0)};
+  }
   return placePatient({patient.focus_P_mm()}, X_PF * eye_F, X_PF * up_F);
 }
 

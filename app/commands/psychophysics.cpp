@@ -9,6 +9,7 @@
 
 #include "app/case/patient_placement.h"
 #include "app/commands/command.h"
+#include "app/device/pose_source_table.h"
 #include "app/options/settings_text.h"
 #include "app/psychophysics/probed_bone.h"
 #include "app/psychophysics/result_chart.h"
@@ -18,16 +19,18 @@
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
 #include "calibration/output_file.h"
 #include "calibration/record/rig_file.h"
+#include "haptics/device/device_catalogue.h"
 
 namespace app {
 namespace {
 
 struct PsychophysicsOptions {
-  std::string protocol, out, observer = "simulated", rig, record;
+  std::string protocol, out, observer = "simulated", device = "mouse", rig, record;
   std::uint64_t seed = 1;
   bool force = false, instructor_window = false;
 };
@@ -73,6 +76,11 @@ AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& 
   plan.overwrite = options.force;
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
   plan.procedure = &desk;
+  // The experiment prints its own.
+  plan.summary = false;
+  plan.device = options.device;
+  plan.device_options.report = printMessage;
+  if (haptics::isDeviceAddress(options.device)) plan.opened = haptics::openDevice(options.device, plan.device_options);
   plan.instructor_window = options.instructor_window;
   const int answer = rehearse(std::move(plan));
   return {desk.isOver(), answer};
@@ -83,6 +91,9 @@ int run(const PsychophysicsOptions& options) {
     throw UsageError("--out " + options.out + ": end the name in .csv");
   refuseSameFile(options.out, {options.protocol});
   if (!options.record.empty()) refuseUnlessRecordable(options.record, options.force);
+  refuseUnlessPoseSource(options.device);
+  if (options.device != "mouse" && options.observer != "keyboard")
+    throw UsageError("--device " + options.device + ": the simulated participant uses none, add --observer keyboard");
   const Protocol protocol = protocolFromToml(assets::readSmallFile(options.protocol), options.protocol);
   if (protocol.bone.kind == BoneChoice::Kind::volume) refuseSameFile(options.out, {protocol.bone.path});
   calibration::OutputFile summary(withEnding(options.out, ".json"), options.force);
@@ -129,6 +140,7 @@ void addPsychophysics(CommandLine& molar) {
   command.option("--observer", options->observer, "Who answers: simulated, or a person at the window by keyboard")
       .oneOf({"simulated", "keyboard"})
       .showsDefault();
+  command.option("--device", options->device, "keyboard: " + poseSourceHelp()).showsDefault();
   command.option("--seed", options->seed, "Of order, hand and observer").showsDefault();
   command.option("--rig", options->rig, "keyboard: rig file, 1:1").valueNamed("FILE");
   command.option("--record", options->record, "keyboard: session file to write").valueNamed("FILE");

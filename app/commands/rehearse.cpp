@@ -56,6 +56,7 @@ struct RehearseOptions {
   DisplayOption display;
   assets::JawParameters jaw;
   std::optional<double> face_window_mm;
+  std::optional<std::string> position;
   std::optional<int> monitor;
   double loupes = 4.0;
   bool no_line = false;
@@ -75,7 +76,10 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
                                   calibration::kDeskMonitorWidth_mm / options.loupes);
   }
   // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
-  if (hasNoPatientPose(rig)) rig.X_WP = placePatientAtSite(patient, X_PF);
+  if (hasNoPatientPose(rig))
+    rig.X_WP = placePatientAtSite(patient, X_PF, patientPositionNamed(options.position.value_or("seated")));
+  else if (options.position)
+    throw UsageError("--position " + *options.position + ": the rig states the pose of the head (X_WP), leave it out");
   return rig;
 }
 
@@ -311,6 +315,11 @@ void addRehearse(CommandLine& molar) {
   built_in("--voxel", o->jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
   built_in("--seed", o->jaw.seed, "number that varies its shape");
   command.option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
+  command
+      .option("--position", o->position,
+              "seated, before the surgeon; or lying, approached from the right (10 o'clock), the left (2 o'clock) or "
+              "behind (12 o'clock) [seated, or as the rig states]")
+      .oneOf({kPatientPositions.begin(), kPatientPositions.end()});
   command.optionGroup("Hand and instruments");
   command.option("--device", o->plan.device, poseSourceHelp()).showsDefault();
   command.option("--tool", o->tools, headHelp() + "; give several to change between them by key T or pedal")

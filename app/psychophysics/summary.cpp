@@ -166,6 +166,8 @@ std::string outcomeText(const Protocol& protocol, const Outcome& outcome) {
   const std::string unit = protocol.unit.empty() ? "" : " " + protocol.unit;
   std::string text = "Psychophysics, participant " + protocol.participant + "\n  trials           " +
                      std::to_string(outcome.trials.size()) + (outcome.complete ? "" : ", ended early") + "\n";
+  if (outcome.trials.empty())
+    return text + "  nothing was answered, so nothing is estimated: feel with 1 and 2, then answer with A or B\n";
   if (outcome.fit && protocol.method == Method::constant) {
     const PsychometricFit& f = *outcome.fit;
     text += "  PSE              " + number(f.function.pse) + unit + "  (95 %: " + number(f.pse_95.low) + " to " +
