@@ -73,7 +73,8 @@ class Rehearsal {
         figures.first_frame_s = first_frame_s;
         figures.frame_ms =
             1000.0 * loop_s / static_cast<double>(std::max<std::uint64_t>(1, figures.frames - frames_before));
-        if (plan_.summary) std::fputs(summaryText(figures).c_str(), plan_.procedure ? stderr : stdout);
+        std::fputs((plan_.summary ? summaryText(figures) : recordingText(figures)).c_str(),
+                   plan_.procedure ? stderr : stdout);
         return exitStatus(figures);
       }
       updateCommand();

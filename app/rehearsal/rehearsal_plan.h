@@ -49,7 +49,7 @@ struct RehearsalPlan {
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;
   bool head_up_line = true;         ///< shown to begin with
-  bool summary = true;              ///< printed at the end
+  bool summary = true;              ///< printed at the end; else only where it was recorded
   bool verbose = false;             ///< words for engineers on the terminal; force laws by key
   std::optional<int> monitor;       ///< index of render::monitors()
   bool instructor_window = false;   ///< on the next monitor, or next to the view

@@ -72,13 +72,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
     warnings += fmt::format("{}{} {}", warnings.empty() ? "" : ", ", count.name,
                             count.times == 1 ? std::string("once") : fmt::format("{} times", count.times));
   line("warnings", warnings.empty() ? "none" : warnings);
-  if (f.recording) {
-    std::string recorded = f.recording->file.empty() ? "nothing" : f.recording->file;
-    if (f.recording->lost > 0) recorded += fmt::format(", {} ticks lost", f.recording->lost);
-    if (f.recording->trouble) recorded += "; " + *f.recording->trouble;
-    line("recorded in", recorded);
-  }
-  return text;
+  return text + recordingText(f);
 }
 
 std::string engineersText(const RehearsalFigures& f) {
@@ -111,6 +105,14 @@ std::string punctualityText(const haptics::LoopFigures& servo) {
              "{:.0f}; ",
              servo.ticks, servo.missed, servo.overruns, servo.late_p50_us, servo.late_p99_us, servo.late_max_us) +
          grantsText(servo.grants);
+}
+
+std::string recordingText(const RehearsalFigures& f) {
+  if (!f.recording) return "";
+  std::string recorded = f.recording->file.empty() ? "nothing" : f.recording->file;
+  if (f.recording->lost > 0) recorded += fmt::format(", {} ticks lost", f.recording->lost);
+  if (f.recording->trouble) recorded += "; " + *f.recording->trouble;
+  return fmt::format("  {:<16} {}\n", "recorded in", recorded);
 }
 
 std::string summaryText(const RehearsalFigures& f) {

@@ -37,6 +37,8 @@ struct RehearsalFigures {
 std::string punctualityText(const haptics::LoopFigures& servo);
 
 std::string summaryText(const RehearsalFigures& figures);
+/// Its line on the recording; empty: nothing was recorded.
+std::string recordingText(const RehearsalFigures& figures);
 
 /// 1 if a recording was requested and is not whole.
 inline int exitStatus(const RehearsalFigures& figures) {
