@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "app/view/display_windows.h"
-#include "render/display/stereo_layout.h"
-#include "render/gpu/window_image.h"
-#include "render/image.h"
+#include "app/view/page_screen.h"
 
 namespace app {
 
@@ -27,15 +25,14 @@ class WizardScreen {
   std::vector<render::WindowEvent> takeEvents() { return windows_.takeEvents(); }
   glm::ivec2 window_px() { return windows_.first().framebufferSize_px(); }
 
-  /// Shows the image of `draw` for each output; waits for the display. `as_the_panel`: drawn in the panel's pixels
-  /// regardless of the window, for a camera's patterns.
-  void show(const std::function<render::Image(const render::StereoLayout&)>& draw, bool as_the_panel = false);
+  /// PageScreen::show().
+  void show(const std::function<render::Image(const render::StereoLayout&)>& draw, bool as_the_panel = false) {
+    screen_.show(draw, as_the_panel);
+  }
 
  private:
-  WizardDisplay display_;
-  glm::ivec2 screen_px_;
   DisplayWindows windows_;
-  render::WindowUpload upload_[2];  // textures: before the windows go
+  PageScreen screen_;  // textures: before the windows go
 };
 
 }  // namespace app

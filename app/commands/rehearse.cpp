@@ -21,6 +21,7 @@
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/rehearsal/continuation.h"
+#include "app/rehearsal/live_view.h"
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/session/session_error.h"
@@ -30,6 +31,7 @@
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
+#include "app/view/preparation.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
@@ -64,8 +66,7 @@ struct RehearseOptions {
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
-calibration::Rig rigFor(const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
-                        const assets::Patient& patient, const assets::FacePose& X_PF) {
+calibration::Rig rigFor(const RehearseOptions& options, const std::optional<ChosenRig>& chosen) {
   calibration::Rig rig;
   if (chosen) {
     rig = chosen->record.rig;
@@ -75,42 +76,65 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
     rig = calibration::desktopRig(options.size.empty() ? default_px : imageSize(options.size),
                                   calibration::kDeskMonitorWidth_mm / options.loupes);
   }
-  // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
-  if (hasNoPatientPose(rig))
-    rig.X_WP = placePatientAtSite(patient, X_PF, patientPositionNamed(options.position.value_or("seated")));
-  else if (options.position)
+  if (options.position && !hasNoPatientPose(rig))
     throw UsageError("--position " + *options.position + ": the rig states the pose of the head (X_WP), leave it out");
   return rig;
 }
 
 /// The device is opened first, as a rig belongs to one device and only the device knows its serial number.
-void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets::FacePose& X_PF) {
+std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& options, DeviceIdentity& device) {
   if (haptics::isDeviceAddress(options.plan.device))
     plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
-  const DeviceIdentity device =
-      deviceIdentity(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
+  device = deviceIdentity(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
   if (plan.opened && !plan.opened->device->capabilities().has_orientation)
     plan.remarks.push_back(device.model + ": it measures no orientation, the handpiece keeps a fixed one");
-  const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
-  plan.rig = rigFor(options, chosen, plan.patient, X_PF);
+  std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
+  plan.rig = rigFor(options, chosen);
   plan.full_screen = chosen.has_value();
   plan.view_can_turn = !chosen && !haptics::isDeviceAddress(options.plan.device);
   if (!chosen) {
     if (device.kind == DeviceIdentity::Kind::real)
       plan.remarks.push_back("no calibration of " + device.model + " " + device.serial +
                              " is in force: hand and eye may be a centimetre apart, see molar calibrate");
-    return;
+    return chosen;
   }
   plan.calibration = chosen->calibration;
   if (device.isCalibrated() && chosen->calibration.rig != "default")
     plan.remarks.push_back(chosen->source + ": " + calibrationText(chosen->calibration));
   plan.remarks.insert(plan.remarks.end(), chosen->remarks.begin(), chosen->remarks.end());
-  const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
-                                                   device.isCalibrated() ? device.model : std::string());
-  plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
   if (haptics::isDeviceAddress(options.plan.second_hand.device) && !plan.rig.second_X_WD)
     throw UsageError("--second-hand " + options.plan.second_hand.device + ": " + chosen->source +
                      " does not say where its base stands, add X_WD2");
+  return chosen;
+}
+
+void placePatient(RehearsalPlan& plan, const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
+                  const DeviceIdentity& device, const assets::FacePose& X_PF) {
+  // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
+  if (hasNoPatientPose(plan.rig))
+    plan.rig.X_WP =
+        placePatientAtSite(plan.patient, X_PF, patientPositionNamed(options.position.value_or("seated")));
+  if (!chosen) return;
+  const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
+                                                   device.isCalibrated() ? device.model : std::string());
+  plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
+}
+
+/// Generated or read while the surgeon's windows show the progress. False: cancelled.
+bool preparePatient(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw) {
+  const SurgeonDisplay::Options shown = displayOf(plan);
+  Preparation preparation({.windows = shown.windows,
+                           .eyes_swapped = shown.eyes_swapped,
+                           .headless = plan.headless,
+                           .needs_window = shown.needs_window},
+                          plan.rig, "Preparing the patient", printMessage);
+  auto patient = preparation.run<assets::Patient>([&](const assets::ReportProgress& report) {
+    return options.patient.empty() ? builtInPatient(jaw, report) : assets::loadPatient(options.patient);
+  });
+  if (!patient) return false;
+  plan.patient = std::move(*patient);
+  plan.windows = preparation.takeWindows();
+  return true;
 }
 
 /// Without windows, devices and pedals, which run in real time.
@@ -260,7 +284,14 @@ int run(RehearseOptions& options) {
     throw UsageError("--continue " + former->path +
                      ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +
                      options.continued);
-  plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
+  DeviceIdentity device;
+  const std::optional<ChosenRig> chosen = chooseRig(plan, options, device);
+  options.display.refuseUnlessFits(plan.rig);
+  reserveCoreForServo();
+  if (!preparePatient(plan, options, jaw)) {
+    printMessage("left before the patient was ready");
+    return 0;
+  }
   planCut(plan);
   if (former) former->applyTo(plan.patient);
   if (!plan.recording && !options.no_record)
@@ -275,9 +306,7 @@ int run(RehearseOptions& options) {
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = replaceFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
-  chooseRig(plan, options, X_PF);
-  options.display.refuseUnlessFits(plan.rig);
-  reserveCoreForServo();
+  placePatient(plan, options, chosen, device, X_PF);
   return rehearse(std::move(plan));
 }
 

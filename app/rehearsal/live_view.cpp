@@ -10,6 +10,8 @@ namespace {
 constexpr int kSnapshotSamples = 2;
 constexpr double kUsualRefresh_Hz = 60.0;
 
+}  // namespace
+
 SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
   return {.windows = {.mode = plan.display,
                       .screen_px = plan.rig.screen.px,
@@ -21,9 +23,7 @@ SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
           .needs_window = plan.device == "mouse"};
 }
 
-}  // namespace
-
-LiveView::LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
+LiveView::LiveView(RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
                    double servo_rate_Hz, ReportLine report)
     : plan_(plan),
       in_force_(in_force),
@@ -41,7 +41,7 @@ void LiveView::open() {
     overlay_is_new_ = true;
     return renderer;
   };
-  display_.emplace(displayOf(plan_), renderer_of_current_bone, report_);
+  display_.emplace(displayOf(plan_), renderer_of_current_bone, report_, std::move(plan_.windows));
   quality_.emplace(*display_, plan_.quality_step);
   latency_ = MotionToPhoton(display_->refresh_Hz(), servo_rate_Hz_);
 }

@@ -20,13 +20,17 @@
 
 namespace app {
 
+/// What the display of a rehearsal is opened with.
+SurgeonDisplay::Options displayOf(const RehearsalPlan& plan);
+
 class LiveView {
  public:
   using Clock = SurgeonDisplay::Clock;
 
-  /// Borrows the plan, the command in force (whose tool is drawn) and the second hand, if any. Throws GpuError.
-  LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
-           double servo_rate_Hz, ReportLine report);
+  /// Borrows the plan but takes over its windows, the command in force (whose tool is drawn) and the second hand, if
+  /// any. Throws GpuError.
+  LiveView(RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand, double servo_rate_Hz,
+           ReportLine report);
 
   /// The bone to upload bricks from. Borrowed.
   void attach(haptics::CarvedBone& bone) { bone_ = &bone; }
@@ -68,7 +72,7 @@ class LiveView {
   std::unique_ptr<render::FrameRenderer> newRenderer(const render::RenderOptions& options,
                                                      std::span<const std::uint8_t> solid) const;
 
-  const RehearsalPlan& plan_;
+  RehearsalPlan& plan_;
   const haptics::Command& in_force_;
   const SecondHand* second_hand_;
   haptics::CarvedBone* bone_ = nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "app/device/second_hand.h"
 #include "app/procedure/procedure.h"
 #include "app/station/workstation.h"
+#include "app/view/display_windows.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
 #include "calibration/rig.h"
@@ -54,6 +56,7 @@ struct RehearsalPlan {
   std::optional<int> monitor;       ///< index of render::monitors()
   bool instructor_window = false;   ///< on the next monitor, or next to the view
   std::optional<int> quality_step;  ///< held; none: by measured frame times
+  std::unique_ptr<DisplayWindows> windows;  ///< opened while the patient was prepared, or null
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< start of the program
 };
 

@@ -17,17 +17,21 @@ double secondsBetween(SurgeonDisplay::Clock::time_point from, SurgeonDisplay::Cl
 
 }  // namespace
 
-SurgeonDisplay::SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report)
-    : options_(options), make_renderer_(std::move(make_renderer)), report_(std::move(report)) {
+SurgeonDisplay::SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report,
+                               std::unique_ptr<DisplayWindows> windows)
+    : options_(options),
+      make_renderer_(std::move(make_renderer)),
+      report_(std::move(report)),
+      windows_(std::move(windows)) {
   open();
 }
 
 SurgeonDisplay::~SurgeonDisplay() { close(); }
 
 void SurgeonDisplay::open() {
-  if (!options_.headless) {
+  if (!options_.headless && !windows_) {
     try {
-      windows_.emplace(options_.windows, report_);
+      windows_ = std::make_unique<DisplayWindows>(options_.windows, report_);
     } catch (const render::GpuError& error) {
       if (options_.needs_window) throw;
       report_(std::string(error.what()) + "; going on without a window");

@@ -32,7 +32,9 @@ class SurgeonDisplay {
 
   /// `make_renderer` is called with the context current: for the first frame, and again after a reset. Throws
   /// GpuError when nothing can be opened.
-  SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report);
+  /// `windows`: opened before with the same options, or null.
+  SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report,
+                 std::unique_ptr<DisplayWindows> windows = nullptr);
   ~SurgeonDisplay();
 
   /// Draws and presents. Sets the frame's display mode, eye order and, on interleaved displays, size. Recreates
@@ -80,7 +82,7 @@ class SurgeonDisplay {
   ReportLine report_;
   std::function<void()> before_recreation_;
   std::optional<render::OffscreenContext> offscreen_;
-  std::optional<DisplayWindows> windows_;
+  std::unique_ptr<DisplayWindows> windows_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   std::optional<render::FrameFence> fence_;
   Clock::time_point presented_at_{};

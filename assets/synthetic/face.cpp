@@ -61,13 +61,15 @@ MeshPart selected(const MeshPart& from, const std::vector<bool>& wanted) {
 }
 
 // Skin and the lining of the mouth: one surface, two materials.
-void addFace(MeshModel& model, const HeadShape& head, const FaceColours& colours, double voxel_mm) {
+void addFace(MeshModel& model, const HeadShape& head, const FaceColours& colours, double voxel_mm,
+             const ReportProgress& report) {
   const auto visible = [&](const dvec3& p) {
     const double hidden = std::max({depthUnderCap_mm(p) - kTucked_mm, depthUnderDrape_mm(p) - kTucked_mm, p.y - 112.0});
     return hidden > 25.0 ? hidden : std::max(head.distance_mm(p), hidden);
   };
-  const MeshPart whole = coloured(meshOf(visible, kFaceBox, voxel_mm, 0.002), "Face", {glm::vec4(1.0f), 0.52f, 0.0f},
-                                  [&](const dvec3& p, const dvec3& n) { return colours.head(p, n); });
+  const MeshPart whole =
+      coloured(meshOf(visible, kFaceBox, voxel_mm, 0.002, report), "Face", {glm::vec4(1.0f), 0.52f, 0.0f},
+               [&](const dvec3& p, const dvec3& n) { return colours.head(p, n); });
   std::vector<bool> wet(whole.triangles.size() / 3);
   for (std::size_t t = 0; t < wet.size(); ++t) wet[t] = colours.isWet(whole.position_mm[whole.triangles[3 * t]]);
   model.parts.push_back(selected(whole, wet));
@@ -109,13 +111,15 @@ glm::dvec3 surgeonEyeDirection(int tooth_fdi) {
   return glm::normalize(dvec3(isRight(tooth_fdi) ? -0.11 : 0.11, -0.87, isUpper(tooth_fdi) ? -0.46 : 0.46));
 }
 
-MeshModel syntheticFace(const FaceParameters& parameters) {
+MeshModel syntheticFace(const FaceParameters& parameters, const ReportProgress& report) {
   requireInRange(parameters);
   const HeadShape head;
   const FaceColours colours(head, parameters.seed);
 
   MeshModel model;
-  addFace(model, head, colours, parameters.voxel_mm);
+  addFace(model, head, colours, parameters.voxel_mm, sectionOf(report, 0.2, 0.7));
+  const ReportProgress rest = sectionOf(report, 0.7, 1.0);
+  rest(0.1);
   const auto tooth = [&](const dvec3& p, const dvec3& n) { return colours.tooth(p, n); };
   const Material enamel{glm::vec4(1.0f), 0.22f, 0.0f};
   model.parts.push_back(

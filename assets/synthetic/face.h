@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "assets/mesh.h"
+#include "assets/progress.h"
 
 namespace assets {
 
@@ -18,7 +19,7 @@ struct FaceParameters {
 };
 
 /// Throws LoadError if a parameter is out of range.
-MeshModel syntheticFace(const FaceParameters& parameters);
+MeshModel syntheticFace(const FaceParameters& parameters, const ReportProgress& report = {});
 
 /// Unit vector from the tooth to the surgeon's eye, frame P: in front, to the operated side, above a lower tooth and
 /// below an upper one.

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -62,7 +63,7 @@ VolumeGrid gridOf(const JawParameters& p) {
 }
 
 /// Scans brick by brick; bricks without tissue get air and noise.
-void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
+void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct, const ReportProgress& report) {
   const glm::ivec3 size = ct.grid.size;
   const double edge_mm = edgeSpread_mm(p.spacing_mm);
   const TrabecularTexture texture(p.seed + 100, edge_mm);
@@ -96,10 +97,14 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
   };
 
   const glm::ivec3 bricks = ct.grid.bricks();
+  std::atomic<int> done{0};
   tbb::parallel_for(tbb::blocked_range3d<int>(0, bricks.z, 0, bricks.y, 0, bricks.x), [&](const auto& range) {
     for (int z = range.pages().begin(); z < range.pages().end(); ++z)
       for (int y = range.rows().begin(); y < range.rows().end(); ++y)
-        for (int x = range.cols().begin(); x < range.cols().end(); ++x) scan_brick({x, y, z});
+        for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
+          scan_brick({x, y, z});
+          if (report) report(static_cast<double>(++done) / (bricks.x * bricks.y * bricks.z));
+        }
   });
 }
 
@@ -116,7 +121,7 @@ std::optional<OperativeSite> siteOf(const CtVolume& ct, const JawAnatomy& anatom
 
 }  // namespace
 
-Patient syntheticJaw(const JawParameters& parameters) {
+Patient syntheticJaw(const JawParameters& parameters, const ReportProgress& report) {
   validate(parameters);
   const JawAnatomy anatomy(parameters);
 
@@ -126,7 +131,7 @@ Patient syntheticJaw(const JawParameters& parameters) {
   patient.ct.hounsfield.resize(patient.ct.grid.voxelCount());
   patient.ct.label.resize(patient.ct.grid.voxelCount());
   patient.ct.tooth.resize(patient.ct.grid.voxelCount());
-  scan(anatomy, parameters, patient.ct);
+  scan(anatomy, parameters, patient.ct, report);
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, patient.classification);
 
   patient.site = siteOf(patient.ct, anatomy, parameters.right_side);

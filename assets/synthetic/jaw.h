@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "assets/patient.h"
+#include "assets/progress.h"
 
 namespace assets {
 
@@ -24,6 +25,6 @@ struct JawParameters {
 };
 
 /// Throws LoadError: a parameter out of range, or an impossible combination.
-Patient syntheticJaw(const JawParameters& parameters);
+Patient syntheticJaw(const JawParameters& parameters, const ReportProgress& report = {});
 
 }  // namespace assets

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 
@@ -36,16 +37,19 @@ std::unique_ptr<Leaf> leafAt(const Distance& distance_mm, const openvdb::Coord& 
   return any ? std::move(leaf) : nullptr;
 }
 
-openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const BoundingBox& box, double voxel_mm) {
+openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const BoundingBox& box, double voxel_mm,
+                                 const ReportProgress& report) {
   // Leaves are made in parallel and added in order.
   const glm::ivec3 low(glm::floor(box.low_mm / (voxel_mm * kLeafVoxels)));
   const glm::ivec3 count = glm::ivec3(glm::ceil(box.high_mm / (voxel_mm * kLeafVoxels))) - low;
   std::vector<std::unique_ptr<Leaf>> leaves(static_cast<std::size_t>(count.x * count.y * count.z));
+  std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const int i = static_cast<int>(n);
     const openvdb::Coord origin((low.x + i % count.x) * kLeafVoxels, (low.y + i / count.x % count.y) * kLeafVoxels,
                                 (low.z + i / (count.x * count.y)) * kLeafVoxels);
     leaves[n] = leafAt(distance_mm, origin, voxel_mm);
+    if (report) report(static_cast<double>(++done) / static_cast<double>(leaves.size()));
   });
   auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel_mm, static_cast<float>(kBandVoxels));
   for (auto& leaf : leaves) {
@@ -80,8 +84,9 @@ void projectVertices(const Distance& distance_mm, double voxel_mm, MeshPart& par
 
 }  // namespace
 
-MeshPart meshOf(const Distance& distance_mm, const BoundingBox& box, double voxel_mm, double adaptivity) {
-  const openvdb::FloatGrid::Ptr grid = levelSet(distance_mm, box, voxel_mm);
+MeshPart meshOf(const Distance& distance_mm, const BoundingBox& box, double voxel_mm, double adaptivity,
+                const ReportProgress& report) {
+  const openvdb::FloatGrid::Ptr grid = levelSet(distance_mm, box, voxel_mm, report);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
   std::vector<openvdb::Vec4I> quads;

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "assets/mesh.h"
+#include "assets/progress.h"
 #include "assets/synthetic/implicit_shape.h"
 
 namespace assets {
@@ -14,6 +15,7 @@ namespace assets {
 using Distance = std::function<double(const glm::dvec3&)>;
 
 /// Inside the box; a body that extends beyond it is open there. `adaptivity` 0..1 merges triangles of flat regions.
-MeshPart meshOf(const Distance& distance_mm, const BoundingBox& box, double voxel_mm, double adaptivity);
+MeshPart meshOf(const Distance& distance_mm, const BoundingBox& box, double voxel_mm, double adaptivity,
+                const ReportProgress& report = {});
 
 }  // namespace assets
