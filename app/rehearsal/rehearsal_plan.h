@@ -50,12 +50,12 @@ struct RehearsalPlan {
   double face_window_mm = 0.0;
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;
-  bool head_up_line = true;         ///< shown to begin with
-  bool summary = true;              ///< printed at the end; else only where it was recorded
-  bool verbose = false;             ///< words for engineers on the terminal; force laws by key
-  std::optional<int> monitor;       ///< index of render::monitors()
-  bool instructor_window = false;   ///< on the next monitor, or next to the view
-  std::optional<int> quality_step;  ///< held; none: by measured frame times
+  bool head_up_line = true;                 ///< shown to begin with
+  bool summary = true;                      ///< printed at the end; else only where it was recorded
+  bool verbose = false;                     ///< words for engineers on the terminal; force laws by key
+  std::optional<int> monitor;               ///< index of render::monitors()
+  bool instructor_window = false;           ///< on the next monitor, or next to the view
+  std::optional<int> quality_step;          ///< held; none: by measured frame times
   std::unique_ptr<DisplayWindows> windows;  ///< opened while the patient was prepared, or null
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< start of the program
 };
