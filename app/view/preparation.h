@@ -11,6 +11,7 @@
 #include "app/view/display_windows.h"
 #include "assets/progress.h"
 #include "calibration/rig.h"
+#include "render/display/stereo_layout.h"
 #include "render/image.h"
 
 namespace app {
@@ -20,7 +21,7 @@ render::Image preparationPage(const calibration::Rig& rig, const render::StereoL
                               double share);
 
 struct PreparationOptions {
-  DisplayWindows::Options windows;
+  DisplayWindows::Options windows = {};
   bool eyes_swapped = false;
   bool headless = false;
   bool needs_window = true;  ///< throws if none can be opened
