@@ -112,8 +112,7 @@ void placePatient(RehearsalPlan& plan, const RehearseOptions& options, const std
                   const DeviceIdentity& device, const assets::FacePose& X_PF) {
   // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
   if (hasNoPatientPose(plan.rig))
-    plan.rig.X_WP =
-        placePatientAtSite(plan.patient, X_PF, patientPositionNamed(options.position.value_or("seated")));
+    plan.rig.X_WP = placePatientAtSite(plan.patient, X_PF, patientPositionNamed(options.position.value_or("seated")));
   if (!chosen) return;
   const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
                                                    device.isCalibrated() ? device.model : std::string());
