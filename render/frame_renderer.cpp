@@ -16,7 +16,7 @@ namespace render {
 namespace {
 
 constexpr double kSliceHeight = 0.3, kInsetGap = 0.025, kLegendHeight = 0.12,
-                 kMaxLegendHeight = 0.25;  // of the viewer's screen
+                 kMaxLegendHeight = 0.3;  // of the viewer's screen
 
 // Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.
 PixelBox sliceBox(std::size_t n, const glm::dvec2& per_height) {

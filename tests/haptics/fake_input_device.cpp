@@ -92,7 +92,7 @@ int answer(Answering& device, unsigned long request, void* to) {
 }  // namespace
 
 FakeInputFolder::FakeInputFolder(const std::string& name)
-    : root_(std::filesystem::path(testing::TempDir()) / ("molar_input_" + name)) {
+    : root_(std::filesystem::path(testing::TempDir()) / ("molar_input_" + name + "_" + std::to_string(getpid()))) {
   std::filesystem::remove_all(root_);
   folders_ = {root_ / "class", root_ / "dev"};
   std::filesystem::create_directories(folders_.classes);
