@@ -9,7 +9,9 @@
 #include <glm/glm.hpp>
 
 #include "assets/planned_cut.h"
+#include "assets/trilinear.h"
 #include "assets/volume_grid.h"
+#include "calibration/geometry/segment.h"
 
 namespace assets {
 
@@ -32,13 +34,9 @@ class CutField {
     const auto write = [&](const glm::dvec3& a, const glm::dvec3& b) {
       const glm::ivec3 first(glm::ceil(grid_.indexFromPoint(glm::min(a, b) - far_mm)));
       const glm::ivec3 last(glm::floor(grid_.indexFromPoint(glm::max(a, b) + far_mm)));
-      const glm::dvec3 along = b - a;
-      const double square = glm::dot(along, along);
       forVoxels(glm::max(first, glm::ivec3(0)), glm::min(last + 1, grid_.size), [&](glm::ivec3 ijk) {
-        const glm::dvec3 offset = grid_.centre_P_mm(ijk) - a;
-        const double t = square > 0.0 ? std::clamp(glm::dot(offset, along) / square, 0.0, 1.0) : 0.0;
         float& mm = mm_[grid_.index(ijk)];
-        mm = std::min(mm, static_cast<float>(glm::length(offset - t * along) - cut.bur_radius_mm));
+        mm = std::min(mm, static_cast<float>(calibration::distanceToSegment(grid_.centre_P_mm(ijk), a, b) - cut.bur_radius_mm));
       });
     };
     for (const auto& stroke : cut.strokes_P_mm)
@@ -50,16 +48,9 @@ class CutField {
 
   double distance_mm(const glm::dvec3& p_P_mm) const {
     if (mm_.empty()) return reach_mm_;
-    const glm::dvec3 at = grid_.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
-    const glm::ivec3 base(low);
+    const glm::ivec3 base(glm::floor(grid_.indexFromPoint(p_P_mm)));
     if (!grid_.contains(base) || !grid_.contains(base + 1)) return reach_mm_;
-    double mm = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::ivec3 step = cornerOffset(corner);
-      const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));
-      mm += w.x * w.y * w.z * static_cast<double>(mm_[grid_.index(base + step)]);
-    }
-    return mm;
+    return trilinearAt(grid_, p_P_mm, [&](glm::ivec3 ijk) { return double{mm_[grid_.index(ijk)]}; });
   }
   bool contains(const glm::dvec3& p_P_mm) const { return distance_mm(p_P_mm) < 0.0; }
 

@@ -15,8 +15,8 @@ constexpr double kFirst_mm = 0.6, kWayOut_mm = 16.0;
 
 }  // namespace
 
-EnamelExposure::EnamelExposure(const assets::CtVolume& ct, const assets::OperativeSite& site,
-                               const assets::PlannedCut& cut)
+EnamelExposure::EnamelExposure(const assets::CtVolume& ct, std::span<const std::uint8_t> before,
+                               const assets::OperativeSite& site, const assets::PlannedCut& cut)
     : grid_(ct.grid) {
   const glm::dvec3 out = glm::normalize(cut.outward_P), across = glm::normalize(cut.lateral_P);
   const glm::dvec3 along = glm::cross(out, across);
@@ -26,7 +26,7 @@ EnamelExposure::EnamelExposure(const assets::CtVolume& ct, const assets::Operati
 
   // The jaw with the plan carried out.
   const assets::CutField field(cut, 1.0);
-  std::vector<std::uint8_t> done = ct.solid;
+  std::vector<std::uint8_t> done(before.begin(), before.end());
   const glm::ivec3 low = glm::max(glm::ivec3(glm::floor(grid_.indexFromPoint(field.low_P_mm()))), glm::ivec3(0));
   const glm::ivec3 high = glm::min(glm::ivec3(glm::ceil(grid_.indexFromPoint(field.high_P_mm()))) + 1, grid_.size);
   assets::forVoxels(low, high, [&](glm::ivec3 ijk) {
@@ -42,7 +42,7 @@ EnamelExposure::EnamelExposure(const assets::CtVolume& ct, const assets::Operati
     const glm::ivec3 next(glm::round(grid_.indexFromPoint(grid_.centre_P_mm(ijk) + grid_.spacing_mm * out)));
     if (next == ijk || !grid_.contains(next) || assets::isTooth(ct.label[grid_.index(next)])) return;
     places_.push_back(ijk);
-    if (!isOpen(places_.size() - 1, done) || isOpen(places_.size() - 1, ct.solid)) places_.pop_back();
+    if (!isOpen(places_.size() - 1, done) || isOpen(places_.size() - 1, before)) places_.pop_back();
   });
 }
 

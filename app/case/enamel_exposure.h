@@ -15,7 +15,9 @@ namespace app {
 
 class EnamelExposure {
  public:
-  EnamelExposure(const assets::CtVolume& ct, const assets::OperativeSite& site, const assets::PlannedCut& cut);
+  /// `before`: the jaw as scanned, in the order of the volume's grid; its labels are those of `ct`.
+  EnamelExposure(const assets::CtVolume& ct, std::span<const std::uint8_t> before, const assets::OperativeSite& site,
+                 const assets::PlannedCut& cut);
 
   /// Of the crown's surface that the plan exposes, one voxel's face counted as its square.
   double planned_mm2() const;

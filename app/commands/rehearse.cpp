@@ -292,7 +292,7 @@ int run(RehearseOptions& options) {
     return 0;
   }
   planCut(plan);
-  if (former) former->applyTo(plan.patient);
+  if (former) plan.scanned_solid = former->applyTo(plan.patient);
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) {
@@ -385,7 +385,8 @@ void addRehearse(CommandLine& molar) {
   command
       .option("--continue", o->continued,
               "Go on where this session ended: its bone, case and tools. last: the newest; undo begins anew")
-      .valueNamed("SESSION");
+      .valueNamed("SESSION")
+      .excludes(named);
   command.option("--seconds", o->plan.seconds, "End after this time").from(0.1, 86400.0);
   command.option("--snapshot", o->plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
   command.option("--first-snapshot", o->plan.first_snapshot, "The same before the first cut");

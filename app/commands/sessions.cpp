@@ -10,6 +10,7 @@
 #include "app/commands/command.h"
 #include "app/session/session_folder.h"
 #include "app/session/session_list.h"
+#include "app/text/clock_text.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/record/utc.h"
@@ -27,12 +28,6 @@ std::string localTime(std::int64_t unix_s) {
   std::tm local{};
   localtime_r(&seconds, &local);
   return fmt::format("{:%Y-%m-%d %H:%M}", local);
-}
-
-/// "3:07".
-std::string lengthText(double length_s) {
-  const auto seconds = static_cast<long>(length_s);
-  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
 }
 
 std::string json(const std::vector<SessionListing>& sessions) {
@@ -57,7 +52,7 @@ std::string table(const std::vector<SessionListing>& sessions, const std::filesy
   double total_MB = 0.0;
   for (const SessionListing& one : sessions) {
     total_MB += 1e-6 * static_cast<double>(one.bytes);
-    text += fmt::format("{}  {:>6}  {:9}  {}\n{:18}{}\n", localTime(one.unix_s), lengthText(one.length_s),
+    text += fmt::format("{}  {:>6}  {:9}  {}\n{:18}{}\n", localTime(one.unix_s), clockText(one.length_s),
                         nameOf(one.verdict), one.case_title.empty() ? one.remark : one.case_title, "",
                         std::filesystem::path(one.path).filename().string() +
                             (one.continues ? ", continues " + *one.continues : "") +

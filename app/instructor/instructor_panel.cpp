@@ -16,6 +16,7 @@
 #include "app/options/picture_option.h"
 #include "app/report/markup.h"
 #include "app/view/head_up_line.h"
+#include "app/text/clock_text.h"
 #include "assets/tissue.h"
 #include "haptics/contact/law_parameters.h"
 #include "render/quality_ladder.h"
@@ -90,8 +91,7 @@ void drawState(const RehearsalStatus& s) {
                               : s.tick.depth_mm > 0.0    ? std::pair("Touching", kInk)
                                                          : std::pair("Free", kInk);
   textIn(large_font, colour, word);
-  const int t_s = static_cast<int>(s.tick.t_s);
-  alignedRight(large_font, kInk, fmt::format("{}:{:02}", t_s / 60, t_s % 60));
+  alignedRight(large_font, kInk, clockText(s.tick.t_s));
   if (s.recording == RecordingState::running)
     textIn(text_font, kBad, "● recording " + std::filesystem::path(s.recording_path).filename().string());
   else if (s.recording == RecordingState::ended_early)
@@ -115,8 +115,8 @@ void drawTool(const RehearsalStatus& s) {
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
   const auto& removed_mm3 = s.tick.removed_total_mm3;
   row("Removed", fixedText(std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0), 1) + " mm³");
-  const std::string dry = s.dry_s >= 1.0 ? ", " + headUpTimeText(s.dry_s) + " dry" : "";
-  row("Cutting", headUpTimeText(s.cutting_s) + dry, dry.empty() ? kInk : kWarn);
+  const std::string dry = s.dry_s >= 1.0 ? ", " + clockText(s.dry_s) + " dry" : "";
+  row("Cutting", clockText(s.cutting_s) + dry, dry.empty() ? kInk : kWarn);
 }
 
 /// "stiffness_N_per_mm" as "stiffness": the unit stands behind the value.

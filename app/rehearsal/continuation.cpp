@@ -30,7 +30,7 @@ Continuation continuationOf(const std::string& path) {
   return next;
 }
 
-void Continuation::applyTo(assets::Patient& patient) const {
+std::vector<std::uint8_t> Continuation::applyTo(assets::Patient& patient) const {
   const auto is_unlabelled = [](const std::vector<std::uint8_t>& labels) {
     return std::ranges::all_of(labels, [](std::uint8_t value) { return value == 0; });
   };
@@ -39,7 +39,7 @@ void Continuation::applyTo(assets::Patient& patient) const {
     throw UsageError("--continue " + path + ": is of another patient or case, " +
                      (setup.built_in ? "or of another version of the built-in one"
                                      : "name its folder: molar rehearse PATIENT --continue " + path));
-  patient.ct.solid = solid;
+  return std::exchange(patient.ct.solid, solid);
 }
 
 }  // namespace app

@@ -20,8 +20,8 @@ struct Continuation {
   std::vector<std::uint8_t> label;
   std::vector<std::string> remarks;  ///< for people
 
-  /// Gives the patient the bone. Throws UsageError if it is not the patient of the session.
-  void applyTo(assets::Patient& patient) const;
+  /// Gives the patient the bone and returns the one before. Throws UsageError if it is not the patient of the session.
+  std::vector<std::uint8_t> applyTo(assets::Patient& patient) const;
 };
 
 /// Throws SessionError.

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/case/enamel_exposure.h"
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
 #include "app/rehearsal/control_router.h"
@@ -158,6 +159,16 @@ class Rehearsal {
     frame_.gap = view_.gapOf(frame_);
   }
 
+  /// Some tenths of a second: once, at the end.
+  std::optional<double> exposedShare() {
+    const assets::Patient& patient = plan_.patient;
+    if (!plan_.cut || !patient.site) return {};
+    const std::vector<std::uint8_t>& before = plan_.scanned_solid.empty() ? patient.ct.solid : plan_.scanned_solid;
+    const EnamelExposure exposure(patient.ct, before, *patient.site, *plan_.cut);
+    if (exposure.planned_mm2() <= 0.0) return {};
+    return exposure.share(station().bone().solidInGridOrder());
+  }
+
   HeadUp::Values headUpValues() const {
     return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                         monitor_.recordingEnded()),
@@ -182,6 +193,7 @@ class Rehearsal {
                          station().bone().solidInGridOrder());
     RehearsalFigures figures = status_reporter_->figures(state());
     figures.times = head_up_.times();
+    if (plan_.summary) figures.exposed_share = exposedShare();
     figures.warnings = head_up_.warnings().counts();
     if (plan_.recording) figures.recording = recorded, figures.recorded_by_default = plan_.recording->by_default;
     return figures;

@@ -6,6 +6,7 @@
 
 #include "app/device/trip_reporter.h"
 #include "app/options/bur_name.h"
+#include "app/text/clock_text.h"
 #include "app/view/head_up_line.h"
 
 namespace app {
@@ -57,16 +58,17 @@ std::string surgeonsText(const RehearsalFigures& f) {
   line("bur", burName(f.last.command.tool.head));
   const std::string cutting = f.times.cutting_s < 1.0 ? ""
                               : f.times.dry_s < 1.0
-                                  ? fmt::format(", cutting {}", headUpTimeText(f.times.cutting_s))
+                                  ? fmt::format(", cutting {}", clockText(f.times.cutting_s))
                                   : fmt::format(", cutting {}, {} of it without water",
-                                                headUpTimeText(f.times.cutting_s), headUpTimeText(f.times.dry_s));
-  line("time", headUpTimeText(f.last.tick.t_s + f.last.tick.dt_s) + cutting);
+                                                clockText(f.times.cutting_s), clockText(f.times.dry_s));
+  line("time", clockText(f.last.tick.t_s + f.last.tick.dt_s) + cutting);
   const auto is_bone = [](std::uint8_t label) { return !assets::isTooth(label) && assets::isHard(label); };
   const auto is_soft = [&](std::uint8_t label) { return !assets::isTooth(label) && !is_bone(label); };
   const std::string bone = removedText(f, is_bone);
   line("bone removed", bone.empty() ? "none" : bone);
   line("tooth removed", removedText(f, assets::isTooth));
   line("other removed", removedText(f, is_soft));
+  if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   std::string warnings;
   for (const Warnings::Count& count : f.warnings)
     warnings += fmt::format("{}{} {}", warnings.empty() ? "" : ", ", count.name,

@@ -20,6 +20,7 @@ namespace app {
 struct RehearsalFigures {
   RehearsalStatus last;  ///< at the end
   std::array<double, assets::kTissueCount> removed_mm3{};
+  std::optional<double> exposed_share;  ///< of the crown that the plan lays bare; none without a plan for it
   WorkTimes times;
   std::vector<Warnings::Count> warnings;
   bool for_engineers = true;  ///< servo, display and latency as well

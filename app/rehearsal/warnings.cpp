@@ -9,6 +9,7 @@
 
 #include "assets/soft_tissue.h"
 #include "assets/tooth.h"
+#include "calibration/geometry/segment.h"
 #include "haptics/safety/trips.h"
 #include "haptics/tool/bur_shape.h"
 
@@ -128,12 +129,6 @@ constexpr std::array<Row, 12> kTable = {{
     {"neck of the bur touched", false, neckTouches},
 }};
 
-double distance_mm(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const double length2 = glm::dot(b - a, b - a);
-  const double share = length2 > 0.0 ? std::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0.0;
-  return glm::length(p - (a + share * (b - a)));
-}
-
 /// Ends of the head's axis inside which its balls of `radius_mm` lie.
 std::pair<glm::dvec3, glm::dvec3> axisOf(const haptics::Tick& tick, const haptics::BurShape& head) {
   const double half_mm = std::max(0.0, haptics::halfHeight_mm(head) - head.radius_mm);
@@ -157,7 +152,7 @@ std::optional<int> neighbourAt(const haptics::Tick& tick, const haptics::BurShap
     const std::size_t v = ct.grid.index(ijk);
     const int fdi = ct.tooth[v];
     if (fdi == 0 || fdi == patient.operatedTooth() || ct.solid[v] < assets::kHalfSolid) return;
-    if (distance_mm(ct.grid.centre_P_mm(ijk), from, to) <= reach_mm) touched = fdi;
+    if (calibration::distanceToSegment(ct.grid.centre_P_mm(ijk), from, to) <= reach_mm) touched = fdi;
   });
   return touched;
 }
@@ -170,7 +165,7 @@ std::optional<double> canalDistance_mm(const haptics::Tick& tick, const haptics:
   double nearest_mm = 1e9;
   for (const glm::dvec3& p : {from, 0.5 * (from + to), to})
     for (std::size_t n = 1; n < line.size(); ++n)
-      nearest_mm = std::min(nearest_mm, distance_mm(p, line[n - 1], line[n]));
+      nearest_mm = std::min(nearest_mm, calibration::distanceToSegment(p, line[n - 1], line[n]));
   return nearest_mm - head.radius_mm - patient.mandibular_canal_radius_mm;
 }
 

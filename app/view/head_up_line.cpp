@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/text/clock_text.h"
 #include "render/display/eye_projection.h"
 
 namespace app {
@@ -102,11 +103,6 @@ HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, c
 
 double headUpTextHeight_px(const HeadUpPlace& place) { return lineShape(place).text_px; }
 
-std::string headUpTimeText(double time_s) {
-  const auto seconds = static_cast<long>(std::max(0.0, time_s));
-  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
-}
-
 std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const HeadUpPlace& place) const {
   std::vector<Cell> cells;
   const LineShape shape = lineShape(place);
@@ -155,7 +151,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     in_line(Cells::gap, gap, [=](const Drawing& to, const glm::dvec2& size) {
       if (!gap.empty()) to.text(gap, 0.5 * size, text, kWhite, Align::centre, true);
     });
-    const std::string time = headUpTimeText(c.time_s);
+    const std::string time = clockText(c.time_s);
     in_line(Cells::time, time, [=](const Drawing& to, const glm::dvec2& size) {
       to.text(time, {size.x - 0.6 * text, 0.5 * size.y}, text, kWhite, Align::right, true);
     });

@@ -74,7 +74,4 @@ class HeadUpLine {
 /// 500 mm), lower where the line would not fit the width.
 double headUpTextHeight_px(const HeadUpPlace& place);
 
-/// "1:05".
-std::string headUpTimeText(double time_s);
-
 }  // namespace app

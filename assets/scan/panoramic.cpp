@@ -6,10 +6,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include "assets/trilinear.h"
+
 namespace assets {
 namespace {
 
-constexpr float kAir_HU = -1000.0f;
+constexpr double kAir_HU = -1000.0;
 
 /// Points `step_mm` apart along a polyline.
 std::vector<glm::dvec2> equallySpaced(const std::vector<glm::dvec2>& curve, double step_mm) {
@@ -29,18 +31,11 @@ glm::dvec2 normalAt(const std::vector<glm::dvec2>& points, std::size_t n) {
   return glm::length(along) > 0.0 ? glm::normalize(glm::dvec2(-along.y, along.x)) : glm::dvec2(0.0, 1.0);
 }
 
-/// Trilinear between voxel centres; air outside.
-float greyAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
-  const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
-  float sum = 0.0f;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 step = cornerOffset(corner);
-    const glm::ivec3 ijk = glm::ivec3(low) + step;
-    const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));
-    const float grey = ct.grid.contains(ijk) ? static_cast<float>(ct.hounsfield[ct.grid.index(ijk)]) : kAir_HU;
-    sum += static_cast<float>(w.x * w.y * w.z) * grey;
-  }
-  return sum;
+/// Air outside.
+double greyAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
+  return trilinearAt(ct.grid, p_P_mm, [&](glm::ivec3 ijk) {
+    return ct.grid.contains(ijk) ? static_cast<double>(ct.hounsfield[ct.grid.index(ijk)]) : kAir_HU;
+  });
 }
 
 }  // namespace
@@ -61,12 +56,13 @@ Panoramic panoramicOf(const CtVolume& ct, const std::vector<glm::dvec2>& curve_P
     const glm::dvec2 normal = normalAt(view.columns_P_mm, column);
     for (int y = 0; y < view.size_px.y; ++y) {
       const double z = view.top_P_mm - (y + 0.5) * pixel_mm;
-      float sum = 0.0f;
+      double sum = 0.0;
       for (int s = 0; s < samples; ++s) {
         const glm::dvec2 p = view.columns_P_mm[column] + ((s + 0.5) / samples - 0.5) * layer_mm * normal;
         sum += greyAt(ct, {p, z});
       }
-      view.hounsfield[static_cast<std::size_t>(y * view.size_px.x + x)] = sum / static_cast<float>(samples);
+      view.hounsfield[static_cast<std::size_t>(y * view.size_px.x + x)] =
+          static_cast<float>(sum / samples);
     }
   });
   return view;

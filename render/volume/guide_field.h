@@ -9,6 +9,7 @@
 
 #include "assets/planned_cut.h"
 #include "assets/volume_grid.h"
+#include "calibration/geometry/segment.h"
 #include "render/frame.h"
 #include "render/volume/bordered_field.h"
 
@@ -19,15 +20,6 @@ struct Guides {
   double mandibular_canal_radius_mm = 1.4;
   std::optional<assets::PlannedCut> cut;
 };
-
-/// From point `p` to segment ab, in two or three dimensions.
-template <class Vector>
-double distanceToSegment(const Vector& p, const Vector& a, const Vector& b) {
-  const Vector along = b - a;
-  const double square = glm::dot(along, along);
-  const double t = square > 0.0 ? glm::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0.0;
-  return glm::distance(p, a + t * along);
-}
 
 /// Per cell: distance to the canal wall and to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM or more.
 using GuideField = BorderedField<glm::u16vec2>;

@@ -43,7 +43,7 @@ TEST(GuideField, MeasuresAPlannedCutAsABallSweptAlongItsStrokes) {
   const GuideField field = guideField(kGrid, {{}, 1.4, cut});
   for (const glm::ivec3 cell : {glm::ivec3(17, 18, 19), glm::ivec3(16, 22, 18), glm::ivec3(19, 14, 20)}) {
     const glm::dvec3 p = centreOf(cell);
-    const double swept_mm = distanceToSegment(p, cut.strokes_P_mm[0][0], cut.strokes_P_mm[0][1]) - 1.5;
+    const double swept_mm = calibration::distanceToSegment(p, cut.strokes_P_mm[0][0], cut.strokes_P_mm[0][1]) - 1.5;
     EXPECT_NEAR(mmOf(field.at(cell)->y), std::min(swept_mm, 1.5), 0.15) << "sampled on a lattice of its own";
     EXPECT_EQ(field.at(cell)->x, 65535) << "no canal";
   }
@@ -98,7 +98,7 @@ TEST(CanalTube, DashesCoverTheirShareOfTheLineAndLieOnTheTube) {
   for (const glm::vec3& p : part.position_mm) {
     double away_mm = 1e9;
     for (std::size_t n = 0; n + 1 < line.size(); ++n)
-      away_mm = std::min(away_mm, distanceToSegment(glm::dvec3(p), line[n], line[n + 1]));
+      away_mm = std::min(away_mm, calibration::distanceToSegment(glm::dvec3(p), line[n], line[n + 1]));
     EXPECT_LT(away_mm, 1.4 + 1e-4);
   }
   const glm::vec4 dim = part.material.base_colour, bright = tube.parts[0].material.base_colour;

@@ -85,7 +85,7 @@ TEST(EnamelExposure, IsNothingBeforeAllAfterThePlanAndGrowsWithWhatIsRemoved) {
   const assets::Patient patient = blockWithMolar();
   const auto cut = planGutter(patient, kUsualBurRadius_mm);
   ASSERT_TRUE(cut.has_value());
-  const EnamelExposure exposure(patient.ct, *patient.site, *cut);
+  const EnamelExposure exposure(patient.ct, patient.ct.solid, *patient.site, *cut);
   EXPECT_GT(exposure.planned_mm2(), 10.0);
   EXPECT_EQ(exposure.share(patient.ct.solid), 0.0);
 

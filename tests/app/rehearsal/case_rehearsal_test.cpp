@@ -98,7 +98,7 @@ TEST_P(EveryCase, ShowsTheWholePlanToBothEyes) {
 TEST_P(EveryCase, IsExposedByTheScriptedHand) {
   const Scene scene(*caseNamed(GetParam()));
   const assets::CtVolume& ct = scene.patient.ct;
-  const EnamelExposure exposure(ct, *scene.patient.site, scene.cut);
+  const EnamelExposure exposure(ct, ct.solid, *scene.patient.site, scene.cut);
   ASSERT_GT(exposure.planned_mm2(), 10.0);
   EXPECT_EQ(exposure.share(ct.solid), 0.0);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/text/clock_text.h"
 #include "render/display/camera.h"
 
 namespace app {
@@ -128,9 +129,9 @@ TEST(HeadUpLine, LettersAreLargerWhereAnEyeGetsFewerLines) {
 }
 
 TEST(HeadUpLine, TimeIsMinutesAndSeconds) {
-  EXPECT_EQ(headUpTimeText(0.0), "0:00");
-  EXPECT_EQ(headUpTimeText(65.9), "1:05");
-  EXPECT_EQ(headUpTimeText(3600.0), "60:00");
+  EXPECT_EQ(clockText(0.0), "0:00");
+  EXPECT_EQ(clockText(65.9), "1:05");
+  EXPECT_EQ(clockText(3600.0), "60:00");
 }
 
 }  // namespace
