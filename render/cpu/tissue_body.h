@@ -110,12 +110,13 @@ inline Float3 planned(const ShadeScene& scene, const Float3& albedo, const Float
   return (scene.visible_guides & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(scene, index, mask).cut);
 }
 
-inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3& index, const Float3& p_P, Mask mask) {
+inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3& index, const Float3& p_P,
+                     const Float& enamel, Mask mask) {
   if (scene.visible_guides == 0) return albedo;
   const GuideDistances mm = guideDistances(scene, index, mask);
   Float3 colour = albedo;
   if ((scene.visible_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.mandibular_canal, p_P);
-  if ((scene.visible_guides & GUIDE_PLAN) != 0) colour = withPlan(colour, mm.cut);
+  if ((scene.visible_guides & GUIDE_PLAN) != 0) colour = mix(withPlan(colour, mm.cut), colour, enamel);
   return colour;
 }
 
@@ -133,7 +134,7 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
     const Float pore = smoothStep(0.42f, 0.68f, noise(2.3f * p_P) * 0.7f + noise(5.7f * p_P) * 0.3f);
     albedo = mix(albedo, vec3(0.36f, 0.09f, 0.07f), 0.75f * pore * marrow);
   }
-  albedo = guided(scene, albedo, index, p_P, mask);
+  albedo = guided(scene, albedo, index, p_P, enamel, mask);
   return {albedo, vec3(shine.y), shine.x, shine.z, albedo};
 }
 

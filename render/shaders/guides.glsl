@@ -41,12 +41,13 @@ vec3 planned(vec3 albedo, vec3 index) {
   return (int(volume.march.w) & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(index).y);
 }
 
-// Applies the visible guides to the colour of a surface point.
-vec3 guided(vec3 albedo, vec3 index, vec3 p_P) {
+// Applies the visible guides to the colour of a surface point. Bone is planned for removal, enamel never: the coarse field
+// of the plan reaches over the crown beside it.
+vec3 guided(vec3 albedo, vec3 index, vec3 p_P, float enamel) {
   if (volume.march.w == 0.0) return albedo;
   int shown = int(volume.march.w);
   vec2 mm = guideDistances(index);
   if ((shown & GUIDE_CLEARANCE) != 0) albedo = withClearance(albedo, mm.x, p_P);
-  if ((shown & GUIDE_PLAN) != 0) albedo = withPlan(albedo, mm.y);
+  if ((shown & GUIDE_PLAN) != 0) albedo = mix(withPlan(albedo, mm.y), albedo, enamel);
   return albedo;
 }

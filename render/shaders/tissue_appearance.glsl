@@ -36,6 +36,6 @@ Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P) {
   albedo *= 1.0 + 0.14 * mottle * shine.x;
   float pore = smoothstep(0.42, 0.68, noise(p_P * 2.3) * 0.7 + noise(p_P * 5.7) * 0.3);
   albedo = mix(albedo, vec3(0.36, 0.09, 0.07), 0.75 * pore * marrow);
-  albedo = guided(albedo, index, p_P);
+  albedo = guided(albedo, index, p_P, enamel);
   return Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo);
 }
