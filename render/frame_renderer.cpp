@@ -15,7 +15,7 @@
 namespace render {
 namespace {
 
-constexpr double kSliceHeight = 0.3, kInsetGap = 0.025, kLegendHeight = 0.12,
+constexpr double kLegendHeight = 0.12,
                  kMaxLegendHeight = 0.3;  // of the viewer's screen
 
 // Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.

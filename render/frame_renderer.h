@@ -25,6 +25,9 @@
 
 namespace render {
 
+/// Height of a CT slice, and the gap around it: shares of the height of the viewer's screen.
+inline constexpr double kSliceHeight = 0.3, kInsetGap = 0.025;
+
 class SceneRenderer;
 class WindowUpload;
 

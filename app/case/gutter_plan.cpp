@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "app/case/gutter_strokes.h"
+#include "app/case/height_map.h"
 #include "app/case/trough_plan.h"
 #include "assets/synthetic/face.h"
 #include "assets/tooth.h"
@@ -20,69 +22,16 @@ constexpr double kBehindAxis_mm = 1.0;     ///< of the bur's centre, on the crow
 constexpr double kLingual_mm = 1.5;        ///< of the bur's centre from the crown's middle
 constexpr double kWithoutEnamel_mm = 7.5;  ///< height of a crown whose enamel is not labelled
 constexpr double kCervixShare = 0.05;      ///< of the enamel that lies below the cervical line
-constexpr double kReach_mm = 12.0;         ///< of the map from the crown's middle
 constexpr double kBoneReach_mm = 22.0;     ///< of the bone that is looked at
-constexpr double kColumn_mm = 0.3;
-constexpr int kRow = 4;            ///< columns from one row of strokes to the next
-constexpr double kLevel_mm = 0.5;  ///< depth of one pass
 constexpr double kLeastDepth_mm = 0.15, kMostDepth_mm = 10.0, kRamusDepth_mm = 13.0;
-constexpr double kLeastStroke_mm = 0.25;
 constexpr double kSightStep_mm = 0.5, kSightLength_mm = 26.0;
-constexpr double kStraight_mm = 0.05;  ///< corners that a stroke leaves out
 constexpr std::size_t kLeastColumns = 40;
-constexpr int kFinishingPasses = 2;
-
-/// Axes of the map: distal, across (buccal), outward.
-struct WayIn {
-  glm::dvec3 middle_P_mm, along, across, outward;
-
-  glm::dvec3 local(const glm::dvec3& p) const {
-    const glm::dvec3 q = p - middle_P_mm;
-    return {glm::dot(q, along), glm::dot(q, across), glm::dot(q, outward)};
-  }
-  glm::dvec3 inPatient(const glm::dvec3& q) const { return middle_P_mm + q.x * along + q.y * across + q.z * outward; }
-};
 
 /// The crown of the operated tooth.
 struct Crown {
   std::vector<glm::dvec3> voxels_P_mm;
   glm::dvec3 middle_P_mm{0.0};
   double cervix_mm = 0.0;  ///< along the tooth's axis, from the origin of P
-};
-
-constexpr double kNone = -1e9;
-
-/// One number per column of the map.
-class HeightMap {
- public:
-  HeightMap() : mm_(static_cast<std::size_t>(kSide) * kSide, kNone) {}
-  static constexpr int kHalf = static_cast<int>(kReach_mm / kColumn_mm), kSide = 2 * kHalf + 1;
-
-  double& at(int i, int j) { return mm_[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)]; }
-  double at(int i, int j) const { return mm_[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)]; }
-  static double place_mm(int i) { return kColumn_mm * (i - kHalf); }
-
-  /// visit(i, j, squared distance) for the columns within a radius.
-  template <class Visit>
-  static void near(const glm::dvec3& q, double radius_mm, const Visit& visit) {
-    const auto bound = [](double mm) {
-      return static_cast<int>(std::ceil(std::clamp(mm / kColumn_mm, -1e6, 1e6))) + kHalf;
-    };
-    for (int j = std::max(bound(q.y - radius_mm), 0); j < std::min(bound(q.y + radius_mm), kSide); ++j)
-      for (int i = std::max(bound(q.x - radius_mm), 0); i < std::min(bound(q.x + radius_mm), kSide); ++i) {
-        const double x = place_mm(i) - q.x, y = place_mm(j) - q.y, square = x * x + y * y;
-        if (square < radius_mm * radius_mm) visit(i, j, square);
-      }
-  }
-  /// Rests a ball of this radius on a point.
-  void rest(const glm::dvec3& q, double radius_mm) {
-    near(q, radius_mm, [&](int i, int j, double square) {
-      at(i, j) = std::max(at(i, j), q.z + std::sqrt(radius_mm * radius_mm - square));
-    });
-  }
-
- private:
-  std::vector<double> mm_;
 };
 
 bool isOperated(const CtVolume& ct, std::size_t v, int fdi) {
@@ -93,7 +42,7 @@ std::optional<Crown> crownOf(const CtVolume& ct, const assets::OperativeSite& si
   const glm::dvec3 axis = glm::normalize(site.axis_P);
   std::vector<double> enamel_mm;
   std::vector<std::pair<glm::dvec3, double>> tooth;
-  double top_mm = kNone;
+  double top_mm = kNoHeight_mm;
   assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
     if (!isOperated(ct, v, site.fdi)) return;
     const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
@@ -129,19 +78,11 @@ WayIn wayIn(const CtVolume& ct, const assets::OperativeSite& site, const glm::dv
   return {middle_P_mm, along, across, outward};
 }
 
-/// Heights of the bur's centre on each line along the way in.
-struct Heights {
-  HeightMap bone;    ///< touching bone from above
-  HeightMap tooth;   ///< resting on the operated tooth
-  HeightMap lowest;  ///< that is allowed
-  HeightMap crown;   ///< any number where the line belongs to crown or gutter
-};
-
 Heights heightsOf(const assets::Patient& patient, const WayIn& way, const Crown& crown, double bur_radius_mm) {
   const CtVolume& ct = patient.ct;
   const int fdi = patient.site->fdi;
   const double rest_mm = bur_radius_mm + kOffTooth_mm,
-               beside_mm = std::max(rest_mm + 0.5 * kColumn_mm, kGutterWidth_mm - bur_radius_mm);
+               beside_mm = std::max(rest_mm + 0.5 * HeightMap::kColumn_mm, kGutterWidth_mm - bur_radius_mm);
   Heights h;
   const auto is_bone = [&](std::size_t v) {
     const Tissue tissue{ct.label[v]};
@@ -182,10 +123,10 @@ Heights heightsOf(const assets::Patient& patient, const WayIn& way, const Crown&
       if (steep > 0.05)
         lowest = std::max(lowest, over_mm / steep);
       else if (over_mm - steep * h.bone.at(i, j) > 0.0)
-        h.crown.at(i, j) = kNone;
+        h.crown.at(i, j) = kNoHeight_mm;
       if (slope > 0.05)
         lowest = std::max(lowest, (-kBehindAxis_mm - glm::dot(foot - crown.middle_P_mm, facing)) / slope);
-      if (HeightMap::place_mm(j) < -kLingual_mm) h.crown.at(i, j) = kNone;
+      if (HeightMap::place_mm(j) < -kLingual_mm) h.crown.at(i, j) = kNoHeight_mm;
     }
   return h;
 }
@@ -240,92 +181,6 @@ std::vector<char> largestPart(const std::vector<char>& wanted) {
   return kept;
 }
 
-/// Leaves out the corners that lie on the line between their neighbours.
-std::vector<glm::dvec3> straightened(const std::vector<glm::dvec3>& stroke) {
-  std::vector<glm::dvec3> kept{stroke.front()};
-  for (std::size_t begin = 0, end = 2; end < stroke.size(); ++end) {
-    const glm::dvec3 line = glm::normalize(stroke[end] - stroke[begin]);
-    const auto off_mm = [&](const glm::dvec3& p) { return glm::length(glm::cross(p - stroke[begin], line)); };
-    bool straight = true;
-    for (std::size_t n = begin + 1; n < end; ++n) straight = straight && off_mm(stroke[n]) < kStraight_mm;
-    if (straight) continue;
-    begin = end - 1;
-    kept.push_back(stroke[begin]);
-  }
-  if (stroke.size() > 1) kept.push_back(stroke.back());
-  return kept;
-}
-
-/// Level by level from the top, row by row along the crown, to and fro.
-class Strokes {
- public:
-  Strokes(const WayIn& way, const Heights& heights, const std::vector<char>& planned)
-      : way_(way), h_(heights), planned_(planned) {}
-
-  std::vector<std::vector<glm::dvec3>> make() {
-    double top_mm = kNone, bottom_mm = -kNone;
-    for (int j = 0; j < HeightMap::kSide; ++j)
-      for (int i = 0; i < HeightMap::kSide; ++i)
-        if (isPlanned(i, j)) {
-          top_mm = std::max(top_mm, h_.bone.at(i, j));
-          bottom_mm = std::min(bottom_mm, h_.lowest.at(i, j));
-        }
-    double level_mm = top_mm;
-    while (level_mm > bottom_mm) {
-      const double above_mm = level_mm;
-      level_mm = std::max(level_mm - kLevel_mm, bottom_mm);
-      for (int j = HeightMap::kSide - 1; j >= 0; --j)
-        if (j % kRow == 0) row(j, level_mm, above_mm);
-    }
-    // Along the bottom, between the rows too, while the bone gives way.
-    for (int pass = 0; pass < kFinishingPasses; ++pass)
-      for (int j = HeightMap::kSide - 1; j >= 0; --j)
-        if (pass > 0 || j % (kRow / 2) == 0) row(j, bottom_mm, -kNone);
-    return std::move(strokes_);
-  }
-
- private:
-  bool isPlanned(int i, int j) const {
-    return planned_[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)] != 0;
-  }
-
-  void row(int j, double level_mm, double above_mm) {
-    std::vector<std::vector<glm::dvec3>> runs;
-    bool in_run = false;
-    double former_mm = 0.0;
-    for (int i = 0; i < HeightMap::kSide; ++i) {
-      const double height_mm = std::max(level_mm, h_.lowest.at(i, j));
-      const bool cuts = isPlanned(i, j) && height_mm < h_.bone.at(i, j) && height_mm < above_mm;
-      if (cuts) {
-        if (!in_run) runs.emplace_back();
-        // Over an edge: across while high, then down; up first, then across.
-        if (in_run && std::abs(height_mm - former_mm) > kColumn_mm)
-          runs.back().push_back(way_.inPatient({HeightMap::place_mm(height_mm < former_mm ? i : i - 1),
-                                                HeightMap::place_mm(j), std::max(height_mm, former_mm)}));
-        former_mm = height_mm;
-        runs.back().push_back(way_.inPatient({HeightMap::place_mm(i), HeightMap::place_mm(j), height_mm}));
-      }
-      in_run = cuts;
-    }
-    std::erase_if(runs, [](const auto& run) { return glm::distance(run.front(), run.back()) < kLeastStroke_mm; });
-    if (runs.empty()) return;
-    // From the end that is nearer to where the bur is.
-    const auto way_mm = [&](const glm::dvec3& p) {
-      return strokes_.empty() ? 0.0 : glm::distance(strokes_.back().back(), p);
-    };
-    if (way_mm(runs.back().back()) < way_mm(runs.front().front())) {
-      std::ranges::reverse(runs);
-      for (auto& run : runs) std::ranges::reverse(run);
-    }
-    for (const auto& run : runs) strokes_.push_back(straightened(run));
-  }
-
-  const WayIn& way_;
-  const Heights& h_;
-  const std::vector<char>& planned_;
-  std::vector<std::vector<glm::dvec3>> strokes_;
-};
-
 }  // namespace
 
 std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, double bur_radius_mm) {
@@ -344,7 +199,7 @@ std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, dou
   HeightMap hidden;
   for (int j = 0; j < HeightMap::kSide; ++j)
     for (int i = 0; i < HeightMap::kSide; ++i) {
-      if (h.bone.at(i, j) == kNone) continue;
+      if (h.bone.at(i, j) == kNoHeight_mm) continue;
       const glm::dvec3 surface = at(i, j, h.bone.at(i, j) - bur_radius_mm);
       if (!isSeen(patient.ct, fdi, surface, sight))
         HeightMap::near(way.local(surface), bur_radius_mm, [&](int x, int y, double) { hidden.at(x, y) = 0.0; });
@@ -359,24 +214,24 @@ std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, dou
   std::vector<char> wanted(static_cast<std::size_t>(HeightMap::kSide) * HeightMap::kSide, 0);
   for (int j = 0; j < HeightMap::kSide; ++j)
     for (int i = 0; i < HeightMap::kSide; ++i) {
-      if (h.crown.at(i, j) == kNone || h.bone.at(i, j) == kNone) continue;
+      if (h.crown.at(i, j) == kNoHeight_mm || h.bone.at(i, j) == kNoHeight_mm) continue;
       // Never far down into the ramus; elsewhere no deeper than a bur can be led.
       const double depth_mm = h.bone.at(i, j) - h.lowest.at(i, j);
       if (depth_mm > kRamusDepth_mm) continue;
       h.lowest.at(i, j) = std::max(h.lowest.at(i, j), h.bone.at(i, j) - kMostDepth_mm);
-      if (depth_mm > kLeastDepth_mm && hidden.at(i, j) == kNone)
+      if (depth_mm > kLeastDepth_mm && hidden.at(i, j) == kNoHeight_mm)
         wanted[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)] = 1;
       else if (depth_mm <= kLeastDepth_mm && h.tooth.at(i, j) > h.bone.at(i, j) && i % 3 == 0 && j % 3 == 0)
         cut.bare_P_mm.push_back(at(i, j, h.tooth.at(i, j)));
     }
   const std::vector<char> planned = largestPart(wanted);
   if (static_cast<std::size_t>(std::ranges::count(planned, 1)) < kLeastColumns) return std::nullopt;
-  cut.strokes_P_mm = Strokes(way, h, planned).make();
+  cut.strokes_P_mm = gutterStrokes(way, h, planned);
   if (cut.strokes_P_mm.empty()) return std::nullopt;
 
   // The column nearest to the middle of the cut.
   const glm::dvec3 middle = way.local(middleOf_P_mm(cut));
-  double nearest = -kNone;
+  double nearest = -kNoHeight_mm;
   for (int j = 0; j < HeightMap::kSide; ++j)
     for (int i = 0; i < HeightMap::kSide; ++i) {
       if (!planned[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)]) continue;

@@ -10,16 +10,13 @@
 #include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
-#include "app/controls/control.h"
+#include "app/commands/rehearse_options.h"
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_source_table.h"
 #include "app/options/command_settings.h"
-#include "app/options/display_option.h"
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
-#include "app/options/picture_option.h"
 #include "app/options/tool_text.h"
-#include "app/options/view_option.h"
 #include "app/rehearsal/continuation.h"
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/recording_check.h"
@@ -27,8 +24,6 @@
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
 #include "app/station/case_reach.h"
-#include "app/station/rig_choice.h"
-#include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
@@ -36,33 +31,11 @@
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
-#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
 
 constexpr double kForeignFaceWindow_mm = 24.0;
-
-struct RehearseOptions {
-  RehearsalPlan plan;
-  std::string patient, pedal = "auto", falcon_firmware, record, continued, face;
-  bool no_record = false;
-  RigOption rig;
-  std::vector<std::string> tools{"round:3.0", "round:2.0", "fissure:1.6,4.5"};
-  std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
-  std::string pace = "real";
-  std::string side = "right", second_tool = "mirror", case_name;
-  bool list_cases = false;
-  PictureOption picture;
-  std::vector<std::string> settings;
-  DisplayOption display;
-  assets::JawParameters jaw;
-  std::optional<double> face_window_mm;
-  std::optional<std::string> position;
-  std::optional<int> monitor;
-  double loupes = 4.0;
-  bool no_line = false;
-};
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
@@ -312,108 +285,10 @@ int run(RehearseOptions& options) {
 }  // namespace
 
 void addRehearse(CommandLine& molar) {
-  auto o = std::make_shared<RehearseOptions>();
+  auto options = std::make_shared<RehearseOptions>();
   CommandLine& command = molar.command("rehearse", "Rehearse a third-molar extraction, seen and felt");
-  command.example("molar rehearse", "on the desk, with the mouse, on the built-in patient");
-  command.example("molar rehearse --case horizontal --tool round:3.0 --tool fissure:1.6,6 --instructor",
-                  "a difficult case with two burs, and the instructor's window beside it");
-  command.example("molar rehearse PATIENT --device openhaptics --record first.molar",
-                  "an imported patient, with a haptic device, recorded");
-  command.optionGroup("Patient");
-  Option patient = command.option("PATIENT", o->patient, "Patient folder [the built-in patient]");
-  command.flag("--cases", o->list_cases, "List the named cases of the built-in patient, and end");
-  Option named = command.option("--case", o->case_name, "Built-in patient: a case by its name, see --cases");
-  named.oneOf(caseNames()).excludes(patient);
-  const auto built_in = [&](const std::string& name, auto& value, const std::string& help) {
-    return command.option(name, value, "Built-in patient: " + help).showsDefault().excludes(patient);
-  };
-  built_in("--side", o->side, "side of the tooth").oneOf({"right", "left"}).excludes(named);
-  built_in(
-      "--winter-angle", o->jaw.winter_angle_deg,
-      "tilt of the tooth after Winter, degrees: vertical 0, mesio-angular 45, horizontal 90, disto-angular below 0")
-      .from(-79.0, 100.0)
-      .excludes(named);
-  built_in("--depth", o->jaw.depth_mm,
-           "top of the crown below the occlusal plane, mm (Pell and Gregory: A about 0, B about 4, C about 8)")
-      .from(0.0, 12.0)
-      .excludes(named);
-  built_in("--canal-distance", o->jaw.mandibular_canal_distance_mm, "root to mandibular canal, mm; 0 touches it")
-      .from(0.0, 6.0)
-      .excludes(named);
-  built_in("--voxel", o->jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
-  built_in("--seed", o->jaw.seed, "number that varies its shape");
-  command.option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
-  command
-      .option("--position", o->position,
-              "seated, before the surgeon; or lying, approached from the right (10 o'clock), the left (2 o'clock) or "
-              "behind (12 o'clock) [seated, or as the rig states]")
-      .oneOf({kPatientPositions.begin(), kPatientPositions.end()});
-  command.optionGroup("Hand and instruments");
-  command.option("--device", o->plan.device, poseSourceHelp()).showsDefault();
-  command.option("--tool", o->tools, headHelp() + "; give several to change between them by key T or pedal")
-      .repeated()
-      .showsDefault();
-  command.option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck of the head's size, up to 2.35 mm thick]");
-  command.option("--pedal", o->pedal, kPedalHelp).showsDefault();
-  Option second = command.option("--second-hand", o->plan.second_hand.device, kSecondHandHelp);
-  command.option("--second-tool", o->second_tool, "Instrument of the second hand")
-      .oneOf(assets::secondInstrumentNames())
-      .showsDefault()
-      .needs(second);
-  command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
-  command.optionGroup("Workplace and picture");
-  Option rig = o->rig.addTo(command, true);
-  command.option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
-      .from(1.0, 8.0)
-      .showsDefault()
-      .excludes(rig);
-  o->display.addTo(command);
-  command.option("--monitor", o->monitor, "Monitor, from 1; two windows use the next one as well").wholeFrom(1, 16);
-  command.flag("--instructor", o->plan.instructor_window, "Open the instructor's window, on the next monitor if any");
-  command.flag("--operator", o->plan.instructor_window, "Former name of --instructor").hidden();
-  command.option("--size", o->size, "Image size").valueNamed("WxH");
-  o->picture.addTo(command);
-  command.option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm").from(0.0, 100.0);
-  command.option("--quality", o->plan.quality_step, "Hold this quality, 0 best, 6 fastest [by measured frame times]")
-      .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
-  command.flag("--no-line", o->no_line, "Without the line of text in the picture (key L shows it)");
-  command.optionGroup("Output");
-  Option record =
-      command.option("--record", o->record, "Session file to write [a new one in the data folder, see molar sessions]")
-          .valueNamed("FILE");
-  command.flag("--no-record", o->no_record, "Record nothing").excludes(record);
-  command
-      .option("--continue", o->continued,
-              "Go on where this session ended: its bone, case and tools. last: the newest; undo begins anew")
-      .valueNamed("SESSION")
-      .excludes(named);
-  command.option("--seconds", o->plan.seconds, "End after this time").from(0.1, 86400.0);
-  command.option("--snapshot", o->plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
-  command.option("--first-snapshot", o->plan.first_snapshot, "The same before the first cut");
-  command.option("--snapshot-size", o->snapshot_size, "Their size").valueNamed("WxH").showsDefault();
-  command.flag("--headless", o->plan.headless, "Without a window");
-  command.flag("--force", o->plan.overwrite, "Replace outputs that exist");
-  command.optionGroup("For engineers");
-  command.flag("--verbose", o->plan.verbose, "Words for engineers on the terminal; keys 1 to 7 choose the force law");
-  command.option("--law", o->law, "Force law: " + lawNames()).showsDefault();
-  command.option("--erosion", o->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
-  command.option("--set", o->settings,
-                 "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
-  command
-      .option("--parameters", o->plan.parameters,
-              "Settings file, TOML, applied whenever it changes (app/options/feel.toml); overrides --law and --set")
-      .valueNamed("FILE");
-  command.option("--rate", o->plan.rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);
-  command
-      .option("--priority", o->plan.device_options.servo_priority,
-              "Real-time priority of the servo; the USB thread has the next")
-      .wholeFrom(haptics::kMinServoPriority, haptics::kMaxServoPriority)
-      .showsDefault();
-  command.option("--pace", o->pace, "real; or fast: simulated input without a window, as fast as the machine can")
-      .oneOf({"real", "fast"})
-      .showsDefault();
-  command.footer(keyHelp());
-  command.does([o] { return run(*o); });
+  addRehearseOptions(command, *options);
+  command.does([options] { return run(*options); });
 }
 
 }  // namespace app

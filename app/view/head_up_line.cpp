@@ -8,6 +8,7 @@
 
 #include "app/text/clock_text.h"
 #include "render/display/eye_projection.h"
+#include "render/frame_renderer.h"
 
 namespace app {
 namespace {
@@ -89,8 +90,8 @@ HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, c
   const render::ScreenOrientation orientation = render::screenOrientation(rig);
   HeadUpPlace place;
   place.screen_px = orientation.viewerSize(rig.screen.px);
-  // The slices' column is 0.025 + 0.3 of the height.
-  if (frame.layers.slices) place.reserved_left_px = static_cast<int>(0.34 * place.screen_px.y);
+  constexpr double kSlicesColumn = render::kSliceHeight + 1.6 * render::kInsetGap;
+  if (frame.layers.slices) place.reserved_left_px = static_cast<int>(kSlicesColumn * place.screen_px.y);
   const glm::ivec2 eye_px = render::eyeImageSize(mode, rig.screen.px);
   if (eye_px != rig.screen.px || render::isInterleaved(mode)) place.magnification = kFewerLines;
   const render::EyeView view = render::eyeView(rig, render::Eye::cyclopean);

@@ -1,0 +1,18 @@
+// The strokes that cut a gutter from a height map: level by level from the top, row by row along the crown, to and fro,
+// then along the bottom while the bone gives way. Frame P, mm. Start-up only; some ms.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "app/case/height_map.h"
+
+namespace app {
+
+/// `planned`: 1 for the columns to be cut, in the order of the map. Strokes of the bur's centre in the order of the
+/// work.
+std::vector<std::vector<glm::dvec3>> gutterStrokes(const WayIn& way, const Heights& heights,
+                                                   const std::vector<char>& planned);
+
+}  // namespace app

@@ -1,0 +1,126 @@
+#include "app/commands/rehearse_options.h"
+
+#include "app/case/case.h"
+#include "app/case/patient_placement.h"
+#include "app/controls/control.h"
+#include "app/device/pose_source_table.h"
+#include "app/device/second_hand.h"
+#include "app/options/law_text.h"
+#include "app/options/pedal_option.h"
+#include "app/options/tool_text.h"
+#include "assets/instrument/second_instrument.h"
+#include "haptics/device/thread_priority.h"
+#include "render/quality_ladder.h"
+
+namespace app {
+
+void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
+  command.example("molar rehearse", "on the desk, with the mouse, on the built-in patient");
+  command.example("molar rehearse --case horizontal --tool round:3.0 --tool fissure:1.6,6 --instructor",
+                  "a difficult case with two burs, and the instructor's window beside it");
+  command.example("molar rehearse PATIENT --device openhaptics --record first.molar",
+                  "an imported patient, with a haptic device, recorded");
+  command.optionGroup("Patient");
+  Option patient = command.option("PATIENT", options.patient, "Patient folder [the built-in patient]");
+  command.flag("--cases", options.list_cases, "List the named cases of the built-in patient, and end");
+  Option named = command.option("--case", options.case_name, "Built-in patient: a case by its name, see --cases");
+  named.oneOf(caseNames()).excludes(patient);
+  const auto built_in = [&](const std::string& name, auto& value, const std::string& help) {
+    return command.option(name, value, "Built-in patient: " + help).showsDefault().excludes(patient);
+  };
+  built_in("--side", options.side, "side of the tooth").oneOf({"right", "left"}).excludes(named);
+  built_in(
+      "--winter-angle", options.jaw.winter_angle_deg,
+      "tilt of the tooth after Winter, degrees: vertical 0, mesio-angular 45, horizontal 90, disto-angular below 0")
+      .from(-79.0, 100.0)
+      .excludes(named);
+  built_in("--depth", options.jaw.depth_mm,
+           "top of the crown below the occlusal plane, mm (Pell and Gregory: A about 0, B about 4, C about 8)")
+      .from(0.0, 12.0)
+      .excludes(named);
+  built_in("--canal-distance", options.jaw.mandibular_canal_distance_mm, "root to mandibular canal, mm; 0 touches it")
+      .from(0.0, 6.0)
+      .excludes(named);
+  built_in("--voxel", options.jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
+  built_in("--seed", options.jaw.seed, "number that varies its shape");
+  command.option("--face", options.face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
+  command
+      .option("--position", options.position,
+              "seated, before the surgeon; or lying, approached from the right (10 o'clock), the left (2 o'clock) or "
+              "behind (12 o'clock) [seated, or as the rig states]")
+      .oneOf({kPatientPositions.begin(), kPatientPositions.end()});
+  command.optionGroup("Hand and instruments");
+  command.option("--device", options.plan.device, poseSourceHelp()).showsDefault();
+  command.option("--tool", options.tools, headHelp() + "; give several to change between them by key T or pedal")
+      .repeated()
+      .showsDefault();
+  command.option("--shaft", options.shaft,
+                 std::string(kShaftHelp) + " [a neck of the head's size, up to 2.35 mm thick]");
+  command.option("--pedal", options.pedal, kPedalHelp).showsDefault();
+  Option second = command.option("--second-hand", options.plan.second_hand.device, kSecondHandHelp);
+  command.option("--second-tool", options.second_tool, "Instrument of the second hand")
+      .oneOf(assets::secondInstrumentNames())
+      .showsDefault()
+      .needs(second);
+  command.option("--falcon-firmware", options.falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
+  command.optionGroup("Workplace and picture");
+  Option rig = options.rig.addTo(command, true);
+  command.option("--loupes", options.loupes, "Magnification on a desk (without --rig)")
+      .from(1.0, 8.0)
+      .showsDefault()
+      .excludes(rig);
+  options.display.addTo(command);
+  command.option("--monitor", options.monitor, "Monitor, from 1; two windows use the next one as well")
+      .wholeFrom(1, 16);
+  command.flag("--instructor", options.plan.instructor_window,
+               "Open the instructor's window, on the next monitor if any");
+  command.flag("--operator", options.plan.instructor_window, "Former name of --instructor").hidden();
+  command.option("--size", options.size, "Image size").valueNamed("WxH");
+  options.picture.addTo(command);
+  command.option("--face-window", options.face_window_mm, "Face cut away around the line of sight, mm")
+      .from(0.0, 100.0);
+  command
+      .option("--quality", options.plan.quality_step, "Hold this quality, 0 best, 6 fastest [by measured frame times]")
+      .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
+  command.flag("--no-line", options.no_line, "Without the line of text in the picture (key L shows it)");
+  command.optionGroup("Output");
+  Option record = command
+                      .option("--record", options.record,
+                              "Session file to write [a new one in the data folder, see molar sessions]")
+                      .valueNamed("FILE");
+  command.flag("--no-record", options.no_record, "Record nothing").excludes(record);
+  command
+      .option("--continue", options.continued,
+              "Go on where this session ended: its bone, case and tools. last: the newest; undo begins anew")
+      .valueNamed("SESSION")
+      .excludes(named);
+  command.option("--seconds", options.plan.seconds, "End after this time").from(0.1, 86400.0);
+  command.option("--snapshot", options.plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
+  command.option("--first-snapshot", options.plan.first_snapshot, "The same before the first cut");
+  command.option("--snapshot-size", options.snapshot_size, "Their size").valueNamed("WxH").showsDefault();
+  command.flag("--headless", options.plan.headless, "Without a window");
+  command.flag("--force", options.plan.overwrite, "Replace outputs that exist");
+  command.optionGroup("For engineers");
+  command.flag("--verbose", options.plan.verbose,
+               "Words for engineers on the terminal; keys 1 to 7 choose the force law");
+  command.option("--law", options.law, "Force law: " + lawNames()).showsDefault();
+  command.option("--erosion", options.erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
+  command.option("--set", options.settings,
+                 "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
+  command
+      .option("--parameters", options.plan.parameters,
+              "Settings file, TOML, applied whenever it changes (app/options/feel.toml); overrides --law and --set")
+      .valueNamed("FILE");
+  command.option("--rate", options.plan.rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);
+  command
+      .option("--priority", options.plan.device_options.servo_priority,
+              "Real-time priority of the servo; the USB thread has the next")
+      .wholeFrom(haptics::kMinServoPriority, haptics::kMaxServoPriority)
+      .showsDefault();
+  command.option("--pace", options.pace, "real; or fast: simulated input without a window, as fast as the machine can")
+      .oneOf({"real", "fast"})
+      .showsDefault();
+  command.footer(keyHelp());
+}
+
+}  // namespace app

@@ -1,0 +1,41 @@
+// The options of `molar rehearse` as they are given, and their definition for the command line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/display_option.h"
+#include "app/options/picture_option.h"
+#include "app/rehearsal/rehearsal_plan.h"
+#include "app/station/rig_choice.h"
+#include "app/text/command_line.h"
+#include "assets/synthetic/jaw.h"
+
+namespace app {
+
+struct RehearseOptions {
+  RehearsalPlan plan;
+  std::string patient, pedal = "auto", falcon_firmware, record, continued, face;
+  bool no_record = false;
+  RigOption rig;
+  std::vector<std::string> tools{"round:3.0", "round:2.0", "fissure:1.6,4.5"};
+  std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
+  std::string pace = "real";
+  std::string side = "right", second_tool = "mirror", case_name;
+  bool list_cases = false;
+  PictureOption picture;
+  std::vector<std::string> settings;
+  DisplayOption display;
+  assets::JawParameters jaw;
+  std::optional<double> face_window_mm;
+  std::optional<std::string> position;
+  std::optional<int> monitor;
+  double loupes = 4.0;
+  bool no_line = false;
+};
+
+/// Adds them, in groups, with examples and the keys; the values go to `options`, which must outlive the command.
+void addRehearseOptions(CommandLine& command, RehearseOptions& options);
+
+}  // namespace app
