@@ -17,6 +17,7 @@
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/tool_text.h"
+#include "app/options/view_option.h"
 #include "app/rehearsal/continuation.h"
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/recording_check.h"
