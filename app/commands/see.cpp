@@ -12,6 +12,7 @@
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/options/picture_option.h"
+#include "app/options/settings_text.h"
 #include "app/options/view_option.h"
 #include "app/options/volume_option.h"
 #include "app/text/command_line.h"
@@ -48,13 +49,19 @@ std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
   return nlohmann::json{{"clip_from_P", rows}, {"size", {px.x, px.y}}}.dump(1) + "\n";
 }
 
+assets::Patient patientOf(const SeeOptions& options) {
+  return options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
+                                 : assets::loadPatient(options.patient);
+}
+
 /// The patient's jaw unrolled along its arch.
 int seePanoramic(const SeeOptions& options) {
-  if (options.patient.empty()) throw UsageError("--panoramic: it shows a patient's CT, use --patient");
+  if (options.patient.empty() && options.case_name.empty())
+    throw UsageError("--panoramic: it shows a patient's CT, use --patient or --case");
   if (!options.depth.empty() || !options.matrices.empty())
     throw UsageError("--panoramic: it is no projection, leave --depth and --matrices out");
   calibration::OutputFile out(options.out, options.force);
-  const auto picture = PanoramicPicture::of(assets::loadPatient(options.patient));
+  const auto picture = PanoramicPicture::of(patientOf(options));
   if (!picture)
     throw UsageError(options.patient + ", --panoramic: no tooth is numbered, so its arch is not known; " +
                      "import the scan with labels of its teeth");
@@ -89,8 +96,7 @@ int see(const SeeOptions& options) {
   if (!of_patient) {
     volume = options.volume.load();
   } else {
-    patient = options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
-                                      : assets::loadPatient(options.patient);
+    patient = patientOf(options);
     const auto plan = plannedCut(patient, kUsualBurRadius_mm);
     guides = guidesFor(patient, plan ? std::optional(plan->cut) : std::nullopt);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
@@ -161,7 +167,10 @@ void addSee(CommandLine& molar) {
   command.option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
   command.option("--matrices", options->matrices, "clip_from_P and size, .json");
   command.flag("--force", options->force, "Replace outputs that exist");
-  command.does([options] { return options->panoramic ? seePanoramic(*options) : see(*options); });
+  command.does([options] {
+    refuseUnlessPng("--out", options->out);
+    return options->panoramic ? seePanoramic(*options) : see(*options);
+  });
 }
 
 }  // namespace app
