@@ -36,7 +36,8 @@ class CutField {
       const glm::ivec3 last(glm::floor(grid_.indexFromPoint(glm::max(a, b) + far_mm)));
       forVoxels(glm::max(first, glm::ivec3(0)), glm::min(last + 1, grid_.size), [&](glm::ivec3 ijk) {
         float& mm = mm_[grid_.index(ijk)];
-        mm = std::min(mm, static_cast<float>(calibration::distanceToSegment(grid_.centre_P_mm(ijk), a, b) - cut.bur_radius_mm));
+        mm = std::min(
+            mm, static_cast<float>(calibration::distanceToSegment(grid_.centre_P_mm(ijk), a, b) - cut.bur_radius_mm));
       });
     };
     for (const auto& stroke : cut.strokes_P_mm)

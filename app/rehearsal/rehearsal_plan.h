@@ -25,7 +25,7 @@ namespace app {
 struct RehearsalPlan {
   assets::Patient patient;
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
-  std::optional<assets::PlannedCut> cut;  ///< followed by scripted input, shown as layer "plan"
+  std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
   calibration::Rig rig;
   bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own
   render::DisplayMode display = render::DisplayMode::mono;

@@ -56,11 +56,11 @@ std::string surgeonsText(const RehearsalFigures& f) {
   };
   line("patient", f.last.patient_title);
   line("bur", burName(f.last.command.tool.head));
-  const std::string cutting = f.times.cutting_s < 1.0 ? ""
-                              : f.times.dry_s < 1.0
-                                  ? fmt::format(", cutting {}", clockText(f.times.cutting_s))
-                                  : fmt::format(", cutting {}, {} of it without water",
-                                                clockText(f.times.cutting_s), clockText(f.times.dry_s));
+  const std::string cutting =
+      f.times.cutting_s < 1.0 ? ""
+      : f.times.dry_s < 1.0
+          ? fmt::format(", cutting {}", clockText(f.times.cutting_s))
+          : fmt::format(", cutting {}, {} of it without water", clockText(f.times.cutting_s), clockText(f.times.dry_s));
   line("time", clockText(f.last.tick.t_s + f.last.tick.dt_s) + cutting);
   const auto is_bone = [](std::uint8_t label) { return !assets::isTooth(label) && assets::isHard(label); };
   const auto is_soft = [&](std::uint8_t label) { return !assets::isTooth(label) && !is_bone(label); };

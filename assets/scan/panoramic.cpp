@@ -61,8 +61,7 @@ Panoramic panoramicOf(const CtVolume& ct, const std::vector<glm::dvec2>& curve_P
         const glm::dvec2 p = view.columns_P_mm[column] + ((s + 0.5) / samples - 0.5) * layer_mm * normal;
         sum += greyAt(ct, {p, z});
       }
-      view.hounsfield[static_cast<std::size_t>(y * view.size_px.x + x)] =
-          static_cast<float>(sum / samples);
+      view.hounsfield[static_cast<std::size_t>(y * view.size_px.x + x)] = static_cast<float>(sum / samples);
     }
   });
   return view;

@@ -20,7 +20,8 @@ double burDistance_mm(const Frame& frame, const glm::dvec2& p) {
     }
     case assets::BurForm::cone: {
       const glm::dvec2 rim{radius, half};
-      const double nearest = std::min(calibration::distanceToSegment(p, {0.0, -half}, rim), calibration::distanceToSegment(p, {0.0, half}, rim));
+      const double nearest = std::min(calibration::distanceToSegment(p, {0.0, -half}, rim),
+                                      calibration::distanceToSegment(p, {0.0, half}, rim));
       const bool inside = p.y < half && p.x * 2.0 * half < radius * (p.y + half);
       return inside ? -nearest : nearest;
     }

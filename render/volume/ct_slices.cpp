@@ -179,7 +179,8 @@ void drawCanal(SliceImage& slice, const Layout& layout, const glm::dvec3& middle
     const int y1 = std::min(edge - 1, static_cast<int>(std::max(ya, yb)));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
-        const double wall_mm = calibration::distanceToSegment(slice.position_P_mm(x, y), a, b) - scan.mandibular_canal_radius_mm;
+        const double wall_mm =
+            calibration::distanceToSegment(slice.position_P_mm(x, y), a, b) - scan.mandibular_canal_radius_mm;
         distance.at(x, y) = std::min(distance.at(x, y), static_cast<float>(wall_mm));
       }
   }

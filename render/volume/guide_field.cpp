@@ -43,8 +43,9 @@ GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides) {
   for (std::size_t n = 0; n + 1 < guides.mandibular_canal_P_mm.size(); ++n) {
     const glm::dvec3 &a = guides.mandibular_canal_P_mm[n], &b = guides.mandibular_canal_P_mm[n + 1];
     const double reach_mm = guides.mandibular_canal_radius_mm + kReach_mm;
-    write(glm::min(a, b) - reach_mm, glm::max(a, b) + reach_mm, 0,
-          [&](const glm::dvec3& p) { return calibration::distanceToSegment(p, a, b) - guides.mandibular_canal_radius_mm; });
+    write(glm::min(a, b) - reach_mm, glm::max(a, b) + reach_mm, 0, [&](const glm::dvec3& p) {
+      return calibration::distanceToSegment(p, a, b) - guides.mandibular_canal_radius_mm;
+    });
   }
   if (guides.cut) {
     const assets::CutField cut(*guides.cut, kCutReach_mm);

@@ -1,16 +1,18 @@
 #include "calibration/png_file.h"
 
-#include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/scratch_folder.h"
+
 namespace calibration {
 namespace {
 
 TEST(PngFile, WritesAPngOfTheSizeAsked) {
-  const std::string path = testing::TempDir() + "png_file_test.tmp";
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("pixels.png");
   writePng(path, {3, 2}, std::vector<std::uint8_t>(24, 200));
   std::ifstream file(path, std::ios::binary);
   std::vector<unsigned char> head(24);
@@ -18,7 +20,6 @@ TEST(PngFile, WritesAPngOfTheSizeAsked) {
   EXPECT_EQ(head[1], 'P');
   EXPECT_EQ(head[19], 3);
   EXPECT_EQ(head[23], 2);
-  std::filesystem::remove(path);
 }
 
 TEST(PngFile, NamesAPathItCannotWrite) {

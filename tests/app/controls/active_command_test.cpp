@@ -11,13 +11,14 @@
 #include "app/session/session_reader.h"
 #include "haptics/device/simulated/mouse_device.h"
 #include "tests/app/session/real_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
 
 /// A recorded rehearsal with the mouse device, without a view, stepped.
 struct Desk {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::BoneBlock block;
   assets::Patient patient;
@@ -123,7 +124,7 @@ TEST(ActiveCommand, SwitchesIrrigation) {
 }
 
 TEST(ActiveCommand, NeitherFileNorProcedureLiftsAFault) {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   const std::string settings = folder.file("feel.toml");
   const auto write = [&](const char* text) { std::ofstream(settings) << text; };
   write("[law]\nname = \"agus\"\n");

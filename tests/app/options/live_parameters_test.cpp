@@ -8,6 +8,7 @@
 #include "app/options/command_settings.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -108,14 +109,13 @@ TEST(Settings, LowerALawToTheLimitOfTheDevice) {
 
 class LiveFile : public testing::Test {
  protected:
-  void SetUp() override { path_ = testing::TempDir() + "molar_live_parameters.toml"; }
-  void TearDown() override { std::filesystem::remove(path_); }
   /// Each writing is a second later, whatever the file system's clock can tell apart.
   void write(const std::string& text) {
     std::ofstream(path_) << text;
     std::filesystem::last_write_time(path_, std::filesystem::file_time_type(std::chrono::seconds(1'000'000 + ++n_)));
   }
-  std::string path_;
+  tests::ScratchFolder folder_;
+  std::string path_ = folder_.file("parameters.toml");
   int n_ = 0;
 };
 

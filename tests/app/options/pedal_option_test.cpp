@@ -1,11 +1,11 @@
 #include "app/options/pedal_option.h"
 
-#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "app/text/usage_error.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -37,7 +37,8 @@ TEST(PedalOption, RefusesInvalidText) {
 }
 
 TEST(PedalOption, ReadsAFile) {
-  const std::string path = testing::TempDir() + "molar_pedal_option.toml";
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("pedal.toml");
   const auto reading = [&](const std::string& text) {
     std::ofstream(path) << text;
     return pedalFrom(path);
@@ -56,7 +57,6 @@ TEST(PedalOption, ReadsAFile) {
                            "[actions]\nABS_Z = \"drill\"\n[thresholds]\nABS_Z = 2\n", "[thresholds]\nABS_Z = 0.5\n",
                            "[thresholds]\nABS_Z = nan\n[actions]\nABS_Z = \"drill\"\n", "speed = 1\n", "\xff"})
     EXPECT_THROW(reading(text), std::runtime_error) << text;
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "app/rehearsal/rehearsal.h"
 #include "tests/app/session/real_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -32,7 +33,7 @@ class Witness final : public Procedure {
 };
 
 TEST(ProcedureRehearsal, PassesEveryTickOnceAndEndsOnRequestDespiteTheProcedure) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string poses = folder.file("p.csv");
   std::ofstream(poses) << "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,action\n0,0,0,9,1,0,0,0,0,\n"
                           "0.1,0,0,9,1,0,0,0,0,undo\n0.3,0,0,9,1,0,0,0,0,end\n1,0,0,9,1,0,0,0,0,\n";

@@ -17,6 +17,7 @@
 #include "app/session/session_reader.h"
 #include "app/session/tick_columns.h"
 #include "tests/app/session/small_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -34,7 +35,7 @@ std::vector<haptics::Tick> allTicks(const std::string& path) {
 
 /// A recorder that is drained when the test says so.
 struct ByHand {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::SmallBone bone;
   haptics::TickLog log;
@@ -77,7 +78,7 @@ TEST(Recorder, WritesEveryTickAndSealsTheFile) {
 }
 
 TEST(Recorder, DrainsByItselfOnItsThread) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const test::SmallBone bone;
   haptics::TickLog log;
   Recorder recorder(folder.file("s.molar"), false, bone.start(), log);
@@ -90,7 +91,7 @@ TEST(Recorder, DrainsByItselfOnItsThread) {
 static_assert(kBetweenWrites <= 20ms, "what a kill may cost");
 
 TEST(Recorder, TakesCommandsAndEventsWhileItsThreadDrains) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const test::SmallBone bone;
   haptics::TickLog log;
   Recorder recorder(folder.file("s.molar"), false, bone.start(), log);
@@ -136,7 +137,7 @@ TEST(Recorder, SaysHowItsFileIsCalled) {
 }
 
 TEST(Recorder, IsBegunBesideWhereALogAloneIsToGo) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   test::writeBytes(folder.file("s.molar-wal"), "the rest of a killed session");
   test::writeBytes(folder.file("s.molar.new"), "somebody's");
   const test::SmallBone bone;
@@ -197,7 +198,7 @@ TEST(Recorder, CountsTicksTheLogHadNoRoomFor) {
 }
 
 TEST(Recorder, OverwritesNothingUnasked) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const test::SmallBone bone;
   haptics::TickLog log;
   test::writeBytes(folder.file("s.molar"), "precious");
@@ -248,7 +249,7 @@ TEST(Recorder, OutlivesAFullDiskAndLeavesAValidFile) {
 
 TEST(Recorder, LeavesAFileThatCanBeReadOnAFullDisk) {
   std::string path;
-  std::optional<test::ScratchFolder> folder;
+  std::optional<tests::ScratchFolder> folder;
   folder.emplace();
   path = folder->file("s.molar");
   RecordingSummary summary;
@@ -273,7 +274,7 @@ TEST(Recorder, LeavesAFileThatCanBeReadOnAFullDisk) {
 }
 
 TEST(Recorder, SaysOneLineWhenTheDiskIsFullFromTheStart) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const test::SmallBone bone;
   haptics::TickLog log;
   const FullDisk full(100);
@@ -293,7 +294,7 @@ Progress readProgress(const std::string& path) {
 }
 
 TEST(Recorder, LosesToAKillWhatItHadNotWrittenYet) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   std::mt19937 random(3);
   for (int kill = 0; kill < 10; ++kill) {
     const std::string session = folder.file(std::to_string(kill) + ".molar"), progress = session + ".progress";

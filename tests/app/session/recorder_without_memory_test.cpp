@@ -5,6 +5,7 @@
 #include "app/session/replay.h"
 #include "tests/app/session/memory_limit.h"
 #include "tests/app/session/small_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using test::memory_is_out;
 
 struct Recorded {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::SmallBone bone;
   haptics::TickLog log;
@@ -57,7 +58,7 @@ TEST(RecorderWithoutMemory, EndsWhereACommandCanNotBeKept) {
 }
 
 TEST(RecorderWithoutMemory, LeavesWhatWasWrittenReadable) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   {
     const test::SmallBone bone;
     haptics::TickLog log;

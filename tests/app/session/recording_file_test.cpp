@@ -15,6 +15,7 @@
 #include "app/session/session_writer.h"
 #include "tests/app/session/small_session.h"
 #include "tests/refusal.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -30,7 +31,7 @@ std::string refusalOf(const std::function<void()>& work) {
 }
 
 struct Place {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   test::SmallBone bone;
   std::string path = folder.file("s.molar");
 

@@ -10,6 +10,7 @@
 #include "app/session/session_error.h"
 #include "app/session/session_writer.h"
 #include "tests/app/session/real_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -24,7 +25,7 @@ ReplayedState momentOf(const std::string& path, double t_s) {
 
 /// One recorded rehearsal and the bone it left.
 struct Recorded {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::BoneBlock block;
   haptics::CarvedBone bone{block.grid, block.solid, block.label};
@@ -62,7 +63,7 @@ TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
   const test::BoneBlock block;
   haptics::CarvedBone bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   SessionWriter writer(path, true, block.start());
   std::size_t with_torque = 0;
@@ -96,7 +97,7 @@ TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
 
 /// Drills three strokes, half a second apart, the second of them dry, then takes back the last two: 2.4 s.
 struct RecordedUndo {
-  test::ScratchFolder folder;
+  tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::BoneBlock block;
   haptics::CarvedBone bone{block.grid, block.solid, block.label};
@@ -159,7 +160,7 @@ TEST(Replay, TripsAsTheRehearsalDid) {
   const test::BoneBlock block;
   haptics::CarvedBone bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   SessionStart start = block.start();
   start.command.safety = haptics::strict(start.command.safety);
@@ -322,7 +323,7 @@ TEST(Replay, AnswersNoWhicheverByteWasChanged) {
 }
 
 TEST(Replay, RefusesWhatNeverWasASession) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   test::writeBytes(folder.file("text"), std::string(5000, 'x'));
   EXPECT_THROW(verify(folder.file("text")), SessionError);
   EXPECT_THROW(verify(folder.file("missing")), SessionError);

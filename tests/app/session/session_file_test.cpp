@@ -12,6 +12,7 @@
 #include "app/session/tick_columns.h"
 #include "haptics/bone/carve.h"
 #include "tests/app/session/small_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -52,7 +53,7 @@ std::uint64_t readEverything(SessionReader& session) {
 }
 
 TEST(SessionFile, GivesBackWhatWasWritten) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   writeSession(folder.file("s.molar"), true);
   SessionReader session(folder.file("s.molar"));
   EXPECT_EQ(session.damage(), std::nullopt);
@@ -104,13 +105,13 @@ TEST(SessionCalibration, IsSaidInOneLine) {
 }
 
 TEST(SessionFile, IsOneSingleFileOnceClosed) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   writeSession(folder.file("s.molar"), true);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"s.molar"});
 }
 
 TEST(SessionFile, IsAnOrdinaryDatabaseForOtherTools) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   writeSession(folder.file("s.molar"), true);
   SQLite::Database database(folder.file("s.molar"));
   EXPECT_EQ(database.execAndGet("PRAGMA integrity_check").getString(), "ok");
@@ -145,7 +146,7 @@ void append(SQLite::Database& database, const std::string& table, const std::vec
 }
 
 TEST(SessionFile, OfAProgramAfterThisOneIsReadAsFarAsItIsKnown) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeSession(path, false);
   {
@@ -172,7 +173,7 @@ TEST(SessionFile, OfAProgramAfterThisOneIsReadAsFarAsItIsKnown) {
 }
 
 TEST(SessionFile, HoldsAsManyTicksAsItsSealSays) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   for (const std::uint64_t ticks : {80u, 130u}) {
     const std::string path = folder.file(std::to_string(ticks));
     writeSession(path, false);
@@ -186,7 +187,7 @@ TEST(SessionFile, HoldsAsManyTicksAsItsSealSays) {
 }
 
 TEST(SessionFile, RefusesTablesThatReadingWouldRun) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   for (const char* table :
        {"CREATE TABLE more(row INTEGER PRIMARY KEY, x TEXT AS (hex(zeroblob(1000000000))), digest BLOB) STRICT",
         "CREATE VIEW more AS SELECT 1", "CREATE TABLE more(row INTEGER PRIMARY KEY, x TEXT, digest BLOB)",
@@ -201,7 +202,7 @@ TEST(SessionFile, RefusesTablesThatReadingWouldRun) {
 }
 
 TEST(SessionFile, SplitsABoneLargerThanARowMayHold) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   SessionStart start = test::SmallBone().start();
   start.grid = {{300, 300, 200}, 0.2, {0.0, 0.0, 0.0}};
@@ -232,7 +233,7 @@ TEST(SessionFile, SplitsABoneLargerThanARowMayHold) {
 }
 
 TEST(SessionFile, IsReadWithoutTouchingTheDisk) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   writeSession(folder.file("s.molar"), true);
   const std::string before = bytesOf(folder.file("s.molar"));
   {
@@ -245,7 +246,7 @@ TEST(SessionFile, IsReadWithoutTouchingTheDisk) {
 }
 
 TEST(SessionFile, IsFoundWhateverItsName) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("a b?c#d%20é.molar");
   writeSession(path, true);
   SessionReader session(path);
@@ -253,7 +254,7 @@ TEST(SessionFile, IsFoundWhateverItsName) {
 }
 
 TEST(SessionFile, LeftByAKillIsWholeToItsLastWrite) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar"), log = path + "-wal";
   writeKilledSession(path);
   const std::string path_before = bytesOf(path), log_before = bytesOf(log);
@@ -268,7 +269,7 @@ TEST(SessionFile, LeftByAKillIsWholeToItsLastWrite) {
 }
 
 TEST(SessionFile, OverwritesNothingUnasked) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeBytes(path, "precious");
   const test::SmallBone bone;
@@ -279,14 +280,14 @@ TEST(SessionFile, OverwritesNothingUnasked) {
 }
 
 TEST(SessionFile, RefusesToStartOnTheLogOfAnother) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   writeBytes(folder.file("s.molar-wal"), "the rest of a killed session");
   const test::SmallBone bone;
   EXPECT_THROW(SessionWriter(folder.file("s.molar"), false, bone.start()), SessionError);
 }
 
 TEST(SessionFile, LeavesNothingWhereItCanNotBeWritten) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const test::SmallBone bone;
   EXPECT_THROW(SessionWriter(folder.file("missing/s.molar"), false, bone.start()), SessionError);
   EXPECT_THROW(SessionWriter(folder.file(""), true, bone.start()), SessionError);
@@ -294,7 +295,7 @@ TEST(SessionFile, LeavesNothingWhereItCanNotBeWritten) {
 }
 
 TEST(SessionFile, IsRefusedInOneLineWhenItIsNone) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   writeBytes(folder.file("text"),
              "not a database, but long enough to have a header of one hundred bytes, or so it "
              "seems to anybody who counts them one by one");
@@ -321,7 +322,7 @@ bool isFoundOut(const std::string& path) {
 }
 
 TEST(SessionChain, FindsAnyChangedByteOfAClosedFile) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeSession(path, true);
   const std::string whole = bytesOf(path);
@@ -336,7 +337,7 @@ TEST(SessionChain, FindsAnyChangedByteOfAClosedFile) {
 }
 
 TEST(SessionChain, FindsAnythingCutFromTheRowsOfAClosedFile) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeSession(path, true);
   const std::string whole = bytesOf(path);
@@ -348,7 +349,7 @@ TEST(SessionChain, FindsAnythingCutFromTheRowsOfAClosedFile) {
 }
 
 TEST(SessionSeal, MissingOrCutShortByAPowerCutIsNoChange) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeSession(path, true);
   const std::string whole = bytesOf(path), rows = whole.substr(0, whole.size() - 40);
@@ -369,7 +370,7 @@ TEST(SessionSeal, MissingOrCutShortByAPowerCutIsNoChange) {
 }
 
 TEST(SessionChain, FindsAChangeInEveryColumnOfAKilledFile) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeSession(path, false);
   ASSERT_FALSE(isFoundOut(path));
@@ -399,7 +400,7 @@ TEST(SessionChain, FindsAChangeInEveryColumnOfAKilledFile) {
 }
 
 TEST(SessionChain, FindsARowTakenOutOrMoved) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar"), changed = folder.file("changed.molar");
   writeSession(path, false);
   for (const char* change :
@@ -413,7 +414,7 @@ TEST(SessionChain, FindsARowTakenOutOrMoved) {
 }
 
 TEST(SessionChain, HoldsForEveryPrefixOfWrites) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
   writeKilledSession(path);
   const std::string log = bytesOf(path + "-wal");

@@ -12,6 +12,7 @@
 #include "app/session/tick_columns.h"
 #include "tests/app/session/small_session.h"
 #include "tests/mutants.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -63,7 +64,7 @@ bool isRefused(const std::string& path) {
 }
 
 TEST(SessionMutants, OfClosedFilesOfEverySchemaAreFoundOutOrWhole) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   record(folder.file("s.molar"), true);
   const std::string recorded = MOLAR_RECORDED_SESSIONS;
   const std::vector<std::string> good = {bytesOf(folder.file("s.molar")), bytesOf(recorded + "/schema_3.molar"),
@@ -82,7 +83,7 @@ TEST(SessionMutants, OfClosedFilesOfEverySchemaAreFoundOutOrWhole) {
 }
 
 TEST(SessionMutants, OfAKilledRecordingAreReadOrRefused) {
-  const test::ScratchFolder folder;
+  const tests::ScratchFolder folder;
   record(folder.file("s.molar"), false);
   const std::string killed = folder.file("s.molar.killed"), mutated = folder.file("m.molar");
   const std::vector<std::string> good = {bytesOf(killed), bytesOf(killed + "-wal")};

@@ -11,13 +11,14 @@
 #include "app/session/session_reader.h"
 #include "app/session/session_writer.h"
 #include "tests/app/session/small_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
 
 /// The data folder of this test, with sessions in it.
 struct DataFolder {
-  test::ScratchFolder scratch;
+  tests::ScratchFolder scratch;
   test::SmallBone bone;
   std::filesystem::path sessions;
 

@@ -1,9 +1,8 @@
-// A small session for tests: a few voxels of bone, ticks with every field set to something of its own, and a folder
-// that goes away. No servo; ticks are made up. Test code only.
+// A small session for tests: a few voxels of bone and ticks with every field set to something of its own. No servo;
+// ticks are made up. Test code only.
 #pragma once
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -14,36 +13,9 @@
 
 #include "app/session/session_start.h"
 #include "haptics/servo/tick.h"
+#include "tests/scratch_folder.h"
 
 namespace app::test {
-
-/// A folder of this test alone, removed with everything in it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::random_device entropy;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("molar_" + std::string(test->test_suite_name()) + test->name() + std::to_string(entropy()));
-    std::filesystem::create_directories(folder_);
-  }
-  ~ScratchFolder() {
-    std::error_code failed;
-    std::filesystem::remove_all(folder_, failed);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.push_back(entry.path().filename());
-    return names;
-  }
-
- private:
-  std::filesystem::path folder_;
-};
 
 struct SmallBone {
   assets::VolumeGrid grid{{10, 9, 8}, 0.2, {-1.0, 2.5, 0.0}};

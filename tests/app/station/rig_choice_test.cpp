@@ -14,6 +14,7 @@
 #include "tests/app/session/small_session.h"
 #include "tests/app/typed.h"
 #include "tests/refusal.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -67,7 +68,7 @@ class RigChoice : public Test {
   std::string refusal(const std::string& arguments, const DeviceIdentity& device) const {
     return tests::refusalOf<UsageError>([&] { choose(arguments, device); });
   }
-  const test::ScratchFolder folder_;
+  const tests::ScratchFolder folder_;
   const DeviceIdentity practice_ = deviceIdentity("practice:D:7", nullptr), mouse_ = deviceIdentity("mouse", nullptr);
 };
 

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/app/text/sample_program.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -40,11 +41,11 @@ TEST(ManualPage, IsReadByGroffWithoutAWord) {
   if (std::system("command -v groff >/dev/null") != 0)
     GTEST_SKIP() << "groff is not installed (apt-get install groff-base)";
   const SampleProgram surgery;
-  const auto file = std::filesystem::path(testing::TempDir()) / "molar-cut.1";
+  const tests::ScratchFolder folder;
+  const std::string file = folder.file("molar-cut.1");
   std::ofstream(file) << manualPage("molar cut", surgery.program.help().commands[0], "Molar 1.2");
-  const std::string said = file.string() + ".said";
-  ASSERT_EQ(std::system(("groff -K utf8 -man -Tutf8 -ww '" + file.string() + "' >/dev/null 2>'" + said + "'").c_str()),
-            0);
+  const std::string said = file + ".said";
+  ASSERT_EQ(std::system(("groff -K utf8 -man -Tutf8 -ww '" + file + "' >/dev/null 2>'" + said + "'").c_str()), 0);
   EXPECT_EQ(std::filesystem::file_size(said), 0u);
 }
 

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 
 #include "tests/app/text/sample_program.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -14,9 +14,10 @@ namespace {
 /// Completions of bash for a line whose last word is being typed.
 std::string offered(const std::string& words) {
   const SampleProgram surgery;
-  const auto script = std::filesystem::path(testing::TempDir()) / "completion.bash";
+  const tests::ScratchFolder folder;
+  const std::string script = folder.file("completion.bash");
   std::ofstream(script) << bashCompletion("surgery", surgery.program.help());
-  const std::string ask = ". '" + script.string() + "'; COMP_WORDS=(" + words +
+  const std::string ask = ". '" + script + "'; COMP_WORDS=(" + words +
                           "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _surgery; echo \"${COMPREPLY[*]}\"";
   std::FILE* const shell = ::popen(("bash -c '" + ask + "' 2>&1").c_str(), "r");
   std::string said;

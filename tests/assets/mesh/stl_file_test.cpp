@@ -8,14 +8,15 @@
 #include "assets/mesh/bone_surface.h"
 #include "tests/assets/mesh/closed_mesh.h"
 #include "tests/assets/mesh/stl_reader.h"
+#include "tests/scratch_folder.h"
 
 namespace assets {
 namespace {
 
 class StlFile : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-  std::string path_ = testing::TempDir() + "molar_stl_file_test.stl";
+  tests::ScratchFolder folder_;
+  std::string path_ = folder_.file("bone.stl");
 };
 
 MeshPart ball(const std::string& name) {

@@ -8,6 +8,7 @@
 #include "calibration/png_file.h"
 #include "calibration/webcam/webcam_source.h"
 #include "tests/refusal.h"
+#include "tests/scratch_folder.h"
 
 namespace calibration {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(ImageFolder, ReturnsImagesInNumericOrder) {
-  const std::string folder = testing::TempDir() + "image_folder_test";
-  std::filesystem::create_directories(folder);
+  const tests::ScratchFolder scratch;
+  const std::string folder = scratch.file("");
   for (const int number : {10, 2, 1, 33})
     writePng(folder + "/view" + std::to_string(number) + ".png", {16, 16},
              std::vector<std::uint8_t>(16 * 16 * 4, static_cast<std::uint8_t>(number)));
