@@ -16,6 +16,7 @@
 #include "app/options/command_settings.h"
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
+#include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/rehearsal/continuation.h"
@@ -241,6 +242,8 @@ int run(RehearseOptions& options) {
   options.picture.apply(plan.first_frame);
   if (options.monitor) plan.monitor = *options.monitor - 1;
   plan.snapshot_px = imageSize(options.snapshot_size);
+  refuseUnlessPng("--snapshot", plan.snapshot, MissingEnding::allowed);
+  refuseUnlessPng("--first-snapshot", plan.first_snapshot, MissingEnding::allowed);
   if (!plan.snapshot.empty() && plan.snapshot == plan.first_snapshot)
     throw UsageError("--first-snapshot " + plan.snapshot + ": the same as --snapshot, give another name");
   if (!options.record.empty())

@@ -59,9 +59,10 @@ void applySettings(const std::vector<std::string>& texts, const SettingMap& sett
   }
 }
 
-void refuseUnlessPng(const std::string& option, const std::string& path) {
-  if (std::filesystem::path(path).extension() != ".png")
-    throw UsageError(option + " " + path + ": images are PNG, end the name in .png");
+void refuseUnlessPng(const std::string& option, const std::string& path, MissingEnding missing_ending) {
+  const std::filesystem::path ending = std::filesystem::path(path).extension();
+  if (ending.empty() && missing_ending == MissingEnding::allowed) return;
+  if (ending != ".png") throw UsageError(option + " " + path + ": images are PNG, end the name in .png");
 }
 
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {

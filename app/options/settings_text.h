@@ -24,8 +24,10 @@ std::string_view formerKey(std::string_view key);
 /// Applies every `key=value`; unknown keys, duplicates and values out of range are refused.
 void applySettings(const std::vector<std::string>& texts, const SettingMap& settings);
 
-/// Refuses an image of another format.
-void refuseUnlessPng(const std::string& option, const std::string& path);
+/// Refuses an image of another format. Allowed: a name without an ending, or none at all, where one is added.
+enum class MissingEnding { refused, allowed };
+void refuseUnlessPng(const std::string& option, const std::string& path,
+                     MissingEnding missing_ending = MissingEnding::refused);
 
 /// Refuses an output that is one of the inputs: --force must not overwrite what is being read.
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs);

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "assets/load_error.h"
 #include "calibration/png_file.h"
 
 namespace app {
@@ -11,8 +10,6 @@ namespace {
 /// `folder/name.png` with a word before the ending: `folder/name_left.png`.
 std::string withWord(const std::string& path, const std::string& word) {
   const std::filesystem::path p(path);
-  if (p.has_extension() && p.extension() != ".png")
-    throw assets::LoadError("image " + path + ": images are PNG, end the name in .png");
   return (p.parent_path() / (p.stem().string() + "_" + word + ".png")).string();
 }
 

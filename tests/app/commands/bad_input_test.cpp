@@ -70,6 +70,8 @@ TEST_F(BadInput, OptionsHaveRanges) {
     expectRefusal(std::string("rehearse --headless --device scripted ") + nan);
   expectRefusal("rehearse --headless --device scripted --record /dev/full --force", "plain file");
   expectRefusal("rehearse --headless --device scripted --snapshot " + at("a.png") + " --first-snapshot " + at("a.png"));
+  for (const std::string option : {"--snapshot ", "--first-snapshot "})
+    expectRefusal("rehearse --headless --device scripted " + option + at("a.jpg"), option + at("a.jpg"));
   expectRefusal("rehearse " + at("nobody") + " --voxel 0.6", "--voxel");
   const std::string see = "see --volume " + at("v.nrrd") + " --field solid --out " + at("a.png");
   expectRefusal(see + " --size 0x0", "--size");
