@@ -23,6 +23,7 @@
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
+#include "app/session/data_folder.h"
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
 #include "app/station/case_reach.h"
@@ -165,7 +166,7 @@ std::string withSessionNamed(const std::string& device) {
 std::optional<Recording> defaultRecording(int fdi) {
   try {
     const std::filesystem::path folder = usualSessionFolder();
-    makeSessionFolder(folder);
+    makeDataFolder(folder);
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     Recording recording{newSessionPath(folder, now.time_since_epoch().count(), fdi)};
     recording.by_default = true;

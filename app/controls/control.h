@@ -66,7 +66,7 @@ inline constexpr std::array<ControlMeaning, 20> kControls = {{
     {Control::irrigation, "irrigation", "I", "irrigation on or off", ControlValue::on_or_off, true},
     {Control::undo, "undo", "U", "undo the last stroke", ControlValue::none, true, "Ctrl+Z"},
     {Control::redo, "redo", "Shift+U", "redo the stroke undone last", ControlValue::none, true, "Ctrl+Shift+Z"},
-    {Control::snapshot, "snapshot", "P", "snapshot", ControlValue::none, false},
+    {Control::snapshot, "snapshot", "P", "save a picture at full quality", ControlValue::none, false},
     {Control::stop, "stop", "Shift+X", "emergency stop: motors off", ControlValue::none, false},
     {Control::arm, "arm", "R", "arm again after a fault", ControlValue::none, false},
     {Control::home, "home", "H", "the handle is at home", ControlValue::none, false},

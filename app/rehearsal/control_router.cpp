@@ -1,10 +1,15 @@
 #include "app/rehearsal/control_router.h"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
+#include <filesystem>
 
 #include "app/rehearsal/frame_builder.h"
+#include "app/session/data_folder.h"
 #include "app/text/message.h"
+#include "app/view/snapshot.h"
+#include "calibration/output_file.h"
 
 namespace app {
 
@@ -140,19 +145,24 @@ void ControlRouter::stopMotors() {
   printMessage("emergency stop: the motors are off; end and start again to feel");
 }
 
-/// Of the frame shown last; a stepped rehearsal draws the current one for it.
+/// Into the data folder, never over another picture. A stepped rehearsal has not opened its view yet.
 void ControlRouter::takeSnapshot(const render::Frame& frame) {
   if (plan_.ticking == Ticking::stepped) {
     view_.display().renderer();
     view_.uploadBone();
     view_.showInstrument();
-    view_.show(frame);
   }
   try {
-    const std::string path = saveNextSnapshot(view_.readImage());
+    const std::filesystem::path folder = usualPictureFolder();
+    makeDataFolder(folder);
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    const int fdi = plan_.patient.site ? plan_.patient.site->fdi : 0;
+    const std::string path = newPicturePath(folder, now.time_since_epoch().count(), fdi);
+    calibration::OutputFile file(path, false);
+    savePng(view_.fullPicture(frame), file);
     event_log_.note("snapshot", path);
-    printMessage("snapshot " + path);
-    head_up_.say("snapshot " + path);
+    printMessage("picture saved as " + path);
+    head_up_.say("picture saved as " + path);
   } catch (const std::exception& error) {
     printMessage(error.what());
     head_up_.say(error.what());

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/view/patient_renderer.h"
+#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
@@ -70,7 +71,7 @@ void LiveView::show(const render::Frame& frame) {
 /// Where the site is seen decides the edge of the text.
 void LiveView::updateOverlay(const render::Frame& frame) {
   calibration::Rig rig = frame.rig;
-  rig.screen.px = display_->imageSize_px(rig);
+  rig.screen.px = display().imageSize_px(rig);
   render::FrameRenderer& renderer = display_->renderer();
   if (!head_up_line_.update(head_up_, headUpPlace(rig, display_->mode(), frame)) && !overlay_is_new_) return;
   renderer.setOverlay(head_up_line_.panels());
@@ -104,6 +105,12 @@ void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::
   frame.rig.screen.px = plan_.snapshot_px;
   frame.gap = frame.tool_visible ? renderer->gap(frame) : std::nullopt;
   snapshot.take(*renderer, frame);
+}
+
+render::Image LiveView::fullPicture(render::Frame frame) {
+  frame.quality = render::kQualitySteps.front().quality;
+  updateOverlay(frame);
+  return display().picture(frame);
 }
 
 void LiveView::describe(RehearsalStatus& status) {

@@ -55,8 +55,8 @@ class LiveView {
 
   /// Both eyes at full quality. `solid`: the bone, in the order of the patient's grid.
   void takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid);
-  /// The frame shown last.
-  render::Image readImage() { return display().renderer().readImage(); }
+  /// The frame and its text at the best quality of the ladder, whatever it is shown with. Throws GpuError.
+  render::Image fullPicture(render::Frame frame);
 
   SurgeonDisplay& display();
   /// Null: headless.

@@ -1,15 +1,12 @@
 #include "app/session/session_folder.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <ctime>
 #include <optional>
 #include <utility>
 
-#include <fmt/chrono.h>
+#include <fmt/core.h>
 
+#include "app/session/data_folder.h"
 #include "app/session/recording_file.h"
 #include "app/session/session_error.h"
 
@@ -22,20 +19,10 @@ constexpr int kMaxSameSecond = 999;
 
 }  // namespace
 
-fs::path usualSessionFolder() {
-  // Relative paths are ignored (XDG Base Directory Specification).
-  if (const char* const data = std::getenv("XDG_DATA_HOME"); data != nullptr && data[0] == '/')
-    return fs::path(data) / "molar" / "sessions";
-  if (const char* const own = std::getenv("HOME"); own != nullptr && own[0] == '/')
-    return fs::path(own) / ".local" / "share" / "molar" / "sessions";
-  throw SessionError("no folder for sessions is known: set HOME or XDG_DATA_HOME to a folder");
-}
+fs::path usualSessionFolder() { return dataFolder("sessions"); }
 
 std::string newSessionPath(const fs::path& folder, std::int64_t unix_s, int fdi) {
-  const auto seconds = static_cast<std::time_t>(unix_s);
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  const std::string name = fmt::format("{:%Y-%m-%d-%H%M%S}-", local) + (fdi > 0 ? fmt::format("tooth-{}", fdi) : "jaw");
+  const std::string name = datedName(unix_s, fdi);
   const auto is_taken = [&](const std::string& stem) {
     std::error_code failed;
     for (const std::string& file : sessionFiles((folder / (stem + ".molar")).string()))
@@ -45,13 +32,6 @@ std::string newSessionPath(const fs::path& folder, std::int64_t unix_s, int fdi)
   std::string stem = name;
   for (int n = 2; is_taken(stem) && n <= kMaxSameSecond; ++n) stem = fmt::format("{}-{}", name, n);
   return (folder / (stem + ".molar")).string();
-}
-
-void makeSessionFolder(const fs::path& folder) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed || !fs::is_directory(folder, failed) || ::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw SessionError(folder.string() + ": cannot be written: check the folder and its permissions");
 }
 
 fs::file_time_type lastWritten(const fs::path& session) {

@@ -1,6 +1,7 @@
 #include "app/view/snapshot.h"
 
 #include <filesystem>
+#include <string>
 
 #include "calibration/png_file.h"
 
@@ -18,15 +19,6 @@ std::string withWord(const std::string& path, const std::string& word) {
 void savePng(const render::Image& image, calibration::OutputFile& file) {
   calibration::writePng(file.temporaryPath(), {image.w, image.h}, image.rgba);
   file.commit();
-}
-
-std::string saveNextSnapshot(const render::Image& image) {
-  std::string path;
-  for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
-    path = "molar-snapshot-" + std::to_string(n) + ".png";
-  calibration::OutputFile file(path, false);
-  savePng(image, file);
-  return std::filesystem::absolute(path).string();
 }
 
 StereoSnapshot::StereoSnapshot(const std::string& path, bool overwrite)

@@ -1,5 +1,5 @@
 // PNG files of the view: both eyes (`name_left.png`, `name_right.png`), claimed before the work and written whole or
-// not at all, or the next free snapshot name. Any thread; milliseconds.
+// not at all, or one picture. Any thread; milliseconds.
 #pragma once
 
 #include <string>
@@ -10,9 +10,7 @@
 
 namespace app {
 
-/// Saves as the first free name of `molar-snapshot-1.png`, …; returns its full path.
-std::string saveNextSnapshot(const render::Image& image);
-
+/// Throws CalibrationError.
 void savePng(const render::Image& image, calibration::OutputFile& file);
 
 class StereoSnapshot {

@@ -97,18 +97,28 @@ glm::ivec2 SurgeonDisplay::imageSize_px(const calibration::Rig& rig) {
   return render::isInterleaved(mode()) && window_px.x > 0 && window_px.y > 0 ? window_px : rig.screen.px;
 }
 
-void SurgeonDisplay::show(render::Frame frame) {
+void SurgeonDisplay::prepare(render::Frame& frame) {
   frame.display = mode();
   frame.eyes_swapped = options_.eyes_swapped;
+  if (window() == nullptr) return;
+  // Scaling would mix the eyes' lines.
+  frame.rig.screen.px = imageSize_px(frame.rig);
+  if (render::isInterleaved(mode())) frame.output_at_px = window()->positionOnPanel_px();
+}
+
+render::Image SurgeonDisplay::picture(render::Frame frame) {
+  prepare(frame);
+  renderer().render(frame);
+  renderer_->throwIfError();
+  return renderer_->readImage();
+}
+
+void SurgeonDisplay::show(render::Frame frame) {
   if (window() != nullptr) {
     const glm::ivec2 window_px = window()->framebufferSize_px();
     if (window_px.x <= 0 || window_px.y <= 0) return;  // minimised
-    // Scaling would mix the eyes' lines.
-    frame.rig.screen.px = imageSize_px(frame.rig);
-    if (render::isInterleaved(mode())) {
-      frame.output_at_px = window()->positionOnPanel_px();
-    }
   }
+  prepare(frame);
   for (;;) {
     try {
       return drawAndPresent(frame);

@@ -40,6 +40,8 @@ class SurgeonDisplay {
   /// Draws and presents. Sets the frame's display mode, eye order and, on interleaved displays, size. Recreates
   /// everything after a reset of the graphics card; throws ContextLost at the fourth.
   void show(render::Frame frame);
+  /// The first output of the frame as show() would draw it, not presented. Throws GpuError.
+  render::Image picture(render::Frame frame);
   /// Until the GPU has presented the newest frame.
   void waitUntilShown();
 
@@ -74,6 +76,7 @@ class SurgeonDisplay {
  private:
   void open();
   void openOffscreen();
+  void prepare(render::Frame& frame);
   void drawAndPresent(render::Frame& frame);
   void close();
 

@@ -23,6 +23,14 @@ class RehearseCommand : public ProgramTest {
     setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
     setenv("MOLAR_CALIBRATION", at("store").c_str(), 1);
   }
+
+  std::vector<std::filesystem::path> savedPictures() const {
+    std::vector<std::filesystem::path> found;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(dataFolder() + "/molar/pictures", none))
+      found.push_back(entry.path());
+    return found;
+  }
 };
 
 constexpr char kQuick[] = "rehearse --headless --pace fast --voxel 0.6 --size 96x64 ";
@@ -149,11 +157,36 @@ TEST_F(RehearseCommand, ExecutesTheLastRowInRealTimeToo) {
                            " rehearse --headless --voxel 0.6 --size 96x64 --renderer cpu --tool sphere:1.5 --tool "
                            "sphere:1 --device poses:p.csv --record s.molar >out 2>err";
   ASSERT_EQ(std::system(line.c_str()), 0) << read("err");
-  EXPECT_FALSE(read("molar-snapshot-1.png").empty()) << read("err");
+  EXPECT_EQ(savedPictures().size(), 1u) << read("err");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) EXPECT_NE(entry.path().extension(), ".png");
   const std::vector<SessionCommand> commands = SessionReader(at("s.molar")).commands();
   ASSERT_FALSE(commands.empty());
   EXPECT_EQ(commands.back().command.tool.head.radius_mm, 1.0);
   EXPECT_EQ(ticksOf(at("s.molar")).back().command_serial, commands.back().command.serial) << "in force for a tick";
+}
+
+TEST_F(RehearseCommand, SavesAPictureAtFullQualityWhateverTheLiveQuality) {
+  write("p.csv", std::string(kPoseHeader) +
+                     "0,0,0,9,1,0,0,0,0,,\n0.2,0,0,6,1,0,0,0,0,,snapshot\n"
+                     "0.2005,0,0,6,1,0,0,0,0,,\n0.3,0,0,6,1,0,0,0,0,,\n");
+  const auto picture_at = [&](const std::string& quality) {
+    const ProgramOutput said = molar(kQuick + ("--no-record --renderer cpu --device poses:" + at("p.csv") + quality));
+    EXPECT_EQ(said.status, 0) << said.err;
+    const std::vector<std::filesystem::path> saved = savedPictures();
+    EXPECT_EQ(saved.size(), 1u);
+    if (saved.empty()) return std::string();
+    EXPECT_NE(said.err.find("picture saved as " + saved[0].string()), std::string::npos) << said.err;
+    EXPECT_TRUE(saved[0].filename().string().ends_with("-tooth-48.png")) << saved[0];
+    std::ifstream file(saved[0], std::ios::binary);
+    std::ostringstream bytes;
+    bytes << file.rdbuf();
+    std::filesystem::remove(saved[0]);
+    return bytes.str();
+  };
+  const std::string best = picture_at(" --quality 0"), poorest = picture_at(" --quality 6");
+  EXPECT_GT(best.size(), 1000u);
+  EXPECT_EQ(best, poorest);
+  EXPECT_EQ(best, picture_at(""));
 }
 
 TEST_F(RehearseCommand, EndsAtTheTickOfAnEndRequest) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "app/session/data_folder.h"
 #include "app/session/recorder.h"
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
@@ -25,7 +26,7 @@ struct DataFolder {
   DataFolder() {
     setenv("XDG_DATA_HOME", std::filesystem::path(scratch.file("")).c_str(), 1);
     sessions = usualSessionFolder();
-    makeSessionFolder(sessions);
+    makeDataFolder(sessions);
   }
   ~DataFolder() { unsetenv("XDG_DATA_HOME"); }
 
@@ -121,6 +122,20 @@ TEST(SessionFolder, NamesHoldDateTimeAndToothAndAreFree) {
   test::writeBytes(first, "taken");
   EXPECT_EQ(newSessionPath(at.sessions, 1'795'161'600, 48),
             (at.sessions / "2026-11-20-080000-tooth-48-2.molar").string());
+}
+
+TEST(DataFolder, PicturesHaveFreeNamesOfDateTimeAndTooth) {
+  DataFolder at;
+  setenv("TZ", "UTC", 1);
+  tzset();
+  const std::filesystem::path folder = usualPictureFolder();
+  EXPECT_EQ(folder.filename(), "pictures");
+  EXPECT_EQ(folder.parent_path(), at.sessions.parent_path());
+  makeDataFolder(folder);
+  const std::string first = newPicturePath(folder, 1'795'161'600, 48);
+  EXPECT_EQ(first, (folder / "2026-11-20-080000-tooth-48.png").string());
+  test::writeBytes(first, "taken");
+  EXPECT_EQ(newPicturePath(folder, 1'795'161'600, 48), (folder / "2026-11-20-080000-tooth-48-2.png").string());
 }
 
 TEST(SessionSetup, IsStoredWithTheSession) {
