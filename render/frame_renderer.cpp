@@ -8,7 +8,7 @@
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_image.h"
-#include "render/scene/mandibular_canal_tube.h"
+#include "render/scene/guide_tube.h"
 #include "render/scene_renderer.h"
 #include "render/volume/clearance_legend.h"
 

@@ -181,8 +181,15 @@ bool mayMeetDynamic(const MeshBodies& bodies, const RayBatch& rays, float* limit
   return any;
 }
 
-// Removes the layers from `first` on that the face or an instrument hides.
-void removeOccluded(const MeshBodies& bodies, const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) {
+// Removes the layers from `first` on that the face or an instrument hides, and guides that are not behind what is seen.
+void removeOccluded(const MeshBodies& bodies, const RayBatch& rays, const float* seen_mm, std::vector<Layer>& layers,
+                    std::size_t first) {
+  const auto is_open = [&](const Layer& layer) {
+    return finishOf(bodies.all()[layer.body].model) == Finish::guide &&
+           layer.distance_mm < seen_mm[layer.ray] + GUIDE_HIDDEN_MM;
+  };
+  layers.erase(std::remove_if(layers.begin() + static_cast<std::ptrdiff_t>(first), layers.end(), is_open),
+               layers.end());
   if (layers.size() == first) return;
   static thread_local MeshHits occluder_hits;
   alignas(64) float limit_mm[RayBatch::kMaxRays];
@@ -236,7 +243,7 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
   if (has(MeshGroup::transparent)) collect(scene(MeshGroup::transparent), limit_mm);
   const std::size_t first_overlay = met.size();
   if (has(MeshGroup::overlay)) collect(scene(MeshGroup::overlay), rays.far_mm);
-  removeOccluded(*this, rays, met, first_overlay);
+  removeOccluded(*this, rays, limit_mm, met, first_overlay);
   if (met.empty()) return;
 
   // Ray by ray from back to front; at equal distance the later body is in front.

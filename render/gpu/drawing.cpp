@@ -35,6 +35,8 @@ void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corn
 
 void finishStorageWrites() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); }
 
+void finishTargetWrites() { glTextureBarrier(); }
+
 void drawScreen(const Program& program, const DrawState& state) {
   apply(state);
   program.use();

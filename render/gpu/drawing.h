@@ -29,6 +29,9 @@ void setViewport(glm::ivec2 corner, glm::ivec2 size);
 /// Makes shader writes to buffers and images visible to the next draw.
 void finishStorageWrites();
 
+/// Makes what was drawn into the bound framebuffer readable as a texture by the next draw, if that does not write it.
+void finishTargetWrites();
+
 /// The triangle of screen.vert over all of the bound framebuffer, or of its viewport.
 void drawScreen(const Program& program, const DrawState& state);
 

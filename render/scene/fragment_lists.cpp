@@ -32,6 +32,9 @@ void FragmentLists::begin(glm::ivec2 size) {
 void FragmentLists::blendOver(const Framebuffer& image) {
   finishStorageWrites();
   image.bind();
+  // Its distance is read and not written.
+  finishTargetWrites();
+  image.colour(DISTANCE_TARGET).bind(SCENE_DISTANCE_UNIT);
   drawScreen(*over_, {.depth_test = false, .depth_write = false, .blend = true, .write_distance = false});
 }
 

@@ -16,7 +16,7 @@ class FragmentLists {
  public:
   /// Empties the lists, for images of `size`, and binds them for mesh_transparent.frag.
   void begin(glm::ivec2 size);
-  /// Blends them over the colour of the image.
+  /// Blends them over the colour of the image, guides where they lie behind its distance.
   void blendOver(const Framebuffer& image);
 
  private:

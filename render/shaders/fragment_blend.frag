@@ -1,7 +1,10 @@
 #version 450
-// Blends the transparent fragments of a pixel, nearest first, into one premultiplied colour.
+// Blends the transparent fragments of a pixel, nearest first, into one premultiplied colour. Guides count where they lie
+// behind what is seen.
 #include "fragment_list.glsl"
+#include "light_constants.glsl"
 
+layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;
 layout(location = COLOUR_TARGET) out vec4 colour;
 
 const int kMaxFragments = 16;  // the nearest ones
@@ -16,6 +19,7 @@ void main() {
   uint first = imageLoad(fragment_heads, ivec2(gl_FragCoord.xy)).r;
   if (first == kEnd) discard;
   colour = vec4(0.0);
+  float seen_mm = texelFetch(scene_distance, ivec2(gl_FragCoord.xy), 0).r;
 
   // The nearest of the list, then the nearest behind it, and so on, without memory for sorting.
   uvec3 last = uvec3(0u);
@@ -29,7 +33,9 @@ void main() {
     }
     if (nearest.x == kEnd) break;
     vec2 red_green = unpackHalf2x16(nearest.y), blue_opacity = unpackHalf2x16(nearest.z);
-    colour += (1.0 - colour.a) * blue_opacity.y * vec4(red_green, blue_opacity.x, 1.0);
     last = nearest;
+    bool is_open = seen_mm == 0.0 || uintBitsToFloat(nearest.x) < seen_mm + GUIDE_HIDDEN_MM;
+    if (blue_opacity.y < 0.0 && is_open) continue;
+    colour += (1.0 - colour.a) * abs(blue_opacity.y) * vec4(red_green, blue_opacity.x, 1.0);
   }
 }

@@ -5,7 +5,7 @@
 const uint kEnd = 0xffffffffu;
 
 struct Fragment {
-  uvec2 light;         // four halves: colour (not premultiplied) and opacity
+  uvec2 light;         // four halves: colour (not premultiplied) and opacity; negative: drawn only where hidden
   float distance_mm;
   uint next;
 };

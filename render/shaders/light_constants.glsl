@@ -105,3 +105,4 @@
 #define GUIDE_PLAN_RIM 0.14f
 #define GUIDE_PLAN_RIM_COVER 0.9f
 #define GUIDE_DARKEST 0.25f         // canal tube seen along its wall
+#define GUIDE_HIDDEN_MM 0.05f       // a guide that far behind what is seen is drawn through it

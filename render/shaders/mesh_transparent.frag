@@ -8,6 +8,8 @@ layout(early_fragment_tests) in;
 void main() {
   vec4 colour = meshColour();
   if (gl_HelperInvocation) return;
+  // A guide also lies in the scene as an opaque mesh: its overlay is for where that is hidden.
+  if (int(part.finish.z) == FINISH_GUIDE) colour.a = -colour.a;
   uint at = atomicAdd(fragment_list.count, 1u);
   if (at >= fragment_list.capacity) return;
   uint next = imageAtomicExchange(fragment_heads, ivec2(gl_FragCoord.xy), at);

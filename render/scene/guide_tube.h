@@ -1,0 +1,21 @@
+// Lines drawn as tubes of triangles: the mandibular canal, whole where it lies open and as dim dashes for where bone or
+// gum lies before it, and the ruler. Frame P, mm. A dash lies exactly on the whole tube, and has no ends of its own:
+// seen where the whole tube is hidden, it must not be hidden by that. Start-up, and whenever the ruler changes; pure.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "assets/mesh.h"
+
+namespace render {
+
+/// Closed at both ends. Empty for fewer than two distinct points.
+assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, double radius_mm);
+
+/// The same in dashes of that length along the line and gaps between them, darker.
+assets::MeshModel mandibularCanalDashes(std::span<const glm::dvec3> line_P_mm, double radius_mm);
+
+inline constexpr double kCanalDash_mm = 1.8, kCanalDashGap_mm = 1.2;
+
+}  // namespace render
