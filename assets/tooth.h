@@ -11,6 +11,9 @@
 
 namespace assets {
 
+/// Albedo of enamel in linear light, for the teeth of a scan and of a face mesh alike: one arch has one colour.
+inline constexpr glm::vec3 kEnamelAlbedo{0.70f, 0.65f, 0.53f};
+
 constexpr int quadrantOf(int fdi) { return fdi / 10; }
 /// From the midline, 1 is the central incisor.
 constexpr int positionOf(int fdi) { return fdi % 10; }

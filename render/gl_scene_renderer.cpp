@@ -53,7 +53,7 @@ class GlSceneRenderer final : public SceneRenderer {
                 options.skip_empty_space) {}
 
   void setModel(Model model, const assets::MeshModel& mesh) override {
-    models_[static_cast<std::size_t>(model)] = SceneMesh(mesh, finishOf(model));
+    models_[static_cast<std::size_t>(model)] = SceneMesh(mesh, model);
   }
   void setGuides(GuideField guides) override { volume_.setGuides(guides); }
   void setInsets(std::vector<Inset> insets) override {

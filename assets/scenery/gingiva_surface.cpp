@@ -9,22 +9,18 @@
 #include <cmath>
 
 #include "assets/load_error.h"
+#include "assets/scenery/reflected_flap.h"
+#include "assets/smooth_distance.h"
 #include "assets/vertex_normals.h"
 
 namespace assets {
 namespace {
 
-constexpr double kWoundReach_mm = 6.0;  // of its distances beyond the cut
+constexpr double kWoundReach_mm = 10.0;  // of its distances beyond the cut
 constexpr double kSightStep_mm = 1.0, kSight_mm = 14.0;
 constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
-constexpr int kSmoothingSteps = 3;
-
-// Polynomial smooth maximum, Quilez 2013.
-double roundedMax(double a, double b, double blend) {
-  const double overlap = std::max(blend - std::abs(a - b), 0.0) / blend;
-  return std::max(a, b) + 0.25 * overlap * overlap * blend;
-}
+constexpr int kSmoothingSteps = 4;
 
 bool carriesGingiva(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
 
@@ -68,18 +64,33 @@ void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& 
     const double gingiva = accessor.getValue({at.x, at.y, at.z});
     if (gingiva >= kBandVoxels) return;
     const double flap = -wound.distance_mm(voxels.centre_P_mm(at)) / voxels.spacing_mm;
-    const double cut = roundedMax(gingiva, flap, round);
+    const double cut = smoothMax(gingiva, flap, round);
     if (cut > gingiva) accessor.setValue({at.x, at.y, at.z}, static_cast<float>(std::min<double>(cut, kBandVoxels)));
   });
 }
 
-// Wet pink, paler away from the wound, deep red along its edge.
-glm::vec4 colourAt(const std::optional<Wound>& wound, const glm::dvec3& p_P) {
-  const glm::vec3 pink(0.56f, 0.205f, 0.185f);
-  const glm::vec3 edge(0.30f, 0.035f, 0.03f);
+constexpr glm::vec3 kPink(0.56f, 0.205f, 0.185f), kWound(0.30f, 0.035f, 0.03f);
+constexpr glm::vec3 kRaw(0.40f, 0.055f, 0.045f), kPeriosteum(0.60f, 0.27f, 0.22f);
+
+// The flap's raw underside with paler periosteum, up to the pink of its free edge.
+glm::vec3 undersideAt(const glm::dvec3& p_P, double over_mm) {
+  const double streaks = 0.5 + 0.5 * std::sin(1.3 * p_P.x + 2.9 * p_P.y + 1.8 * std::sin(1.1 * p_P.z + 0.6 * p_P.y));
+  const double margin = std::clamp(1.2 + 0.8 * (over_mm - ReflectedFlap::kFolded_mm), 0.0, 1.0);
+  return glm::mix(glm::mix(kRaw, kPeriosteum, static_cast<float>(0.4 * streaks * streaks)), kPink,
+                  static_cast<float>(0.8 * margin));
+}
+
+// Wet pink, deep red along the wound's edge and in the incision.
+glm::vec3 colourAt(const glm::dvec3& p_P, const std::optional<Wound>& wound, const std::optional<ReflectedFlap>& flap) {
   const double speckle = 0.05 * std::sin(2.1 * p_P.x + 1.3 * std::sin(1.7 * p_P.y)) * std::sin(1.9 * p_P.z + p_P.y);
-  const double near = wound ? std::exp(-std::pow(std::max(0.0, wound->distance_mm(p_P)) / 1.5, 2.0)) : 0.0;
-  return {glm::mix(pink * static_cast<float>(1.0 + speckle), edge, static_cast<float>(0.85 * near)), 1.0f};
+  const glm::vec3 pink = kPink * static_cast<float>(1.0 + speckle);
+  if (!wound || !flap) return pink;
+  const double over_mm = wound->distance_mm(p_P);
+  const double edge = std::exp(-std::pow(std::max(0.0, over_mm) / 1.5, 2.0));
+  const double incision = std::exp(-std::pow(std::max(0.0, flap->incision_mm(p_P)) / 0.45, 2.0));
+  const double on_flap = std::clamp(1.0 - (flap->distance_mm(p_P) - 0.05) / 0.35, 0.0, 1.0);
+  const glm::vec3 gingiva = glm::mix(pink, kWound, static_cast<float>(std::max(0.85 * edge, 0.9 * incision)));
+  return glm::mix(gingiva, undersideAt(p_P, over_mm), static_cast<float>(on_flap));
 }
 
 }  // namespace
@@ -108,7 +119,12 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cu
   const openvdb::FloatGrid::Ptr surface =
       openvdb::tools::topologyToLevelSet(*voxels, kBandVoxels, 1, 0, kSmoothingSteps);
   const auto wound = cut ? std::optional<Wound>(*cut) : std::nullopt;
-  if (wound) raiseFlap(*surface, ct.grid, *wound);
+  std::optional<ReflectedFlap> flap;
+  if (wound) {
+    flap.emplace(*surface, ct.grid, *cut, *wound);
+    raiseFlap(*surface, ct.grid, *wound);
+    flap->addTo(*surface);
+  }
 
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
@@ -125,7 +141,7 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cu
   for (const auto& p : points) {
     const glm::dvec3 p_P = ct.grid.origin_P_mm + ct.grid.spacing_mm * glm::dvec3(p.x(), p.y(), p.z());
     gingiva.position_mm.emplace_back(p_P);
-    gingiva.colour.push_back(colourAt(wound, p_P));
+    gingiva.colour.emplace_back(colourAt(p_P, wound, flap), 1.0f);
   }
   gingiva.normal = vertexNormals(gingiva.position_mm, gingiva.triangles);
   return {{std::move(gingiva)}};

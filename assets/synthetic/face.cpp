@@ -125,7 +125,7 @@ MeshModel syntheticFace(const FaceParameters& parameters, const ReportProgress& 
   model.parts.push_back(
       coloured(meshOf([](const dvec3& p) { return upperTeeth_mm(skullFromMandible(p)); }, kMouthBox, 0.7, 0.0),
                "UpperTeeth", enamel, tooth));
-  model.parts.push_back(coloured(meshOf(lowerTeeth_mm, kMouthBox, 0.7, 0.0), "LowerTeeth", enamel, tooth));
+  model.parts.push_back(coloured(meshOf(lowerTeeth_mm, kMouthBox, 0.45, 0.0), "LowerTeeth", enamel, tooth));
   model.parts.push_back(coloured(meshOf(tongue_mm, kMouthBox, 1.0, 0.0), "Tongue", {glm::vec4(1.0f), 0.38f, 0.0f},
                                  [&](const dvec3& p, const dvec3& n) { return colours.tongue(p, n); }));
   MeshPart hair = facialHair(head, parameters.seed);

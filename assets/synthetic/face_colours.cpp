@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assets/synthetic/face_frames.h"
+#include "assets/tooth.h"
 
 namespace assets {
 namespace {
@@ -16,8 +17,7 @@ constexpr dvec3 kShade{0.42, 0.225, 0.17};
 constexpr dvec3 kVermilion{0.48, 0.16, 0.13};
 constexpr dvec3 kMucosa{0.50, 0.125, 0.11};
 constexpr dvec3 kTongue{0.52, 0.17, 0.15};
-constexpr dvec3 kEnamel{0.80, 0.72, 0.56};
-constexpr dvec3 kNeck{0.70, 0.52, 0.30};
+constexpr dvec3 kNeck{0.66, 0.56, 0.40};
 
 }  // namespace
 
@@ -96,8 +96,8 @@ glm::vec3 FaceColours::tongue(const dvec3& p, const dvec3& n) const {
 glm::vec3 FaceColours::tooth(const dvec3& p, const dvec3& n) const {
   // Yellower and darker toward the gingiva, and backward in the mouth.
   const double gingiva = 1.0 - smoothStep(0.5, 4.5, head_.distance_mm(p));
-  const dvec3 colour = glm::mix(kEnamel, kNeck, 0.65 * gingiva);
-  return glm::vec3(colour * glm::mix(0.4, 1.0, openness(p + 0.5 * n, n)));
+  const dvec3 colour = glm::mix(dvec3(kEnamelAlbedo), kNeck, 0.65 * gingiva);
+  return glm::vec3(colour * glm::mix(0.5, 1.0, openness(p + 0.5 * n, n)));
 }
 
 }  // namespace assets

@@ -10,19 +10,14 @@
 
 #include <glm/glm.hpp>
 
+#include "assets/smooth_distance.h"
+
 namespace assets {
 
 struct BoundingBox {
   glm::dvec3 low_mm{0.0};
   glm::dvec3 high_mm{0.0};
 };
-
-inline double smoothMin(double a_mm, double b_mm, double blend_mm) {
-  const double h = std::max(blend_mm - std::abs(a_mm - b_mm), 0.0) / blend_mm;
-  return std::min(a_mm, b_mm) - 0.25 * h * h * blend_mm;
-}
-
-inline double smoothMax(double a_mm, double b_mm, double blend_mm) { return -smoothMin(-a_mm, -b_mm, blend_mm); }
 
 /// 0 below `from`, 1 above `to`, C1 between; `from` may exceed `to`.
 inline double smoothStep(double from, double to, double x) {

@@ -17,8 +17,8 @@
 namespace assets {
 namespace {
 
-// Scanned box in J, with 3 mm of air around the bone.
-constexpr BoundingBox kScanBox{{4.0, 0.5, -43.25}, {49.3, 69.5, 12.75}};
+// Scanned box in J, with 3 mm of air around bone and gingiva.
+constexpr BoundingBox kScanBox{{4.0, 0.5, -43.25}, {49.3, 71.0, 14.25}};
 
 void require(bool fine, std::string_view what, double value, std::string_view range) {
   if (fine) return;

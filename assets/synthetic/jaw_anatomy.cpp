@@ -18,7 +18,8 @@ constexpr double kFollicle_mm = 0.8;
 constexpr double kLaminaDura_mm = 0.45;
 constexpr double kSocketWall_mm = 0.85;  ///< minimum bone over a root
 constexpr double kMucosa_mm = 2.3;
-constexpr double kReach_mm = 4.4;  ///< influence of teeth and canal
+constexpr double kEndCover_mm = 1.3;  ///< gingiva beyond the ends of the scanned segment
+constexpr double kReach_mm = 4.4;     ///< influence of teeth and canal
 
 /// Bone that follows a root outward where the jaw is thin: the juga and the lingual bulge.
 double socketWall_mm(double tooth_mm, double over_cervix_mm) {
@@ -28,8 +29,8 @@ double socketWall_mm(double tooth_mm, double over_cervix_mm) {
 /// Cuff of attached gingiva around a neck, high between the teeth, thin at its edge.
 double gingivalCuff_mm(const glm::dvec3& q, double tooth_mm) {
   const double proximal = std::abs(q.x) / std::max(std::hypot(q.x, q.y), 0.1);
-  const double margin_mm = 0.9 + 2.4 * smoothStep(0.75, 1.0, proximal);
-  const double thickness_mm = glm::mix(0.5, 1.6, smoothStep(margin_mm, margin_mm - 3.0, q.z));
+  const double margin_mm = 0.9 + 1.7 * smoothStep(0.6, 1.0, proximal);
+  const double thickness_mm = glm::mix(0.8, 1.6, smoothStep(margin_mm, margin_mm - 3.0, q.z));
   return smoothMax(tooth_mm - thickness_mm, q.z - margin_mm, 0.6);
 }
 
@@ -87,7 +88,8 @@ void JawAnatomy::placeMandibularCanal(double distance_mm) {
 NearbyStructures JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm) const {
   NearbyStructures nearby;
   const double reach_mm = 1.15 * radius_mm + 0.7;
-  nearby.any = mandible_.outer_mm(centre_J) < reach_mm + kMucosa_mm && mandible_.cut_mm(centre_J) < reach_mm;
+  nearby.any =
+      mandible_.outer_mm(centre_J) < reach_mm + kMucosa_mm && mandible_.cut_mm(centre_J) < reach_mm + kEndCover_mm;
   for (std::size_t n = 0; n < teeth_.size(); ++n) {
     const double tooth_mm = teeth_[n].shape.outerLowerBound_mm(teeth_[n].local(centre_J));
     if (tooth_mm > reach_mm + kReach_mm) continue;
@@ -144,9 +146,9 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const NearbyStructures& ne
   d.mandibular_canal = std::max(lumen_mm, d.bone);
   d.trabecular = std::max(spongy_mm, cut_mm);
 
-  // Mucosa thins out down the body and up the ramus.
-  const double mucosa_mm = kMucosa_mm * smoothStep(-21.0, -13.0, p_J.z) * smoothStep(8.0, 1.0, p_J.z);
-  d.gingiva = std::max(std::min(d.bone, smoothMin(bone_mm - mucosa_mm, cuff_mm, 1.6)), cut_mm);
+  // Mucosa thins out down the body; it also covers the ends of the segment, so that no bare bone shows there.
+  const double covered = smoothStep(-21.0, -13.0, p_J.z);
+  d.gingiva = std::max(smoothMin(bone_mm - covered * kMucosa_mm, cuff_mm, 3.4), cut_mm - covered * kEndCover_mm);
   return d;
 }
 

@@ -101,8 +101,10 @@ DistanceLattice loft(const DentalArch& arch, std::uint64_t seed) {
 
 }  // namespace
 
+ArchStation anteriorCut(const DentalArch& arch) { return arch.stationAt(kAnteriorCutAlong_mm); }
+
 MandibleShape::MandibleShape(const DentalArch& arch, std::uint64_t seed)
-    : anterior_cut_(arch.stationAt(kAnteriorCutAlong_mm)), outer_(loft(arch, seed)) {}
+    : anterior_cut_(anteriorCut(arch)), outer_(loft(arch, seed)) {}
 
 double MandibleShape::cut_mm(const glm::dvec3& p_J) const {
   const double anterior_mm = -glm::dot(glm::dvec2(p_J.x, p_J.y) - anterior_cut_.centre_mm, anterior_cut_.distal);

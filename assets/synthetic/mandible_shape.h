@@ -12,6 +12,9 @@
 
 namespace assets {
 
+/// Station of the plane across the arch where the segment begins, just in front of the first premolar.
+ArchStation anteriorCut(const DentalArch& arch);
+
 class MandibleShape {
  public:
   MandibleShape(const DentalArch& arch, std::uint64_t seed);

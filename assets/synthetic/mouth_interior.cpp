@@ -1,9 +1,14 @@
 #include "assets/synthetic/mouth_interior.h"
 
+#include <tbb/task_arena.h>
+
 #include <span>
 #include <vector>
 
+#include "assets/synthetic/dental_arch.h"
 #include "assets/synthetic/implicit_shape.h"
+#include "assets/synthetic/mandible_shape.h"
+#include "assets/synthetic/tooth_row.h"
 
 namespace assets {
 namespace {
@@ -25,8 +30,7 @@ struct Crown {
 };
 constexpr Crown kUpperCrowns[] = {{8.6, 7.0, 10.5, 0}, {6.6, 6.2, 9.2, 0},   {7.6, 8.0, 10.0, 1}, {7.1, 9.0, 8.5, 2},
                                   {6.8, 9.0, 8.3, 2},  {10.2, 11.0, 7.6, 4}, {9.6, 10.8, 7.2, 4}};
-constexpr Crown kLowerCrowns[] = {{5.3, 6.0, 9.0, 0}, {5.8, 6.4, 9.3, 0},   {6.9, 7.6, 10.4, 1}, {7.0, 7.7, 8.6, 2},
-                                  {7.1, 8.2, 8.0, 2}, {11.0, 10.3, 7.6, 4}, {10.5, 10.0, 7.2, 4}};
+constexpr Crown kLowerFrontCrowns[] = {{5.3, 6.0, 9.0, 0}, {5.8, 6.4, 9.3, 0}, {6.9, 7.6, 10.4, 1}};
 
 struct Station {
   dvec2 middle;
@@ -71,9 +75,10 @@ double crown(const Crown& c, const dvec3& p) {
   if (c.cusps == 1) top -= 2.0 * std::abs(p.x) / (0.5 * c.width_mm);
   if (c.cusps == 2) top -= 1.0 + 1.2 * std::cos(6.28 * p.y / c.depth_mm * 0.95) + 0.8 * std::pow(p.x / a, 2.0);
   if (c.cusps == 4) {
+    // Rounded fissures: a steeper valley is finer than the mesh and comes out as saw teeth.
     const double cross =
         std::abs(std::sin(3.14 * p.x / c.width_mm * 1.7)) * std::abs(std::sin(3.14 * p.y / c.depth_mm * 1.7));
-    top -= 1.9 - 1.9 * std::sqrt(std::clamp(cross, 0.0, 1.0));
+    top -= 1.9 - 2.1 * cross / (cross + 0.12);
   }
   d = smoothMax(d, (p.z - top) * 0.8, 1.2);
   return std::max(d, -p.z - 3.0);
@@ -97,6 +102,25 @@ double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dve
     d = std::min(d, crown(c, {glm::dot(offset, s.along), glm::dot(offset, outward), z}));
   }
   return d;
+}
+
+// Premolars and molars in the shapes of the scanned teeth, down to the gingiva.
+double lowerBackTeeth(const dvec3& p) {
+  // Isolated: the shapes are built in parallel, and a waiting thread must not come back here for another task.
+  static const std::vector<PlacedTooth> teeth = tbb::this_task_arena::isolate([] {
+    const DentalArch arch;
+    std::vector<PlacedTooth> placed;
+    for (int position = 4; position <= 7; ++position) placed.push_back(eruptedTooth(arch, position));
+    return placed;
+  });
+  constexpr double kExact_mm = 3.0, kUnderGingiva_mm = -11.5;
+  double d = 1e9;
+  for (const PlacedTooth& tooth : teeth) {
+    const dvec3 q = tooth.local(p);
+    const double bound = tooth.shape.outerLowerBound_mm(q);
+    d = std::min(d, bound > kExact_mm ? bound : tooth.shape.outer_mm(q));
+  }
+  return std::max(d, kUnderGingiva_mm - p.z);
 }
 
 // A ridge of gingiva along an arch, scalloped a little between the teeth.
@@ -124,7 +148,7 @@ double lowerGingiva_mm(const dvec3& p) {
   // Front teeth on both sides, the whole row on the free side; the floor of the mouth inside it.
   const dvec3 mirrored(-p.x, p.y, p.z);
   double d = ridge(kLowerArch, mirrored, -17.5, 4.8, 1.8);
-  d = smoothMin(d, ridge(std::span(kLowerArch).first(4), p, -17.5, 4.8, 1.8), 2.0);
+  d = smoothMin(d, ridge(std::span(kLowerArch).first(5), p, -17.0, 5.2, 1.8), 2.0);
   const double floor = ellipsoid(p, {-4, 34, -34}, {26, 40, 20});
   return smoothMin(d, floor, 8.0);
 }
@@ -135,8 +159,9 @@ double upperTeeth_mm(const dvec3& k) {
 }
 
 double lowerTeeth_mm(const dvec3& p) {
-  const double free_side = row(kLowerArch, kLowerCrowns, {-p.x, p.y, p.z}, -1.0);
-  const double operated_side = row(kLowerArch, std::span(kLowerCrowns).first(3), p, -1.0);
+  const dvec3 mirrored(-p.x, p.y, p.z);
+  const double free_side = std::min(row(kLowerArch, kLowerFrontCrowns, mirrored, -1.0), lowerBackTeeth(mirrored));
+  const double operated_side = row(kLowerArch, kLowerFrontCrowns, p, -1.0);
   return std::min(free_side, std::max(operated_side, -1.2 - jawSegmentSpace_mm(p)));
 }
 
@@ -148,7 +173,9 @@ double tongue_mm(const dvec3& p) {
   d = smoothMin(d, ellipsoid(q, {0, 17, -7}, {13, 12, 8}), 10.0);
   d += 1.5 * std::exp(-q.x * q.x / 7.0) * smoothStep(-8.0, 2.0, q.z) * smoothStep(6.0, 20.0, q.y);
   d += 0.05 * std::sin(q.x * 2.9 + 1.3 * std::sin(q.y * 0.9)) * std::sin(q.y * 2.6 + 1.5 * std::sin(q.x * 1.3));
-  return d;
+  // Its edge yields to the row of teeth.
+  const double teeth = ridge(kLowerArch, {std::abs(p.x), p.y, p.z}, -4.0, 6.6, 1.6);
+  return smoothMax(d, -teeth, 3.0);
 }
 
 double jawSegmentSpace_mm(const dvec3& p) {
@@ -164,7 +191,11 @@ double jawSegmentSpace_mm(const dvec3& p) {
     d = std::min(d, glm::length(at - glm::mix(a, b, t)) - half);
   }
   const double vertical = std::max(p.z - upper, -39.0 - p.z);
-  return -smoothMin(-d, -vertical, 5.0);
+  // The scan begins behind the canine; in front of it face and gingiva are whole.
+  static const ArchStation cut = anteriorCut(DentalArch());
+  constexpr double kGap_mm = 0.4;
+  const double anterior = glm::dot(cut.centre_mm - dvec2(p), cut.distal) - kGap_mm;
+  return std::max(-smoothMin(-d, -vertical, 5.0), anterior);
 }
 
 }  // namespace assets

@@ -17,7 +17,8 @@ bool isInHand(Model model) { return model == Model::instrument || model == Model
 MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
   MeshBodyPart kept;
   kept.material = part.material;
-  kept.is_cut = finishOf(model) == Finish::skin && part.material.metallic < 0.5f;
+  kept.finish = finishOf(model, part.name);
+  kept.is_cut = isCutByWindow(model, part);
   kept.normals.assign(part.position_mm.size(), glm::vec4(0.0f, 0.0f, 1.0f, 0.0f));
   for (std::size_t c = 0; c < std::min(kept.normals.size(), part.normal.size()); ++c)
     kept.normals[c] = glm::vec4(part.normal[c], 0.0f);

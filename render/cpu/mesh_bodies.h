@@ -33,6 +33,7 @@ struct MeshBodyPart {
   std::vector<glm::vec4> normals, colours;  ///< per vertex; no colours: white
   std::vector<glm::uvec3> triangles;
   assets::Material material;
+  Finish finish = Finish::skin;
   bool is_cut = false;  ///< by the face window
 };
 

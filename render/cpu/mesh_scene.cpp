@@ -96,7 +96,7 @@ void add(MeshPoints& to, const MeshBody& body, const MeshBodyPart& part, unsigne
   to.r[n] = colour.r, to.g[n] = colour.g, to.b[n] = colour.b, to.a[n] = opacity * colour.a;
   to.roughness[n] = part.material.roughness;
   to.metallic[n] = part.material.metallic;
-  to.finish[n] = static_cast<std::int32_t>(finishOf(body.model));
+  to.finish[n] = static_cast<std::int32_t>(part.finish);
   to.is_cut[n] = part.is_cut ? 1 : 0;
   to.faces_eye[n] = faces_eye ? 1 : 0;
 }

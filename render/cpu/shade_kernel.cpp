@@ -120,6 +120,13 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
       }
     }
     s.scatter = select(gingiva, vec3(GINGIVA_SCATTER), s.scatter);
+    const Mask tooth = finish == FINISH_TOOTH;
+    if (any(mask & tooth)) {
+      const Float3 enamel = FINISH_ENAMEL;
+      s.roughness = select(tooth, enamel.x, s.roughness);
+      s.f0 = select(tooth, vec3(enamel.y), s.f0);
+      s.wrap = select(tooth, enamel.z, s.wrap);
+    }
 
     Visibility visibility = visibilityFromVolume(scene, p_P + MESH_LIFT * normal, normal, mask);
     const auto at_least = [&](float least, Float value) {

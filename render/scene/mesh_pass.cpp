@@ -19,10 +19,14 @@ Triangles uploaded(const assets::MeshPart& part) {
 
 }  // namespace
 
-SceneMesh::SceneMesh(const assets::MeshModel& model, Finish finish) : finish_(finish) {
-  for (const assets::MeshPart& part : model.parts)
+SceneMesh::SceneMesh(const assets::MeshModel& mesh, Model model) {
+  for (const assets::MeshPart& part : mesh.parts)
     if (!part.triangles.empty())
-      parts_.push_back({.triangles = uploaded(part), .material = part.material, .is_bur = part.name == "Bur"});
+      parts_.push_back({.triangles = uploaded(part),
+                        .material = part.material,
+                        .finish = finishOf(model, part.name),
+                        .is_bur = part.name == "Bur",
+                        .is_cut = isCutByWindow(model, part)});
 }
 
 bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
@@ -47,11 +51,11 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
     glm::vec4 colour = part.material.base_colour;
     colour.a *= placement.opacity;
     if ((colour.a < 1.0f) != transparent) continue;
-    const float is_cut = mesh.finish_ == Finish::skin && part.material.metallic < 0.5f ? 1.0f : 0.0f;
     block_.set(PART_BLOCK,
                {.P_from_mesh = glm::mat4(part.is_bur ? rotated : placement.P_from_mesh),
                 .base_colour = colour,
-                .finish = {part.material.roughness, part.material.metallic, static_cast<float>(mesh.finish_), is_cut}});
+                .finish = {part.material.roughness, part.material.metallic, static_cast<float>(part.finish),
+                           part.is_cut ? 1.0f : 0.0f}});
     part.triangles.draw();
   }
 }

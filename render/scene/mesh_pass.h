@@ -27,17 +27,18 @@ static_assert(sizeof(PartBlock) == 96);
 class SceneMesh {
  public:
   SceneMesh() = default;
-  SceneMesh(const assets::MeshModel& model, Finish finish);
+  SceneMesh(const assets::MeshModel& mesh, Model model);
 
  private:
   friend class MeshPass;
   struct Part {
     Triangles triangles;
     assets::Material material;
+    Finish finish = Finish::skin;
     bool is_bur = false;
+    bool is_cut = false;  ///< by the face window
   };
   std::vector<Part> parts_;
-  Finish finish_ = Finish::skin;
 };
 
 class MeshPass {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
+#include "assets/mesh.h"
 #include "render/frame.h"
 #include "render/shaders/shared_constants.glsl"
 
@@ -19,13 +21,24 @@ enum class Finish {
   skin = FINISH_SKIN,
   gingiva = FINISH_GINGIVA,
   instrument = FINISH_INSTRUMENT,
-  guide = FINISH_GUIDE
+  guide = FINISH_GUIDE,
+  tooth = FINISH_TOOTH
 };
 
 constexpr Finish finishOf(Model model) {
   constexpr std::array<Finish, kModels> kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
                                                 Finish::guide, Finish::guide,   Finish::instrument};
   return kFinish[static_cast<std::size_t>(model)];
+}
+
+/// Teeth of the face are shaded as the enamel of the volume.
+inline Finish finishOf(Model model, std::string_view part) {
+  return model == Model::face && part.ends_with("Teeth") ? Finish::tooth : finishOf(model);
+}
+
+/// By the face window: the face without its metal, a retractor.
+inline bool isCutByWindow(Model model, const assets::MeshPart& part) {
+  return model == Model::face && part.material.metallic < 0.5f;
 }
 
 struct Placement {

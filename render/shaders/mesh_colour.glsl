@@ -54,6 +54,11 @@ vec4 meshColour() {
     s.wrap = GINGIVA_WRAP;
     s.f0 = vec3(GINGIVA_F0);
     s.scatter = vec3(GINGIVA_SCATTER);
+  } else if (finish == FINISH_TOOTH) {
+    const vec3 kEnamel = FINISH_ENAMEL;
+    s.roughness = kEnamel.x;
+    s.f0 = vec3(kEnamel.y);
+    s.wrap = kEnamel.z;
   }
   if (finish == FINISH_GUIDE) {
     // Unlit: it is not part of the patient and is visible inside the bone.

@@ -39,6 +39,7 @@
 #define FINISH_GINGIVA 1
 #define FINISH_INSTRUMENT 2
 #define FINISH_GUIDE 3
+#define FINISH_TOOTH 4
 
 #define DISPLAY_MONO 0           // display modes, render::DisplayMode
 #define DISPLAY_QUAD_BUFFER 1

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "assets/tissue.h"
+#include "assets/tooth.h"
 
 namespace render {
 
@@ -22,8 +23,8 @@ inline constexpr std::array<TissueAppearance, assets::kTissueCount> kTissueAppea
     {{0.72f, 0.615f, 0.46f}, kDull, 0.02f},  // unlabelled: shown as bone
     {{0.74f, 0.63f, 0.47f}, kDull, 1.0f},    // cortical
     {{0.58f, 0.30f, 0.21f}, kMarrow, 1.0f},  // trabecular, visible only when cut: marrow and blood
-    {{0.70f, 0.655f, 0.54f}, 0.85f, 1.0f},   // other teeth
-    {{0.75f, 0.73f, 0.66f}, kEnamel, 1.0f},  // enamel
+    {assets::kEnamelAlbedo, kEnamel, 1.0f},  // other teeth
+    {assets::kEnamelAlbedo, kEnamel, 1.0f},  // enamel
     {{0.78f, 0.64f, 0.38f}, kDull, 1.0f},    // dentine
     {{0.45f, 0.06f, 0.06f}, 0.35f, 0.5f},    // pulp
     {{0.90f, 0.80f, 0.30f}, 0.65f, 0.5f},    // canal

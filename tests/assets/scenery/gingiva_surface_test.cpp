@@ -100,6 +100,21 @@ TEST(GingivaSurface, IsDarkerAtTheWoundsEdge) {
   EXPECT_LT(edge / edges, 0.75 * far / fars);
 }
 
+TEST(GingivaSurface, LaysAThickFlapOverTheCheeksSideAndKeepsItOutOfTheWound) {
+  const Wound wound(cutAlongTheCrest());
+  const MeshModel model = gingivaSurface(ridge(), cutAlongTheCrest());
+  double highest_mm = 0.0, highest_of_tongue_side_mm = 0.0;
+  for (const glm::vec3& v : model.parts.at(0).position_mm) {
+    const glm::dvec3 p(v);
+    if (p.z < kGingivaTop_mm - 0.5) continue;
+    (p.x > 20.0 ? highest_mm : highest_of_tongue_side_mm) =
+        std::max(p.x > 20.0 ? highest_mm : highest_of_tongue_side_mm, p.z);
+    EXPECT_GT(wound.distance_mm(p), -0.6) << "between the cut and the eye: " << p.x << ' ' << p.y << ' ' << p.z;
+  }
+  EXPECT_NEAR(highest_mm, kGingivaTop_mm + kFlapThickness_mm, 0.4);
+  EXPECT_NEAR(highest_of_tongue_side_mm, kGingivaTop_mm, 0.3);
+}
+
 TEST(GingivaSurface, IsEmptyWithoutGingiva) {
   CtVolume ct = ridge();
   for (std::uint8_t& label : ct.label) label = label == 9 ? 0 : label;

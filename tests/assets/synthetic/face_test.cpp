@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 #include "assets/load_error.h"
@@ -77,6 +78,33 @@ TEST(Face, KeepsOutOfTheBoneOfTheBuiltInJaw) {
       const glm::dvec3 p_J(p);
       ASSERT_GT(std::max(bone.outer_mm(p_J), bone.cut_mm(p_J)), -0.1)
           << part.name << " " << p.x << " " << p.y << " " << p.z;
+    }
+  }
+}
+
+TEST(Face, HasAWholeCanineInFrontOfTheScan) {
+  // The same teeth on both sides in front of the plane where the scan begins.
+  const ArchStation cut = anteriorCut(DentalArch());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> x(4.0, 22.0), y(-4.0, 14.0), z(-11.0, 1.0);
+  int inside = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const glm::dvec3 p(x(random), y(random), z(random));
+    if (glm::dot(glm::dvec2(p) - cut.centre_mm, cut.distal) > -0.2) continue;
+    const bool is_tooth = lowerTeeth_mm(p) < 0.0;
+    EXPECT_EQ(is_tooth, lowerTeeth_mm({-p.x, p.y, p.z}) < 0.0) << p.x << ' ' << p.y << ' ' << p.z;
+    inside += is_tooth ? 1 : 0;
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(Face, HasATongueBesideTheCrownsAndNotThroughThem) {
+  constexpr float kGingiva_mm = -11.0f;
+  for (const MeshPart& part : leftFace().parts) {
+    if (part.name != "LowerTeeth") continue;
+    for (const glm::vec3& p : part.position_mm) {
+      if (p.z < kGingiva_mm) continue;
+      ASSERT_GT(tongue_mm(glm::dvec3(p)), 0.0) << p.x << ' ' << p.y << ' ' << p.z;
     }
   }
 }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "assets/instrument/handpiece.h"
+#include "assets/tooth.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/offscreen_context.h"
 #include "tests/render/drawn_scene.h"
@@ -115,6 +117,31 @@ TEST_F(CpuScene, DrawsMeshesAndTheirIntersectionWithTheVolumeAsTheShadersDo) {
   EXPECT_LE(d.worst, 2);
   EXPECT_LE(d.worst_mm, 0.01);
   EXPECT_LE(d.other_mm, 60);
+}
+
+TEST_F(CpuScene, DrawsTeethOfTheFaceAsTheShadersDoAndAsTeethOfTheScan) {
+  // A crown as voxels, then the same crown as triangles: one arch has one colour and gloss.
+  const Ball crown{{0, 0, 0}, 9.0};
+  assets::MeshPart teeth = ballMesh({0, 0, 0}, 9.0f, glm::vec4(assets::kEnamelAlbedo, 1.0f), 48);
+  ct_ = ballVolume(smallGrid(), {crown});
+  std::ranges::fill(ct_.label, static_cast<std::uint8_t>(assets::Tissue::other_teeth));
+  open();
+  cpu_->renderEye(frame(), Eye::cyclopean);
+  const Image scanned = cpu_->readEye(Eye::cyclopean);
+  std::ranges::fill(ct_.solid, std::uint8_t{0});
+  open();
+  const auto differenceAs = [&](const std::string& name) {
+    teeth.name = name;
+    both([&](FrameRenderer& r) { r.setFace({{teeth}}); });
+    EXPECT_LE(between(*gl_, *cpu_, frame(), Eye::cyclopean).worst, 2) << name;
+    const Image drawn = cpu_->readEye(Eye::cyclopean);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < drawn.rgba.size(); ++c) sum += std::abs(drawn.rgba[c] - scanned.rgba[c]);
+    return sum / static_cast<double>(drawn.rgba.size());
+  };
+  const double as_tooth = differenceAs("LowerTeeth"), as_skin = differenceAs("Face");
+  EXPECT_LT(as_tooth, 1.0);
+  EXPECT_GT(as_skin, 2.0 * as_tooth);
 }
 
 TEST_F(CpuScene, CutsTheWindowAndShowsInsidesAsTheShadersDo) {
