@@ -35,6 +35,18 @@ struct BoneGap {
   calibration::Point<calibration::Patient> nearest_P;  ///< of the surface
 };
 
+/// A way that was measured on the patient, drawn as a line; one point until the second is marked.
+struct RulerLine {
+  calibration::Point<calibration::Patient> from_P;
+  std::optional<calibration::Point<calibration::Patient>> to_P;
+
+  double length_mm() const { return to_P ? glm::distance(from_P.mm, to_P->mm) : 0.0; }
+};
+inline bool operator==(const RulerLine& a, const RulerLine& b) {
+  return a.from_P.mm == b.from_P.mm && a.to_P.has_value() == b.to_P.has_value() &&
+         (!a.to_P || a.to_P->mm == b.to_P->mm);
+}
+
 enum class Antialias { none, edges };
 
 /// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
@@ -59,9 +71,10 @@ struct Frame {
   double bur_radius_mm = 2.0;
   assets::BurForm bur_form = assets::BurForm::round;  ///< for the outlines in the slices
   double bur_length_mm = 0.0;
-  double shaft_radius_mm = 0.0;            ///< of the bur, behind its head; 0: what is usual for its radius
-  double bur_angle_rad = 0.0;              ///< rotation of the bur
-  std::optional<BoneGap> gap;              ///< of this pose; none: farther than kMaxGap_mm, or not known
+  double shaft_radius_mm = 0.0;  ///< of the bur, behind its head; 0: what is usual for its radius
+  double bur_angle_rad = 0.0;    ///< rotation of the bur
+  std::optional<BoneGap> gap;    ///< of this pose; none: farther than kMaxGap_mm, or not known
+  std::optional<RulerLine> ruler;
   glm::dvec3 slices_beside_bur_P_mm{0.0};  ///< where the CT slices cross, from the bur
   bool tool_visible = true;
   calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< the second instrument

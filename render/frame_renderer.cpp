@@ -143,6 +143,14 @@ void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, 
   gap_.touch(brick);
 }
 
+void FrameRenderer::updateRuler(const Frame& frame) {
+  if (frame.ruler == ruler_) return;
+  ruler_ = frame.ruler;
+  for (const bool behind : {false, true})
+    scene_->setModel(behind ? Model::ruler_overlay : Model::ruler,
+                     ruler_ ? rulerMesh(*ruler_, behind) : assets::MeshModel{});
+}
+
 void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   scene_->drawEye(frame, eye, px);
   drawn(eye) = {frame, px};
@@ -157,6 +165,7 @@ void FrameRenderer::render(const Frame& frame) {
   const glm::ivec2 eye_px = glm::max((full_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
   const bool mono = frame.display == DisplayMode::mono;
   const Eye left = mono ? Eye::cyclopean : Eye::left, right = mono ? Eye::cyclopean : Eye::right;
+  updateRuler(frame);
   scene_->prepare(frame, fields_.prepare());
   updateInsets(frame, eye_px);
   drawEye(frame, left, eye_px);
@@ -170,6 +179,7 @@ void FrameRenderer::render(const Frame& frame) {
 }
 
 void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
+  updateRuler(frame);
   scene_->prepare(frame, fields_.prepare());
   updateInsets(frame, frame.rig.screen.px);
   drawEye(frame, eye, frame.rig.screen.px);

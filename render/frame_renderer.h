@@ -97,6 +97,7 @@ class FrameRenderer {
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   void updateInsets(const Frame& frame, glm::ivec2 eye_px);
   void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
+  void updateRuler(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
 
   VolumeFields fields_;
@@ -106,6 +107,7 @@ class FrameRenderer {
   std::optional<CtSlices> slices_;
   std::optional<GuideField> guides_;
   bool has_canal_ = false;
+  std::optional<RulerLine> ruler_;  ///< whose meshes the back-end has
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;

@@ -138,8 +138,8 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
       meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], view.mirrored);
   };
   constexpr std::array kOutside{Model::face, Model::instrument, Model::second_instrument};
-  constexpr std::array kInside{Model::gingiva, Model::mandibular_canal};
-  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ghost};
+  constexpr std::array kInside{Model::gingiva, Model::mandibular_canal, Model::ruler};
+  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::ghost};
   bool any_transparent = false;
   for (std::size_t m = 0; m < kModels; ++m)
     any_transparent = any_transparent || MeshPass::hasTransparent(models_[m], placements[m].opacity);

@@ -33,7 +33,8 @@ enum class Control : std::uint8_t {
   shrink,
   first_view,
   slice_up,
-  slice_down
+  slice_down,
+  ruler
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -59,7 +60,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 20> kControls = {{
+inline constexpr std::array<ControlMeaning, 21> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -80,6 +81,7 @@ inline constexpr std::array<ControlMeaning, 20> kControls = {{
     {Control::first_view, "first-view", "Home", "the first view again", ControlValue::none, false},
     {Control::slice_up, "slice-up", "PgUp", "axial CT slice half a millimetre up", ControlValue::none, false},
     {Control::slice_down, "slice-down", "PgDn", "the same down", ControlValue::none, false},
+    {Control::ruler, "ruler", "M", "ruler: first point, second point, away", ControlValue::none, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

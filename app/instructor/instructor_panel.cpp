@@ -113,6 +113,7 @@ void drawTool(const RehearsalStatus& s) {
   bar(force_N / peak_N, force_N > 0.95 * peak_N ? kWarn : kAccent);
   row("Depth in the surface", fmt::format("{:.2f} mm", s.tick.depth_mm));
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
+  if (!s.ruler.empty()) textIn(text_font, kAccent, s.ruler);
   const auto& removed_mm3 = s.tick.removed_total_mm3;
   row("Removed", fixedText(std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0), 1) + " mm³");
   const std::string dry = s.dry_s >= 1.0 ? ", " + clockText(s.dry_s) + " dry" : "";

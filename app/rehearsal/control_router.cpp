@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "app/rehearsal/frame_builder.h"
+#include "app/rehearsal/ruler.h"
 #include "app/session/data_folder.h"
+#include "app/session/session_writer.h"
 #include "app/text/message.h"
 #include "app/view/snapshot.h"
 #include "calibration/output_file.h"
@@ -91,6 +93,7 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
     frame.slices_beside_bur_P_mm =
         scrolledSlices(frame, render::SlicePlane::axial, request.control == Control::slice_up ? 1.0 : -1.0);
   if (request.control == Control::snapshot) takeSnapshot(frame);
+  if (request.control == Control::ruler) markRuler(frame);
   if (request.control == Control::home) {
     equipment_.workstation().setHome();
     head_up_.say("the handle is at home");
@@ -167,6 +170,23 @@ void ControlRouter::takeSnapshot(const render::Frame& frame) {
     printMessage(error.what());
     head_up_.say(error.what());
   }
+}
+
+/// On the bone as it is drawn; a stepped rehearsal brings its view up to date for it.
+void ControlRouter::markRuler(render::Frame& frame) {
+  if (plan_.ticking == Ticking::stepped) {
+    view_.display();
+    view_.uploadBone();
+    frame.gap = view_.gapOf(frame);
+  }
+  frame.ruler = rulerAfterMark(frame.ruler, markedPoint(frame, active_command_.inForce().tool.head));
+  event_log_.note(kRulerEvent, rulerEvent(frame.ruler));
+  if (!frame.ruler)
+    head_up_.say("ruler put away");
+  else if (!frame.ruler->to_P)
+    head_up_.say("first point marked: go to the second and press M again");
+  else
+    head_up_.say(rulerText(frame.ruler));
 }
 
 bool ControlRouter::isTakenByProcedure(const render::WindowEvent& event) const {

@@ -50,6 +50,7 @@ class ControlRouter {
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
   void stopMotors();
   void takeSnapshot(const render::Frame& frame);
+  void markRuler(render::Frame& frame);
   bool isTakenByProcedure(const render::WindowEvent& event) const;
 
   const RehearsalPlan& plan_;

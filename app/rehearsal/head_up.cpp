@@ -48,6 +48,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;
   content.time_s = tick.t_s + tick.dt_s;
   content.task = values.task;
+  content.ruler = values.ruler;
   if (tick.dt_s > 0.0) {
     content.warnings = warnings_.update(values.situation);
     times_.add(tick, command);

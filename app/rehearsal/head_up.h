@@ -35,7 +35,8 @@ class HeadUp {
   struct Values {
     Situation situation;
     std::optional<double> gap_mm;
-    std::string task;  ///< of a procedure
+    std::string task;   ///< of a procedure
+    std::string ruler;  ///< rulerText()
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -13,6 +13,7 @@
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/pace.h"
+#include "app/rehearsal/ruler.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
 
@@ -91,7 +92,8 @@ class Rehearsal {
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
-    return {newest_, active_command_.inForce(), frame_.layers, head_up_, router_.question(), frame_.gap};
+    return {newest_,    active_command_.inForce(), frame_.layers, head_up_, router_.question(),
+            frame_.gap, rulerText(frame_.ruler)};
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -173,7 +175,7 @@ class Rehearsal {
     return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                         monitor_.recordingEnded()),
             frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
-            plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question()};
+            plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question(), rulerText(frame_.ruler)};
   }
 
   void draw() {

@@ -35,6 +35,7 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
   s.cutting_s = state.head_up.times().cutting_s;
   s.dry_s = state.head_up.times().dry_s;
   s.said = state.head_up.lastSaid();
+  s.ruler = state.ruler;
   if (state.gap) s.gap_mm = state.gap->mm;
   if (plan_.procedure) {
     const ProcedureMessages messages = plan_.procedure->messages();

@@ -32,6 +32,7 @@ class StatusReporter {
     const HeadUp& head_up;
     std::string question;  ///< to the surgeon
     const std::optional<render::BoneGap>& gap;
+    std::string ruler;  ///< rulerText()
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

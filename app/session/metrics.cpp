@@ -10,6 +10,8 @@
 
 #include "app/session/replay.h"
 #include "app/session/session_error.h"
+#include "app/text/clock_text.h"
+#include "app/text/parse_number.h"
 
 namespace app {
 namespace {
@@ -48,6 +50,12 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   }
 }
 
+/// "7.30 mm from (…) to (…) mm"; none of other words.
+std::optional<double> measuredMm(const std::string& text) {
+  const std::size_t end = text.find(" mm from ");
+  return end == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(0, end));
+}
+
 /// None where the replay ends with another bone.
 std::optional<RemovedByTissue> removedByReplay(SessionReader& session) {
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
@@ -70,9 +78,12 @@ SessionMetrics metricsOf(const std::string& path) {
   metrics.missing_log = session.missingLog();
   const std::vector<SessionCommand> commands = session.commands();
   metrics.commands = commands.size();
-  metrics.events = session.events().size();
+  std::vector<SessionEvent> events = session.events();
+  metrics.events = events.size();
+  std::erase_if(events, [](const SessionEvent& event) { return event.kind != kRulerEvent || !measuredMm(event.text); });
 
   std::vector<float> work_us;
+  auto ruler = events.begin();
   haptics::Command in_force;
   auto next = commands.begin();
   std::optional<haptics::Tick> before;
@@ -80,6 +91,8 @@ SessionMetrics metricsOf(const std::string& path) {
     for (const haptics::Tick& tick : block.ticks) {
       for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
       addTick(metrics, tick, before, in_force.irrigating);
+      for (; ruler != events.end() && ruler->tick <= tick.index; ++ruler)
+        metrics.measured.push_back({tick.t_s, *measuredMm(ruler->text), ruler->text});
       work_us.push_back(tick.work_us);
       before = tick;
     }
@@ -129,6 +142,8 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
+  for (const MeasuredWay& way : metrics.measured)
+    words += "measured at " + clockText(way.t_s) + ": " + way.words + "\n";
   words += "\n";
   for (const Measure& measure : kMeasures)
     words +=
@@ -181,6 +196,9 @@ std::string metricsJson(const SessionMetrics& metrics) {
     json["continues"] = {{"session", metrics.former->file}, {"duration_s", metrics.former->duration_s}};
   for (const Measure& measure : kMeasures) json[measure.key] = metrics.*measure.value;
   json["removed_mm3_by_label"] = by_label;
+  json["measured"] = nlohmann::ordered_json::array();
+  for (const MeasuredWay& way : metrics.measured)
+    json["measured"].push_back({{"t_s", way.t_s}, {"mm", way.mm}, {"words", way.words}});
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

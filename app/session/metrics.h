@@ -8,12 +8,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
 #include "app/session/session_text.h"
 
 namespace app {
+
+/// A way measured with the ruler between two touches.
+struct MeasuredWay {
+  double t_s = 0.0, mm = 0.0;
+  std::string words;  ///< as recorded, with both places
+};
 
 struct SessionMetrics {
   std::string patient_title, program_version;
@@ -25,7 +32,8 @@ struct SessionMetrics {
   double duration_s = 0.0, contact_s = 0.0, drill_on_s = 0.0, drill_in_contact_s = 0.0, dry_drilling_s = 0.0;
   double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
-  std::optional<RemovedByTissue> removed_mm3_by_label;             ///< none: not recorded
+  std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
+  std::vector<MeasuredWay> measured;
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 };
 

@@ -15,6 +15,12 @@
 
 namespace app {
 
+namespace {
+
+constexpr std::uint64_t kTickOfBatch = ~std::uint64_t{0};  // of an event whose tick nobody told
+
+}  // namespace
+
 struct Recorder::Impl {
   haptics::TickLog& log;
 
@@ -71,7 +77,7 @@ struct Recorder::Impl {
     unconfirmed_commands.insert(unconfirmed_commands.end(), pending_commands.begin(), pending_commands.end());
     pending_commands.clear();
     for (SessionEvent& event : events) {
-      event.tick = next_index;
+      if (event.tick == kTickOfBatch) event.tick = next_index;
       batch.events.push_back(std::move(event));
     }
     events.clear();
@@ -164,10 +170,10 @@ void Recorder::command(const haptics::Command& command) noexcept {
   }
 }
 
-void Recorder::event(const std::string& kind, const std::string& text) noexcept {
+void Recorder::event(const std::string& kind, const std::string& text, std::optional<std::uint64_t> tick) noexcept {
   const std::scoped_lock lock(impl_->mutex);
   try {
-    impl_->events.push_back({0, kind, text});
+    impl_->events.push_back({tick.value_or(kTickOfBatch), kind, text});
   } catch (const std::bad_alloc&) {
     impl_->out_of_memory = true;
   }

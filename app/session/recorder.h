@@ -45,7 +45,8 @@ class Recorder {
 
   /// Call before the command is published to the servo.
   void command(const haptics::Command& command) noexcept;
-  void event(const std::string& kind, const std::string& text) noexcept;
+  /// `tick`: the newest one; none: the first of those that are written next.
+  void event(const std::string& kind, const std::string& text, std::optional<std::uint64_t> tick = {}) noexcept;
 
   /// Writes what is new; for DrainMode::by_hand.
   void drain() noexcept;

@@ -16,6 +16,9 @@
 
 namespace app {
 
+/// Kind of the events of the ruler.
+inline constexpr char kRulerEvent[] = "ruler";
+
 struct SessionEvent {
   std::uint64_t tick = 0;
   std::string kind, text;

@@ -123,7 +123,9 @@ std::optional<std::string> Workstation::recordingTrouble() const {
 }
 
 void Workstation::note(const std::string& kind, const std::string& text) {
-  if (recorder_) recorder_->event(kind, text);
+  if (!recorder_) return;
+  const haptics::Tick newest = newest_.read();
+  recorder_->event(kind, text, newest.dt_s > 0.0 ? newest.index : 0);
 }
 
 }  // namespace app

@@ -21,17 +21,18 @@ constexpr int kForceSteps = 24;
 constexpr double kShowGapBelow_mm = 10.0;
 
 /// Cells of the line from left to right, and which go first where even small letters do not fit.
-enum class Cells { bur, drive, water, force, gap, time };
+enum class Cells { bur, drive, water, force, gap, ruler, time };
 struct CellWidth {
   Cells cell;
   double widths;  ///< heights of the text
   int importance;
 };
-constexpr std::array<CellWidth, 6> kCells = {{{Cells::bur, 13.0, 4},
+constexpr std::array<CellWidth, 7> kCells = {{{Cells::bur, 13.0, 4},
                                               {Cells::drive, 7.2, 1},
                                               {Cells::water, 6.3, 3},
                                               {Cells::force, 10.5, 5},
                                               {Cells::gap, 6.8, 6},
+                                              {Cells::ruler, 7.8, 7},
                                               {Cells::time, 4.4, 2}}};
 
 struct LineShape {
@@ -39,12 +40,13 @@ struct LineShape {
   int least_important = 1;  ///< of the cells shown
 };
 
-LineShape lineShape(const HeadUpPlace& place) {
+LineShape lineShape(const HeadUpPlace& place, bool with_ruler) {
   const double wanted = place.magnification * kTextOfHeight * place.screen_px.y;
   const double free_px = 0.97 * (place.screen_px.x - place.reserved_left_px);
   for (LineShape shape;; ++shape.least_important) {
     double widths = 0.0;
-    for (const CellWidth& cell : kCells) widths += cell.importance >= shape.least_important ? cell.widths : 0.0;
+    for (const CellWidth& cell : kCells)
+      if (cell.importance >= shape.least_important && (with_ruler || cell.cell != Cells::ruler)) widths += cell.widths;
     shape.text_px = std::min(wanted, free_px / widths);
     shape.width_px = widths * shape.text_px;
     if (shape.text_px >= std::min(wanted, kMinText_px) || shape.least_important == static_cast<int>(kCells.size()))
@@ -54,9 +56,9 @@ LineShape lineShape(const HeadUpPlace& place) {
 
 // Light on a dark plate: legible on bone, teeth and gingiva; amber and red differ in lightness too.
 constexpr Ink kPlate{0.05, 0.06, 0.08, 0.62}, kSheet{0.05, 0.06, 0.08, 0.9}, kWhite{0.96, 0.97, 0.98},
-    kDim{0.66, 0.7, 0.75}, kBlueWater{0.55, 0.78, 0.98}, kCalm{0.52, 0.82, 0.6}, kAmberPlate{0.96, 0.7, 0.16, 0.94},
-    kRedPlate{0.78, 0.1, 0.09, 0.94}, kAmberBar{0.97, 0.72, 0.2}, kRedBar{0.95, 0.3, 0.25}, kBlack{0.06, 0.05, 0.04},
-    kTrough{1.0, 1.0, 1.0, 0.2};
+    kDim{0.66, 0.7, 0.75}, kBlueWater{0.55, 0.78, 0.98}, kCalm{0.52, 0.82, 0.6}, kRulerGreen{0.3, 0.95, 0.8},
+    kAmberPlate{0.96, 0.7, 0.16, 0.94}, kRedPlate{0.78, 0.1, 0.09, 0.94}, kAmberBar{0.97, 0.72, 0.2},
+    kRedBar{0.95, 0.3, 0.25}, kBlack{0.06, 0.05, 0.04}, kTrough{1.0, 1.0, 1.0, 0.2};
 
 /// A plate with cut corners.
 void plate(const Drawing& drawing, const glm::dvec2& size, double corner, const Ink& ink) {
@@ -102,11 +104,11 @@ HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, c
   return place;
 }
 
-double headUpTextHeight_px(const HeadUpPlace& place) { return lineShape(place).text_px; }
+double headUpTextHeight_px(const HeadUpPlace& place) { return lineShape(place, false).text_px; }
 
 std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const HeadUpPlace& place) const {
   std::vector<Cell> cells;
-  const LineShape shape = lineShape(place);
+  const LineShape shape = lineShape(place, !c.ruler.empty());
   const double text = shape.text_px, high = std::round(kPlateOfText * text);
   const double free = place.screen_px.x - place.reserved_left_px;
   const double edge = std::round(0.4 * text);
@@ -152,6 +154,10 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     in_line(Cells::gap, gap, [=](const Drawing& to, const glm::dvec2& size) {
       if (!gap.empty()) to.text(gap, 0.5 * size, text, kWhite, Align::centre, true);
     });
+    if (!c.ruler.empty())
+      in_line(Cells::ruler, c.ruler, [=, ruler = c.ruler](const Drawing& to, const glm::dvec2& size) {
+        to.text(ruler, 0.5 * size, text, kRulerGreen, Align::centre, true);
+      });
     const std::string time = clockText(c.time_s);
     in_line(Cells::time, time, [=](const Drawing& to, const glm::dvec2& size) {
       to.text(time, {size.x - 0.6 * text, 0.5 * size.y}, text, kWhite, Align::right, true);

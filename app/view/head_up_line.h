@@ -32,6 +32,7 @@ struct HeadUpContent {
   bool irrigating = true;                   ///< water on
   double force_N = 0.0, force_share = 0.0;  ///< share of the device's limit
   std::optional<double> gap_mm;             ///< of the bur to bone or tooth; none: too far to show
+  std::string ruler;                        ///< "ruler 7.3 mm"; empty: none
   double time_s = 0.0;
   std::string said;                                       ///< just now; empty: nothing
   std::string task;                                       ///< of an experiment; empty: none

@@ -11,7 +11,9 @@
 namespace render {
 namespace {
 
-bool isOverlay(Model model) { return model == Model::mandibular_canal_overlay || model == Model::ghost; }
+bool isOverlay(Model model) {
+  return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::ghost;
+}
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
 
 MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
@@ -159,7 +161,7 @@ void MeshBodies::place(const Placements& placements, const FaceWindow& window) {
   window_ = window;
   placements_ = placements;
   has_ = {};
-  const bool guided = opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ghost) > 0.0f;
+  const bool guided = hasGuides() || opacityOf(Model::ghost) > 0.0f;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];
     if (body.scene == nullptr) continue;

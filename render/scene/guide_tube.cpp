@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::uint32_t kSides = 24;
 constexpr glm::vec4 kCanalColour{0.90f, 0.36f, 0.05f, 1.0f};  // customary for the nerve in planning software
-constexpr float kBehind = 0.6f;                               // share of the colour behind bone
+constexpr glm::vec4 kRulerColour{0.02f, 0.85f, 0.55f, 1.0f};  // of no tissue and no other guide
+constexpr int kBeadRows = 12;
+constexpr float kBehind = 0.6f;  // share of the colour behind bone
 
 glm::dvec3 perpendicularTo(const glm::dvec3& along) {
   const glm::dvec3 other = std::abs(along.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
@@ -88,6 +90,21 @@ assets::MeshPart partNamed(const std::string& name, const glm::vec4& colour) {
   return part;
 }
 
+/// A ball of rings from pole to pole.
+void appendBead(assets::MeshPart& part, const glm::dvec3& centre) {
+  for (int row = 0; row <= kBeadRows; ++row) {
+    const double polar = M_PI * row / kBeadRows;
+    Ring ring;
+    for (std::uint32_t s = 0; s < kSides; ++s) {
+      const double turn = 2.0 * M_PI * s / kSides;
+      ring.normal[s] = {std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), -std::cos(polar)};
+      ring.position_mm[s] = centre + kRulerBead_mm * ring.normal[s];
+    }
+    append(part, ring);
+    if (row > 0) joinLastTwo(part);
+  }
+}
+
 assets::MeshModel closedTube(std::span<const glm::dvec3> line_P_mm, double radius_mm, assets::MeshPart part) {
   const std::vector<glm::dvec3> line = distinct(line_P_mm);
   if (line.size() < 2 || !(radius_mm > 0.0)) return {};
@@ -132,6 +149,20 @@ assets::MeshModel mandibularCanalDashes(std::span<const glm::dvec3> line_P_mm, d
       at_mm = next_mm;
     }
     along_mm += length_mm;
+  }
+  return {{std::move(part)}};
+}
+
+assets::MeshModel rulerMesh(const RulerLine& ruler, bool behind) {
+  assets::MeshPart part = partNamed("Ruler", glm::vec4((behind ? kBehind : 1.0f) * glm::vec3(kRulerColour), 1.0f));
+  appendBead(part, ruler.from_P.mm);
+  if (ruler.to_P) {
+    appendBead(part, ruler.to_P->mm);
+    const std::array<glm::dvec3, 2> line{ruler.from_P.mm, ruler.to_P->mm};
+    if (ruler.length_mm() > 1e-6) {
+      for (const Ring& ring : ringsAlong(line, kRulerRadius_mm)) append(part, ring);
+      joinLastTwo(part);
+    }
   }
   return {{std::move(part)}};
 }

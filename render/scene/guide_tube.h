@@ -7,6 +7,7 @@
 #include <span>
 
 #include "assets/mesh.h"
+#include "render/frame.h"
 
 namespace render {
 
@@ -16,6 +17,10 @@ assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, dou
 /// The same in dashes of that length along the line and gaps between them, darker.
 assets::MeshModel mandibularCanalDashes(std::span<const glm::dvec3> line_P_mm, double radius_mm);
 
+/// A thin line with a bead at each marked point; `behind`: as it is seen through bone, darker.
+assets::MeshModel rulerMesh(const RulerLine& ruler, bool behind);
+
+inline constexpr double kRulerRadius_mm = 0.14, kRulerBead_mm = 0.4;  ///< radii
 inline constexpr double kCanalDash_mm = 1.8, kCanalDashGap_mm = 1.2;
 
 }  // namespace render

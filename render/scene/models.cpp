@@ -3,7 +3,7 @@
 namespace render {
 namespace {
 
-constexpr float kMandibularCanalOverlay = 0.45f;  // opacity of the canal seen through bone
+constexpr float kMandibularCanalOverlay = 0.45f, kRulerOverlay = 0.5f;  // opacity where seen through bone
 
 // The ghost tool fades in as the hand moves 0.1 to 0.5 mm away from the tool held by the bone.
 float ghostOpacity(const Frame& frame) {
@@ -24,7 +24,9 @@ Placements placementsIn(const Frame& frame) {
             {.P_from_mesh = frame.X_PO.matrix(), .opacity = shown(frame.second_visible)},
             {.opacity = shown(layers.mandibular_canal)},
             {.opacity = layers.mandibular_canal ? kMandibularCanalOverlay : 0.0f},
-            {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)}}}};
+            {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)},
+            {.opacity = shown(frame.ruler.has_value())},
+            {.opacity = frame.ruler ? kRulerOverlay : 0.0f}}}};
 }
 
 }  // namespace render

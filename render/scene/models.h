@@ -11,10 +11,20 @@
 
 namespace render {
 
-/// `mandibular_canal`: where it is visible. `mandibular_canal_overlay`: seen through bone and gingiva. `ghost`: the
+/// `mandibular_canal`, `ruler`: where they are visible; their overlays: seen through bone and gingiva. `ghost`: the
 /// instrument at the hand, seen through them too.
-enum class Model { face, gingiva, instrument, second_instrument, mandibular_canal, mandibular_canal_overlay, ghost };
-inline constexpr std::size_t kModels = 7;
+enum class Model {
+  face,
+  gingiva,
+  instrument,
+  second_instrument,
+  mandibular_canal,
+  mandibular_canal_overlay,
+  ghost,
+  ruler,
+  ruler_overlay
+};
+inline constexpr std::size_t kModels = 9;
 
 /// How the surface of a mesh is shaded. The values are those of the shaders.
 enum class Finish {
@@ -26,8 +36,9 @@ enum class Finish {
 };
 
 constexpr Finish finishOf(Model model) {
-  constexpr std::array<Finish, kModels> kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
-                                                Finish::guide, Finish::guide,   Finish::instrument};
+  constexpr std::array<Finish, kModels> kFinish{Finish::skin,       Finish::gingiva, Finish::instrument,
+                                                Finish::instrument, Finish::guide,   Finish::guide,
+                                                Finish::instrument, Finish::guide,   Finish::guide};
   return kFinish[static_cast<std::size_t>(model)];
 }
 

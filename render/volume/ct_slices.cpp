@@ -20,11 +20,12 @@ constexpr double kScale_mm = 5.0;
 constexpr int kLeastEdgeForText_px = 78;
 constexpr float kFar_mm = 1e3f;
 constexpr double kCanalStep_mm = 0.25;
+constexpr double kRulerSlab_mm = 0.5;  // half of the thickness in which the ruler belongs to a slice
 
 // sRGB 0..255.
 const glm::vec3 kCarved{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
-    kPlan{70.0f, 140.0f, 255.0f}, kCross{110.0f, 150.0f, 165.0f}, kText{225.0f, 232.0f, 235.0f},
-    kRim{14.0f, 16.0f, 18.0f};
+    kPlan{70.0f, 140.0f, 255.0f}, kCross{110.0f, 150.0f, 165.0f}, kRuler{40.0f, 240.0f, 195.0f},
+    kText{225.0f, 232.0f, 235.0f}, kRim{14.0f, 16.0f, 18.0f};
 
 /// A plane in the volume: its axes as voxel axes, the sign of the vertical one in the image, and the labels.
 struct Layout {
@@ -262,6 +263,48 @@ void drawCanalDistance(SliceImage& slice, const Frame& frame, const CtScan& scan
   drawText(slice, text, gap, edge - 2 * gap - 2 * kLetterHeight * dot, dot);
 }
 
+/// The part of the ruler in the slice, and its whole length; nothing where it does not pass through.
+void drawRuler(SliceImage& slice, const Layout& layout, const glm::dvec3& middle, const Frame& frame) {
+  if (!frame.ruler) return;
+  const glm::dvec3 from = frame.ruler->from_P.mm,
+                   way = frame.ruler->to_P ? frame.ruler->to_P->mm - from : glm::dvec3(0.0);
+  // Shares of the way between which it is in the slab.
+  const double height = middle[layout.normal_axis] - from[layout.normal_axis], rise = way[layout.normal_axis];
+  double first = 0.0, last = 1.0;
+  if (std::abs(rise) > 1e-9) {
+    const double a = (height - kRulerSlab_mm) / rise, b = (height + kRulerSlab_mm) / rise;
+    first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+  } else if (std::abs(height) > kRulerSlab_mm) {
+    return;
+  }
+  if (first > last) return;
+  const glm::dvec2 begin = slice.pixelOf(from + first * way), end = slice.pixelOf(from + last * way);
+  const int edge = slice.edge_px();
+  const double bead_px = std::max(2.0, 0.4 / slice.mm_per_px());
+  const auto around = [&](const glm::dvec2& low, const glm::dvec2& high, double reach, auto cover) {
+    const glm::ivec2 from_px = glm::max(glm::ivec2(glm::floor(low - reach)), 0);
+    const glm::ivec2 to_px = glm::min(glm::ivec2(glm::ceil(high + reach)), edge - 1);
+    for (int y = from_px.y; y <= to_px.y; ++y)
+      for (int x = from_px.x; x <= to_px.x; ++x) slice.blend(x, y, kRuler, cover(glm::dvec2(x, y) + 0.5));
+  };
+  around(glm::min(begin, end), glm::max(begin, end), 2.0, [&](const glm::dvec2& p) {
+    return lineCover(calibration::distanceToSegment(glm::dvec3(p, 0.0), glm::dvec3(begin, 0.0), glm::dvec3(end, 0.0)));
+  });
+  // Marked points in the slab.
+  for (const double share : {0.0, 1.0})
+    if (first <= share && share <= last)
+      around(slice.pixelOf(from + share * way), slice.pixelOf(from + share * way), bead_px + 1.0,
+             [&](const glm::dvec2& p) {
+               const double away = glm::distance(p, slice.pixelOf(from + share * way));
+               return static_cast<float>(std::clamp(bead_px + 0.5 - away, 0.0, 1.0));
+             });
+  if (!frame.ruler->to_P || edge < kLeastEdgeForText_px) return;
+  const int dot = std::max(1, edge / 200), gap = 3 * dot + 1;
+  char text[32];
+  std::snprintf(text, sizeof text, "RULER %.1f MM", frame.ruler->length_mm());
+  drawText(slice, text, gap, 2 * gap + kLetterHeight * dot, dot);
+}
+
 void drawLabels(SliceImage& slice, const Layout& layout) {
   const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
   const int high = kLetterHeight * dot, wide = (kLetterWidth + 1) * dot;
@@ -326,6 +369,7 @@ Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<
   if (guides != nullptr && frame.layers.planned_cut) drawPlan(slice, grid_, *guides);
   drawCross(slice, frame.bur_radius_mm + 1.0);
   drawBur(slice, frame);
+  drawRuler(slice, layout, middle, frame);
   drawLabels(slice, layout);
   drawCanalDistance(slice, frame, scan_);
   return slice.take();

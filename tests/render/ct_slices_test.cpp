@@ -213,6 +213,33 @@ TEST(CtSlices, ShowTheWayToTheCanalWhereThereIsRoom) {
   EXPECT_GT(bright(), 60);
 }
 
+TEST(CtSlices, DrawTheRulerWhereItPassesThrough) {
+  Scene scene([](glm::dvec3) { return -1000.0; }, {60, 60, 60});
+  const auto is_ruler = [&](SlicePlane plane, double x, double y) {
+    const Rgb seen = pixelAt(scene.image(plane), x, y);
+    return seen.g > 180 && seen.g > seen.r + 100;
+  };
+  // In the axial plane at its height; it crosses the sagittal one (x = 0) at y = 3.
+  scene.frame.ruler = RulerLine{{{-5.0, 3.0, 0.2}}, calibration::Point<calibration::Patient>{{5.0, 3.0, 0.2}}};
+  EXPECT_TRUE(is_ruler(SlicePlane::axial, 4.0, 3.0));
+  EXPECT_TRUE(is_ruler(SlicePlane::axial, -5.0, 3.0)) << "its first point";
+  EXPECT_FALSE(is_ruler(SlicePlane::axial, 6.0, 3.0));
+  EXPECT_FALSE(is_ruler(SlicePlane::axial, 4.0, -3.0));
+  EXPECT_TRUE(is_ruler(SlicePlane::sagittal, 3.0, -0.2)) << "where it passes through";
+  EXPECT_FALSE(is_ruler(SlicePlane::sagittal, 4.5, -0.2));
+  const auto words = [&](SlicePlane plane) {
+    const Image image = scene.image(plane);
+    int bright = 0;
+    for (int y = 12; y < 24; ++y)
+      for (int x = 0; x < 80; ++x) bright += at(image, x, y).r > 200;
+    return bright;
+  };
+  EXPECT_GT(words(SlicePlane::axial), 60) << "its length";
+  scene.frame.ruler->from_P.mm.z = scene.frame.ruler->to_P->mm.z = 2.0;
+  EXPECT_FALSE(is_ruler(SlicePlane::axial, 4.0, 3.0)) << "2 mm above";
+  EXPECT_EQ(words(SlicePlane::axial), 0);
+}
+
 TEST(CtSlices, CanLieBesideTheBur) {
   // Grey values tell the height.
   Scene scene([](glm::dvec3 p) { return 500.0 + 100.0 * p.z; }, {60, 60, 60});

@@ -96,5 +96,39 @@ TEST(GuideOverlay, AnOpenedCanalIsAsBrightAndSolidAsWithoutBone) {
     }
 }
 
+// Between two touches of a ball: the beads are outside, the line is inside, and so is seen through it.
+TEST(GuideOverlay, TheRulerIsBrightInAirAndDimInsideTheBone) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
+  for (const Backend backend : kBackends) {
+    FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend});
+    Frame frame = fromTheFront();
+    const Image without = seen(renderer, frame);
+    // Green beyond red: of no tissue.
+    const auto green = [&](const Image& image, const glm::dvec3& p_P_mm) {
+      const glm::ivec2 px = testing::pixelOf(frame.rig, eyeView(frame.rig, Eye::cyclopean), p_P_mm);
+      const int x = px.x, y = px.y;
+      const std::uint8_t* const c = &image.rgba[4 * static_cast<std::size_t>(y * 160 + x)];
+      return c[1] - c[0];
+    };
+    frame.ruler = RulerLine{{{-6.0, 0.0, 5.0}}, calibration::Point<calibration::Patient>{{6.0, 0.0, 5.0}}};
+    const Image hidden = seen(renderer, frame);
+    frame.ruler = RulerLine{{{-6.0, -9.5, 5.0}}, calibration::Point<calibration::Patient>{{6.0, -9.5, 5.0}}};
+    const Image open = seen(renderer, frame);
+    for (const double x_mm : {-3.0, 0.1, 4.0}) {
+      EXPECT_GT(green(open, {x_mm, -9.5, 5.0}), 100) << x_mm;
+      EXPECT_GT(green(hidden, {x_mm, 0.0, 5.0}), 15) << x_mm << " seen through the bone";
+      EXPECT_LT(green(hidden, {x_mm, 0.0, 5.0}), green(open, {x_mm, -9.5, 5.0}) - 40) << x_mm << " and dimmer";
+      EXPECT_LT(green(open, {x_mm, -9.5, 3.5}), 10) << x_mm << " a thin line";
+    }
+    frame.ruler = RulerLine{{{-6.0, -9.5, 5.0}}, {}};
+    const Image first = seen(renderer, frame);
+    EXPECT_GT(green(first, {-6.0, -9.5, 5.0}), 60) << "one bead";
+    EXPECT_LT(green(first, {0.1, -9.5, 5.0}), 10);
+    frame.ruler.reset();
+    EXPECT_EQ(seen(renderer, frame).rgba, without.rgba);
+  }
+}
+
 }  // namespace
 }  // namespace render

@@ -151,6 +151,25 @@ TEST_F(RehearseCommand, NamesTheRowOfAnInvalidRequest) {
   expectRefusal(kQuick + ("--device poses:" + at("none.csv")), "none.csv");
 }
 
+// Far from any bone the bur's tip marks: 3 mm across and 4 mm up are 5 mm.
+TEST_F(RehearseCommand, MeasuresWithTheRulerAndRecordsIt) {
+  write("p.csv", std::string(kPoseHeader) +
+                     "0,100,0,200,1,0,0,0,0,,\n0.1,100,0,200,1,0,0,0,0,,ruler\n"
+                     "0.2,103,0,204,1,0,0,0,0,,\n0.3,103,0,204,1,0,0,0,0,,ruler\n"
+                     "0.4,103,0,204,1,0,0,0,0,,ruler\n0.5,103,0,204,1,0,0,0,0,,\n");
+  const ProgramOutput said =
+      molar(kQuick + ("--device poses:" + at("p.csv") + " --tool round:3.0 --record " + at("ruler.molar")));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const ProgramOutput metrics = molar("metrics " + at("ruler.molar") + " --json");
+  ASSERT_EQ(metrics.status, 0) << metrics.err;
+  const auto measured = nlohmann::json::parse(metrics.out)["measured"];
+  ASSERT_EQ(measured.size(), 1u) << metrics.out;
+  EXPECT_NEAR(measured[0]["mm"].get<double>(), 5.0, 1e-9);
+  EXPECT_NEAR(measured[0]["t_s"].get<double>(), 0.3, 0.03);
+  EXPECT_EQ(measured[0]["words"], "5.00 mm from (100.00, 0.00, 198.50) to (103.00, 0.00, 202.50) mm");
+  EXPECT_NE(molar("metrics " + at("ruler.molar")).out.find("measured at 0:00: 5.00 mm from"), std::string::npos);
+}
+
 TEST_F(RehearseCommand, ExecutesTheLastRowInRealTimeToo) {
   write("p.csv", std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,2,snapshot\n");
   const std::string line = "cd " + folder_.string() + " && " + MOLAR_PROGRAM +

@@ -118,6 +118,23 @@ TEST(HeadUpLine, ShowsTheGapBelowTenMillimetres) {
   EXPECT_NE(gap_cell(0.0), gap_cell(0.1)) << "contact";
 }
 
+TEST(HeadUpLine, HasACellForTheRulerWhileThereIsOne) {
+  const render::Frame frame = frameOf({1280, 800});
+  const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
+  HeadUpContent content = atWork();
+  HeadUpLine line;
+  line.update(content, place);
+  const std::size_t without = line.panels().size();
+  content.ruler = "ruler 7.3 mm";
+  EXPECT_TRUE(line.update(content, place));
+  EXPECT_EQ(line.panels().size(), without + 1);
+  for (std::size_t n = 1; n < line.panels().size(); ++n)
+    for (std::size_t m = 0; m < n; ++m) EXPECT_FALSE(overlap(line.panels()[n], line.panels()[m])) << n << " " << m;
+  content.ruler.clear();
+  line.update(content, place);
+  EXPECT_EQ(line.panels().size(), without);
+}
+
 TEST(HeadUpLine, LettersAreLargerWhereAnEyeGetsFewerLines) {
   const render::Frame frame = frameOf({1280, 800});
   const auto height = [&](render::DisplayMode mode) {
