@@ -157,11 +157,7 @@ void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
 }
 
 void FrameRenderer::render(const Frame& frame) {
-  StereoLayout layout{.mode = frame.display,
-                      .screen_px = frame.rig.screen.px,
-                      .at_px = frame.output_at_px,
-                      .swapped = frame.eyes_swapped};
-  const glm::ivec2 full_px = eyeImageSize(layout.mode, layout.screen_px);
+  const glm::ivec2 full_px = eyeImageSize(frame.display, frame.rig.screen.px);
   const glm::ivec2 eye_px = glm::max((full_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
   const bool mono = frame.display == DisplayMode::mono;
   const Eye left = mono ? Eye::cyclopean : Eye::left, right = mono ? Eye::cyclopean : Eye::right;
@@ -170,12 +166,23 @@ void FrameRenderer::render(const Frame& frame) {
   updateInsets(frame, eye_px);
   drawEye(frame, left, eye_px);
   if (!mono) drawEye(frame, right, eye_px);
+  composed_from_ = left;
+  compose(frame);
+}
+
+void FrameRenderer::composeAgain() { compose(drawn(composed_from_).frame); }
+
+void FrameRenderer::compose(const Frame& frame) {
+  StereoLayout layout{.mode = frame.display,
+                      .screen_px = frame.rig.screen.px,
+                      .at_px = frame.output_at_px,
+                      .swapped = frame.eyes_swapped};
+  const Eye right = frame.display == DisplayMode::mono ? Eye::cyclopean : Eye::right;
   const ScreenOrientation orientation = screenOrientation(frame.rig);
   for (; layout.output < outputCount(layout.mode); ++layout.output) {
     updateOverlay(layout, orientation, layout.output);
-    scene_->compose(layout, left, right, layout.output);
+    scene_->compose(layout, composed_from_, right, layout.output);
   }
-  composed_from_ = left;
 }
 
 void FrameRenderer::renderEye(const Frame& frame, Eye eye) {

@@ -59,6 +59,8 @@ class FrameRenderer {
   /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, each output
   /// outputSize(frame.display, frame.rig.screen.px) large.
   void render(const Frame& frame);
+  /// Composes the eyes that render() drew last once more, with the overlay of now: costs no drawing.
+  void composeAgain();
   /// Draws one eye at the full screen size, for readEye and readDistance.
   void renderEye(const Frame& frame, Eye eye);
 
@@ -99,6 +101,7 @@ class FrameRenderer {
   void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
   void updateRuler(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
+  void compose(const Frame& frame);
 
   VolumeFields fields_;
   GapFinder gap_;

@@ -1,5 +1,7 @@
 #include "app/rehearsal/live_view.h"
 
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "app/view/patient_renderer.h"
@@ -10,6 +12,7 @@ namespace {
 
 constexpr int kSnapshotSamples = 2;
 constexpr double kUsualRefresh_Hz = 60.0;
+constexpr std::chrono::milliseconds kLookForMotion{4}, kPresentAgain{250};
 
 }  // namespace
 
@@ -59,26 +62,60 @@ std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(const render::Rende
   return renderer;
 }
 
-void LiveView::show(const render::Frame& frame) {
+void LiveView::showLive(const render::Frame& frame) {
   display();
   render::Frame drawn = frame;
   if (quality_->overridesFrame()) drawn.quality = quality_->quality();
   updateOverlay(drawn);
   display_->show(drawn);
+  still_.forget();
   ++frames_;
 }
 
-/// Where the site is seen decides the edge of the text.
-void LiveView::updateOverlay(const render::Frame& frame) {
+void LiveView::show(const render::Frame& frame, Clock::time_point now) {
+  display();
+  if (!quality_->isReduced()) return showLive(frame);
+  const bool changed = std::exchange(bone_changed_, false) || shown_warnings_ != head_up_.warnings;
+  shown_warnings_ = head_up_.warnings;
+  render::Frame drawn = frame;
+  drawn.quality = quality_->quality();
+  const FrameDrawing step = still_.next(drawn, changed, now);
+  const bool text_changed = updateOverlay(drawn);
+  if (step != FrameDrawing::kept) {
+    app::show(*display_, drawn, step);
+    ++frames_;
+    still_seen_.reset();
+    return;
+  }
+  // An uncovered or resized window is filled again.
+  if (text_changed || now - display_->presentedAt() > kPresentAgain) app::show(*display_, drawn, step);
+  if (still_seen_) still_s_ += std::chrono::duration<double>(now - *still_seen_).count();
+  still_seen_ = now;
+}
+
+std::string LiveView::qualityText() {
+  if (!quality_) return "no frames displayed";
+  return still_.newest() == FrameDrawing::live ? quality_->text() : "full while nothing moves";
+}
+
+/// Where the site is seen decides the edge of the text. True if it changed.
+bool LiveView::updateOverlay(const render::Frame& frame) {
   calibration::Rig rig = frame.rig;
   rig.screen.px = display().imageSize_px(rig);
   render::FrameRenderer& renderer = display_->renderer();
-  if (!head_up_line_.update(head_up_, headUpPlace(rig, display_->mode(), frame)) && !overlay_is_new_) return;
+  if (!head_up_line_.update(head_up_, headUpPlace(rig, display_->mode(), frame)) && !overlay_is_new_) return false;
   renderer.setOverlay(head_up_line_.panels());
   overlay_is_new_ = false;
+  return true;
 }
 
 void LiveView::waitUntilShown() {
+  // Nothing was drawn for a pose: the next movement is looked for soon, without using a core.
+  if (still_.newest() == FrameDrawing::kept) {
+    pose_read_.reset();
+    std::this_thread::sleep_for(kLookForMotion);
+    return;
+  }
   display_->waitUntilShown();
   if (display_->window() != nullptr && pose_read_)
     latency_.add(std::chrono::duration<double>(display_->presentedAt() - *pose_read_).count());
@@ -86,7 +123,7 @@ void LiveView::waitUntilShown() {
 }
 
 void LiveView::uploadBone() {
-  if (display_) uploader_.upload(*bone_, display_->renderer());
+  if (display_ && uploader_.upload(*bone_, display_->renderer()) > 0) bone_changed_ = true;
 }
 
 std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {
@@ -96,6 +133,7 @@ std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {
 
 void LiveView::showInstrument() {
   if (display_) app::showInstrument(display_->renderer(), in_force_.tool);
+  still_.forget();
 }
 
 void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {
@@ -110,6 +148,7 @@ void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::
 render::Image LiveView::fullPicture(render::Frame frame) {
   frame.quality = render::kQualitySteps.front().quality;
   updateOverlay(frame);
+  still_.forget();
   return display().picture(frame);
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/device/second_hand.h"
 #include "app/instructor/rehearsal_status.h"
@@ -16,6 +17,7 @@
 #include "app/view/motion_to_photon.h"
 #include "app/view/quality_choice.h"
 #include "app/view/snapshot.h"
+#include "app/view/still_picture.h"
 #include "app/view/surgeon_display.h"
 
 namespace app {
@@ -37,9 +39,11 @@ class LiveView {
 
   /// Draws the frame until the quality for this machine is found, a few seconds at most.
   void settleQuality(const render::Frame& frame) {
-    quality_->settle([&] { show(frame); });
+    quality_->settle([&] { showLive(frame); });
   }
-  void show(const render::Frame& frame);
+  /// At the live quality; refined after a while in which nothing moved (app/view/still_picture.h).
+  void show(const render::Frame& frame, Clock::time_point now);
+  void showLive(const render::Frame& frame);
   /// The text over the frames shown from now on.
   void setHeadUp(HeadUpContent content) { head_up_ = std::move(content); }
   /// Until no frame is queued; the pose read next is the newest that can be displayed.
@@ -51,7 +55,9 @@ class LiveView {
   /// After a change of tool.
   void showInstrument();
   /// True if the quality changed. Never during a stroke.
-  bool adaptQuality(bool in_stroke) { return quality_ && quality_->update(in_stroke); }
+  bool adaptQuality(bool in_stroke) {
+    return quality_ && still_.newest() == FrameDrawing::live && quality_->update(in_stroke);
+  }
 
   /// Both eyes at full quality. `solid`: the bone, in the order of the patient's grid.
   void takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid);
@@ -61,14 +67,16 @@ class LiveView {
   SurgeonDisplay& display();
   /// Null: headless.
   render::Window* window() { return display_ ? display_->window() : nullptr; }
-  std::string qualityText() { return quality_ ? quality_->text() : "no frames displayed"; }
+  std::string qualityText();
   const MotionToPhoton& latency() const { return latency_; }
+  /// Drawn and shown, without those in which nothing moved, and the time without them.
   std::uint64_t frames() const { return frames_; }
+  double still_s() const { return still_s_; }
   void describe(RehearsalStatus& status);
 
  private:
   void open();
-  void updateOverlay(const render::Frame& frame);
+  bool updateOverlay(const render::Frame& frame);
   std::unique_ptr<render::FrameRenderer> newRenderer(const render::RenderOptions& options,
                                                      std::span<const std::uint8_t> solid) const;
 
@@ -87,6 +95,11 @@ class LiveView {
   MotionToPhoton latency_;
   std::optional<Clock::time_point> pose_read_;
   std::uint64_t frames_ = 0;
+  StillPicture still_;
+  bool bone_changed_ = false;                    ///< since the newest frame
+  std::vector<HeadUpWarning> shown_warnings_;    ///< in the newest frame
+  std::optional<Clock::time_point> still_seen_;  ///< the newest frame in which nothing moved
+  double still_s_ = 0.0;
 };
 
 }  // namespace app

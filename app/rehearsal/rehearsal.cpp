@@ -73,8 +73,8 @@ class Rehearsal {
         const double loop_s = secondsSince(loop_start);
         RehearsalFigures figures = finish(*ending);
         figures.first_frame_s = first_frame_s;
-        figures.frame_ms =
-            1000.0 * loop_s / static_cast<double>(std::max<std::uint64_t>(1, figures.frames - frames_before));
+        figures.frame_ms = 1000.0 * (loop_s - view_.still_s()) /
+                           static_cast<double>(std::max<std::uint64_t>(1, figures.frames - frames_before));
         std::fputs((plan_.summary ? summaryText(figures) : recordingText(figures)).c_str(),
                    plan_.procedure ? stderr : stdout);
         return exitStatus(figures);
@@ -104,7 +104,7 @@ class Rehearsal {
     double first_frame_s = 0.0;
     if (pace_.isRealTime()) {
       view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
-      view_.show(frame_);
+      view_.showLive(frame_);
       first_frame_s = secondsSince(plan_.begun);
       view_.settleQuality(frame_);
     }
@@ -181,7 +181,7 @@ class Rehearsal {
   void draw() {
     // Also without display: warnings are counted.
     view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
-    if (pace_.isRealTime()) view_.show(frame_);
+    if (pace_.isRealTime()) view_.show(frame_, pace_.now());
     const bool in_stroke = newest_.drilling || newest_.depth_mm > 0.0;
     if (view_.adaptQuality(in_stroke)) event_log_.note("quality", view_.qualityText());
   }
@@ -220,9 +220,12 @@ class Rehearsal {
 }  // namespace
 
 int rehearse(RehearsalPlan plan) {
+  interrupted = 0;
   installInterruptHandlers();
   plan.device_options.is_cancelled = [] { return interrupted != 0; };
   return Rehearsal(std::move(plan)).run();
 }
+
+bool wasInterrupted() { return interrupted != 0; }
 
 }  // namespace app

@@ -11,4 +11,7 @@ namespace app {
 /// procedure on stderr. Throws what opening devices, displays and recordings throws.
 [[nodiscard]] int rehearse(RehearsalPlan plan);
 
+/// A signal to end the program ended the last rehearsal.
+bool wasInterrupted();
+
 }  // namespace app

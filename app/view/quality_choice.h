@@ -23,6 +23,8 @@ class QualityChoice {
 
   /// Whether the ladder overrides the frame's own quality.
   bool overridesFrame() { return isChoosing() || held_; }
+  /// The ladder draws less than it could.
+  bool isReduced() { return isChoosing() && ladder_.step() > 0; }
   render::Quality quality() const { return ladder_.quality(); }
 
   /// Draws until the step for this machine is found, at most three seconds. `draw` draws a frame at the current

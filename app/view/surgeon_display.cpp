@@ -131,24 +131,45 @@ void SurgeonDisplay::show(render::Frame frame) {
   }
 }
 
-void SurgeonDisplay::drawAndPresent(render::Frame& frame) {
+void SurgeonDisplay::drawAndPresent(const render::Frame& frame) {
   const Clock::time_point begun = Clock::now();
   renderer().render(frame);
-  if (!windows_) {
-    renderer_->readImage();
-    presented_at_ = Clock::now();
-    drawing_s_ = secondsBetween(begun, presented_at_);
-    renderer_->throwIfError();
-    return;
-  }
-  windows_->fill([this](const render::WindowTarget& place, int output) { renderer_->showOnWindow(place, output); });
-  // What drawing costs is known before the display is waited for.
-  fence_->mark();
-  fence_->wait();
+  shown_px_ = {frame.rig.screen.px, frame.output_at_px};
+  fillWindows();
   drawing_s_ = secondsBetween(begun, Clock::now());
+  present();
+}
+
+void SurgeonDisplay::showAgain(const render::Frame& frame) {
+  render::Frame prepared = frame;
+  prepare(prepared);
+  if (!renderer_ || shown_px_ != std::pair(prepared.rig.screen.px, prepared.output_at_px)) return show(frame);
+  try {
+    renderer_->composeAgain();
+    fillWindows();
+    present();
+  } catch (const render::ContextLost&) {
+    show(frame);  // finds it lost as well, and creates all again
+  }
+}
+
+/// What drawing costs is known before the display is waited for.
+void SurgeonDisplay::fillWindows() {
+  if (windows_) {
+    windows_->fill([this](const render::WindowTarget& place, int output) { renderer_->showOnWindow(place, output); });
+    fence_->mark();
+    fence_->wait();
+  } else {
+    renderer_->readImage();
+  }
+}
+
+void SurgeonDisplay::present() {
   renderer_->throwIfError();
-  windows_->first().present();
-  fence_->mark();
+  if (windows_) {
+    windows_->first().present();
+    fence_->mark();
+  }
   presented_at_ = Clock::now();
 }
 

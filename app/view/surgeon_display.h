@@ -40,12 +40,15 @@ class SurgeonDisplay {
   /// Draws and presents. Sets the frame's display mode, eye order and, on interleaved displays, size. Recreates
   /// everything after a reset of the graphics card; throws ContextLost at the fourth.
   void show(render::Frame frame);
+  /// Presents the picture shown last with the newest overlay; the frame is drawn only where that is not possible (a
+  /// resized interleaved display, a reset of the graphics card).
+  void showAgain(const render::Frame& frame);
   /// The first output of the frame as show() would draw it, not presented. Throws GpuError.
   render::Image picture(render::Frame frame);
   /// Until the GPU has presented the newest frame.
   void waitUntilShown();
 
-  /// Time of drawing the newest frame, without waiting for the display, s.
+  /// Time of drawing the newest frame that was drawn, without waiting for the display, s.
   double drawing_s() const { return drawing_s_; }
   /// Latest known time of presenting the newest frame.
   Clock::time_point presentedAt() const { return presented_at_; }
@@ -77,7 +80,9 @@ class SurgeonDisplay {
   void open();
   void openOffscreen();
   void prepare(render::Frame& frame);
-  void drawAndPresent(render::Frame& frame);
+  void drawAndPresent(const render::Frame& frame);
+  void fillWindows();
+  void present();
   void close();
 
   Options options_;
@@ -89,6 +94,7 @@ class SurgeonDisplay {
   std::unique_ptr<render::FrameRenderer> renderer_;
   std::optional<render::FrameFence> fence_;
   Clock::time_point presented_at_{};
+  std::optional<std::pair<glm::ivec2, glm::ivec2>> shown_px_;  ///< size and place of the newest image on the panel
   double drawing_s_ = 0.0;
   int context_losses_ = 0;
 };

@@ -1,0 +1,65 @@
+#include "app/view/still_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/quality_ladder.h"
+
+namespace app {
+namespace {
+
+template <class A, class B>
+bool isAtRest(const calibration::Pose<A, B>& a, const calibration::Pose<A, B>& b) {
+  const double half_angle_cos = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
+  return glm::distance(a.translation_mm, b.translation_mm) <= kStill_mm &&
+         2.0 * std::acos(half_angle_cos) <= kStill_rad;
+}
+
+bool isSameView(const calibration::Rig& a, const calibration::Rig& b) {
+  return a.screen.px == b.screen.px && a.screen.lower_left.mm == b.screen.lower_left.mm &&
+         a.screen.lower_right.mm == b.screen.lower_right.mm && a.screen.upper_left.mm == b.screen.upper_left.mm &&
+         a.left_eye.mm == b.left_eye.mm && a.right_eye.mm == b.right_eye.mm && a.X_WP.rotation == b.X_WP.rotation &&
+         a.X_WP.translation_mm == b.X_WP.translation_mm;
+}
+
+bool areSameLayers(const render::Layers& a, const render::Layers& b) {
+  return a.face_opacity == b.face_opacity && a.gingiva == b.gingiva && a.mandibular_canal == b.mandibular_canal &&
+         a.clearance == b.clearance && a.planned_cut == b.planned_cut && a.ghost_tool == b.ghost_tool &&
+         a.slices == b.slices && a.gap_ring == b.gap_ring;
+}
+
+}  // namespace
+
+bool showSameScene(const render::Frame& a, const render::Frame& b) {
+  if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible) return false;
+  if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
+      a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
+    return false;
+  if (a.slices_beside_bur_P_mm != b.slices_beside_bur_P_mm || a.face_window_mm != b.face_window_mm ||
+      a.gap.has_value() != b.gap.has_value() || a.site_P.mm != b.site_P.mm)
+    return false;
+  if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
+  if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;
+  if (a.second_visible && !isAtRest(a.X_PO, b.X_PO)) return false;
+  return areSameLayers(a.layers, b.layers) && isSameView(a.rig, b.rig);
+}
+
+FrameDrawing StillPicture::next(const render::Frame& frame, bool changed, Time now) {
+  if (changed || !still_ || !showSameScene(*still_, frame)) {
+    still_ = frame;
+    since_ = now;
+    return newest_ = FrameDrawing::live;
+  }
+  if (newest_ != FrameDrawing::live) return newest_ = FrameDrawing::kept;
+  return newest_ = now - since_ >= kStillFor ? FrameDrawing::refined : FrameDrawing::live;
+}
+
+void show(SurgeonDisplay& display, render::Frame frame, FrameDrawing step) {
+  if (step != FrameDrawing::live) frame.quality = render::kQualitySteps.front().quality;
+  if (step == FrameDrawing::kept)
+    display.showAgain(frame);
+  else
+    display.show(frame);
+}
+
+}  // namespace app
