@@ -9,6 +9,7 @@ namespace app {
 class CommandLine;
 
 void addRehearse(CommandLine& molar);
+void addStart(CommandLine& molar);
 void addImport(CommandLine& molar);
 void addInspect(CommandLine& molar);
 void addFeel(CommandLine& molar);
@@ -29,9 +30,9 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse,      addImport,  addInspect,   addFeel,      addCarve,
-                                   addSee,           addDisplay, addCalibrate, addDevices,   addDoctor,
-                                   addReplay,        addMetrics, addSessions,  addExport,    addLaws,
-                                   addPsychophysics, addHelp,    addManual,    addCompletion};
+inline constexpr auto kCommands = {addRehearse, addStart,         addImport,  addInspect,   addFeel,
+                                   addCarve,    addSee,           addDisplay, addCalibrate, addDevices,
+                                   addDoctor,   addReplay,        addMetrics, addSessions,  addExport,
+                                   addLaws,     addPsychophysics, addHelp,    addManual,    addCompletion};
 
 }  // namespace app

@@ -1,10 +1,9 @@
 // `molar sessions`: the recorded rehearsals of the data folder.
 
 #include <cstdio>
-#include <ctime>
 #include <memory>
 
-#include <fmt/chrono.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
@@ -22,13 +21,6 @@ struct SessionsOptions {
   std::string folder;
   bool json = false, checks = false;
 };
-
-std::string localTime(std::int64_t unix_s) {
-  const auto seconds = static_cast<std::time_t>(unix_s);
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  return fmt::format("{:%Y-%m-%d %H:%M}", local);
-}
 
 std::string json(const std::vector<SessionListing>& sessions) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -52,7 +44,7 @@ std::string table(const std::vector<SessionListing>& sessions, const std::filesy
   double total_MB = 0.0;
   for (const SessionListing& one : sessions) {
     total_MB += 1e-6 * static_cast<double>(one.bytes);
-    text += fmt::format("{}  {:>6}  {:9}  {}\n{:18}{}\n", localTime(one.unix_s), clockText(one.length_s),
+    text += fmt::format("{}  {:>6}  {:9}  {}\n{:18}{}\n", localDateTime(one.unix_s), clockText(one.length_s),
                         nameOf(one.verdict), one.case_title.empty() ? one.remark : one.case_title, "",
                         std::filesystem::path(one.path).filename().string() +
                             (one.continues ? ", continues " + *one.continues : "") +

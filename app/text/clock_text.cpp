@@ -1,14 +1,22 @@
 #include "app/text/clock_text.h"
 
 #include <algorithm>
+#include <ctime>
 
-#include <fmt/core.h>
+#include <fmt/chrono.h>
 
 namespace app {
 
 std::string clockText(double time_s) {
   const auto seconds = static_cast<long>(std::max(0.0, time_s));
   return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+std::string localDateTime(std::int64_t unix_s) {
+  const auto seconds = static_cast<std::time_t>(unix_s);
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  return fmt::format("{:%Y-%m-%d %H:%M}", local);
 }
 
 }  // namespace app

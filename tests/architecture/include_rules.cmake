@@ -3,7 +3,8 @@
 #   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
 #   app: text < { case | report | session } < { view | device } < station < options < controls < instructor
-#     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics }.
+#     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
+#     | start_screen }.
 #   haptics: { device < safety < loop | bone, tool < contact } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -51,7 +52,7 @@ foreach(room procedure evaluation)
   set(app/${room} ${seen} app/${room}/)
 endforeach()
 set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
-foreach(room pattern doctor calibrate psychophysics)
+foreach(room pattern doctor calibrate psychophysics start_screen)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
 set(app/commands ${floors} app/)

@@ -1,0 +1,147 @@
+#include "app/start_screen/start_lists.h"
+
+#include <exception>
+
+#include <fmt/core.h>
+
+#include "app/case/case.h"
+#include "app/case/patient_placement.h"
+#include "app/session/session_folder.h"
+#include "app/text/clock_text.h"
+#include "assets/tooth.h"
+#include "haptics/device/device_catalogue.h"
+
+namespace app {
+namespace {
+
+/// "lower right third molar" as the beginning of a line.
+std::string begun(std::string words) {
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return words;
+}
+
+StartList impactionList() {
+  StartList list{"Case", {}, 0};
+  for (const Case& one : cases()) {
+    if (one.name == usualCase().name) list.chosen = list.choices.size();
+    list.choices.push_back(
+        {.words = begun(assets::toothName(one.fdi())) + ", " + angulationText(one),
+         .beside = fmt::format("{}, {}", one.name, difficultyText(one)),
+         .about = fmt::format("{}; {}. {}.", begun(depthText(one)), canalText(one), begun(std::string(one.challenge))),
+         .arguments = {"--case", std::string(one.name)}});
+  }
+  return list;
+}
+
+StartList handList(std::span<const haptics::FoundDevice> devices) {
+  StartList list{"Hand", {}, 0};
+  list.choices.push_back(
+      {.words = "Mouse",
+       .beside = "",
+       .about = "Drag moves the bur, the wheel goes in and out, Space is the pedal. F1 shows all keys.",
+       .arguments = {"--device", "mouse"}});
+  for (const haptics::FoundDevice& found : devices) {
+    const bool driven = haptics::isDeviceAddress(found.address);
+    // A unit that Molar cannot use is told with its next step; what is none of its devices is left out.
+    if (!driven && found.advice.empty()) continue;
+    list.choices.push_back(
+        {.words = found.name,
+         .beside = driven ? "plugged in" : "not ready",
+         .about = driven ? found.location + ", driven by " + found.driver + ". " + found.advice : found.advice,
+         .arguments = {"--device", found.address},
+         .why_not = driven ? "" : found.advice});
+  }
+  list.choices.push_back({.words = "Demonstration",
+                          .beside = "",
+                          .about = "The program operates by itself along the planned cut, and you watch.",
+                          .arguments = {"--device", "scripted"}});
+  return list;
+}
+
+StartList calibrationList(std::span<const calibration::RigLocation> calibrations) {
+  StartList list{"Calibration", {}, 0};
+  list.choices.push_back({.words = "Usual",
+                          .beside = "",
+                          .about = "The calibration in force of the chosen device; without one the desk, magnified.",
+                          .arguments = {}});
+  for (const calibration::RigLocation& at : calibrations)
+    list.choices.push_back(
+        {.words = at.rig_id,
+         .beside = at.serial + ", " + at.mount,
+         .about = "The calibration in force of device " + at.serial + ", which stands on the " + at.mount + ".",
+         .arguments = {"--rig", "current:" + at.rig_id, "--mount", at.mount}});
+  list.choices.push_back({.words = "Plain monitor, life size",
+                          .beside = "not measured",
+                          .about = "1:1 on a usual 24-inch monitor, in full screen.",
+                          .arguments = {"--rig", "desktop"}});
+  list.choices.push_back({.words = "Mirrored workstation, life size",
+                          .beside = "not measured",
+                          .about = "1:1 through a half-silvered mirror of the usual place, in full screen.",
+                          .arguments = {"--rig", "mirrored"}});
+  return list;
+}
+
+StartList positionList() {
+  StartList list{"Patient", {}, 0};
+  constexpr std::pair<const char*, const char*> kWords[] = {
+      {"Seated before you", "For comparison: most third molars are removed lying."},
+      {"Lying, from the right", "At 10 o'clock, the head turned and tilted towards you."},
+      {"Lying, from the left", "At 2 o'clock, the head turned and tilted towards you."},
+      {"Lying, from behind", "At 12 o'clock, behind the head."}};
+  for (std::size_t n = 0; n < kPatientPositions.size(); ++n)
+    // Seated is what is done where nothing is asked for, unless a measured rig states the pose of the head.
+    list.choices.push_back(
+        {.words = kWords[n].first,
+         .beside = "",
+         .about = kWords[n].second,
+         .arguments = n == 0 ? std::vector<std::string>{}
+                             : std::vector<std::string>{"--position", std::string(kPatientPositions[n])}});
+  return list;
+}
+
+StartList sessionList(std::span<const SessionListing> sessions) {
+  StartList list{"Go on with", {}, 0};
+  list.choices.push_back(
+      {.words = "A new rehearsal", .beside = "", .about = "Of the chosen case; it is recorded.", .arguments = {}});
+  for (const SessionListing& one : sessions) {
+    if (!one.isReadable()) continue;
+    if (list.choices.size() > kSessionsOffered) break;
+    list.choices.push_back({.words = localDateTime(one.unix_s) + "  " + one.case_title,
+                            .beside = clockText(one.length_s),
+                            .about = "Goes on where this session ended: its bone, case and tools." +
+                                     (one.remark.empty() ? "" : " It has " + one.remark + "."),
+                            .arguments = {"--continue", one.path}});
+  }
+  return list;
+}
+
+}  // namespace
+
+StartLists startLists(std::span<const haptics::FoundDevice> devices,
+                      std::span<const calibration::RigLocation> calibrations,
+                      std::span<const SessionListing> sessions) {
+  return {impactionList(), handList(devices), calibrationList(calibrations), positionList(), sessionList(sessions)};
+}
+
+StartLists startListsHere() {
+  std::vector<haptics::FoundDevice> devices;
+  std::vector<calibration::RigLocation> calibrations;
+  std::vector<SessionListing> sessions;
+  try {
+    devices = haptics::findDevices().devices;
+  } catch (const std::exception&) {  // molar devices tells why
+  }
+  try {
+    const calibration::RigStore store(calibration::RigStore::usualRoot());
+    for (const calibration::RigLocation& at : store.locations())
+      if (store.currentName(at)) calibrations.push_back(at);
+  } catch (const std::exception&) {  // molar calibrate list tells why
+  }
+  try {
+    sessions = listSessions(usualSessionFolder());
+  } catch (const std::exception&) {  // molar sessions tells why
+  }
+  return startLists(devices, calibrations, sessions);
+}
+
+}  // namespace app

@@ -1,0 +1,90 @@
+#include "app/start_screen/start_menu.h"
+
+#include <algorithm>
+
+namespace app {
+namespace {
+
+constexpr auto kCases = static_cast<std::size_t>(StartListName::cases),
+               kSessions = static_cast<std::size_t>(StartListName::sessions);
+
+}  // namespace
+
+StartMenu::Answer StartMenu::take(const render::KeyPressed& key) {
+  using render::Key;
+  if (!key.down) return Answer::none;
+  // A key held down moves, but neither starts nor leaves.
+  if (!key.repeated) {
+    if (key.key == Key::escape) return Answer::leave;
+    if (key.key == Key::enter) return start();
+  }
+  message_.clear();
+  if (key.key == Key::tab) moveFocus(key.shift ? -1 : 1);
+  if (key.key == Key::right) moveFocus(1);
+  if (key.key == Key::left) moveFocus(-1);
+  if (key.key == Key::down) moveChoice(1);
+  if (key.key == Key::up) moveChoice(-1);
+  if (key.key == Key::home) moveChoice(-static_cast<int>(lists_[focus_].choices.size()));
+  if (key.key == Key::end) moveChoice(static_cast<int>(lists_[focus_].choices.size()));
+  return Answer::none;
+}
+
+/// Lists that are overruled are passed over.
+void StartMenu::moveFocus(int by) {
+  const auto count = static_cast<int>(lists_.size());
+  do {
+    focus_ = static_cast<std::size_t>((static_cast<int>(focus_) + by + count) % count);
+  } while (isOverruled(focus_));
+}
+
+void StartMenu::moveChoice(int by) {
+  StartList& list = lists_[focus_];
+  const auto last = static_cast<int>(list.choices.size()) - 1;
+  list.chosen = static_cast<std::size_t>(std::clamp(static_cast<int>(list.chosen) + by, 0, last));
+}
+
+void StartMenu::choose(std::size_t list, std::size_t choice) {
+  message_.clear();
+  if (list >= lists_.size() || choice >= lists_[list].choices.size()) return;
+  // Whoever points at a case means a new rehearsal.
+  if (isOverruled(list)) lists_[kSessions].chosen = 0;
+  focus_ = list;
+  lists_[list].chosen = choice;
+}
+
+StartMenu::Answer StartMenu::start() {
+  for (std::size_t n = 0; n < lists_.size(); ++n)
+    if (const StartChoice& choice = lists_[n].choice(); !isOverruled(n) && !choice.why_not.empty()) {
+      say(choice.words + ": " + choice.why_not, true);
+      return Answer::none;
+    }
+  message_.clear();
+  return Answer::start;
+}
+
+bool StartMenu::isOverruled(std::size_t list) const { return list == kCases && lists_[kSessions].chosen > 0; }
+
+std::vector<std::string> StartMenu::arguments() const {
+  std::vector<std::string> all{"rehearse"};
+  for (std::size_t n = 0; n < lists_.size(); ++n)
+    if (!isOverruled(n)) {
+      const std::vector<std::string>& more = lists_[n].choice().arguments;
+      all.insert(all.end(), more.begin(), more.end());
+    }
+  return all;
+}
+
+std::string StartMenu::newestSession() const {
+  const std::vector<StartChoice>& sessions = lists_[kSessions].choices;
+  return sessions.size() > 1 ? sessions[1].arguments.back() : std::string();
+}
+
+void StartMenu::chooseAsIn(const StartMenu& former) {
+  for (std::size_t n = 0; n < lists_.size(); ++n) {
+    if (n == kSessions) continue;
+    const auto same = std::ranges::find(lists_[n].choices, former.lists_[n].choice().words, &StartChoice::words);
+    if (same != lists_[n].choices.end()) lists_[n].chosen = static_cast<std::size_t>(same - lists_[n].choices.begin());
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,73 @@
+// The start screen as a state machine: lists of choices, one of each chosen, one list under the keys. What is chosen
+// are arguments of `molar rehearse`, so that the start screen cannot mean anything that the command line does not.
+// Plain values; any thread.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/display/window.h"
+
+namespace app {
+
+struct StartChoice {
+  std::string words;   ///< in its list
+  std::string beside;  ///< at the right edge, quieter; empty: nothing
+  std::string about;   ///< what it means, one or two lines
+  std::vector<std::string> arguments;
+  std::string why_not = "";  ///< cannot be started, and what to do; empty: it can
+};
+
+struct StartList {
+  std::string title;
+  std::vector<StartChoice> choices;  ///< at least one
+  std::size_t chosen = 0;
+  const StartChoice& choice() const { return choices[chosen]; }
+};
+
+/// In the order of Tab.
+enum class StartListName : std::uint8_t { cases, hand, calibration, position, sessions };
+inline constexpr std::size_t kStartLists = 5;
+using StartLists = std::vector<StartList>;
+
+class StartMenu {
+ public:
+  enum class Answer : std::uint8_t { none, start, leave };
+
+  /// kStartLists of them.
+  explicit StartMenu(StartLists lists) : lists_(std::move(lists)) {}
+
+  Answer take(const render::KeyPressed& key);
+  void choose(std::size_t list, std::size_t choice);
+  /// Refused with a message where a choice cannot be started.
+  Answer start();
+
+  const StartLists& lists() const { return lists_; }
+  std::size_t focus() const { return focus_; }
+  /// A session to go on with brings its own case.
+  bool isOverruled(std::size_t list) const;
+  /// Of `molar`: "rehearse", then those of all choices.
+  std::vector<std::string> arguments() const;
+
+  /// How the rehearsal ended, or why it did not start (`trouble`); until the next key or click.
+  void say(const std::string& message, bool trouble) { message_ = message, is_trouble_ = trouble; }
+  const std::string& message() const { return message_; }
+  bool isTrouble() const { return is_trouble_; }
+  /// The session recorded last; empty: none.
+  std::string newestSession() const;
+  /// Takes over what was chosen in another menu, where it is still there; sessions begin anew.
+  void chooseAsIn(const StartMenu& former);
+
+ private:
+  void moveFocus(int by);
+  void moveChoice(int by);
+
+  StartLists lists_;
+  std::size_t focus_ = 0;
+  std::string message_;
+  bool is_trouble_ = false;
+};
+
+}  // namespace app

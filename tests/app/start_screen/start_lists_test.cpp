@@ -1,0 +1,100 @@
+#include "app/start_screen/start_lists.h"
+
+#include <gtest/gtest.h>
+
+#include "app/case/case.h"
+#include "app/commands/rehearse_options.h"
+#include "app/text/command_line.h"
+
+namespace app {
+namespace {
+
+std::vector<haptics::FoundDevice> foundDevices() {
+  return {{.name = "Touch",
+           .address = "openhaptics",
+           .location = "OpenHaptics, default device",
+           .driver = "OpenHaptics",
+           .advice = ""},
+          {.name = "Touch X", .address = "", .location = "USB 1-3", .driver = "", .advice = "install OpenHaptics"}};
+}
+
+std::vector<SessionListing> foundSessions() {
+  std::vector<SessionListing> sessions;
+  for (int n = 0; n < 20; ++n) {
+    SessionListing one;
+    one.path = "/data/" + std::to_string(n) + ".molar";
+    one.case_title = "lower right third molar";
+    one.length_s = 61.0;
+    one.verdict = n == 1 ? SessionVerdict::damaged : n == 2 ? SessionVerdict::recording : SessionVerdict::complete;
+    sessions.push_back(one);
+  }
+  return sessions;
+}
+
+StartLists someLists() {
+  const std::vector<calibration::RigLocation> rigs{{"rig-02", "SIM-D7", "right"}};
+  return startLists(foundDevices(), rigs, foundSessions());
+}
+
+/// What the parser of `molar rehearse` makes of them.
+RehearseOptions parsed(const std::vector<std::string>& arguments) {
+  RehearseOptions options;
+  CommandLine molar("test", "");
+  CommandLine& rehearse = molar.command("rehearse", "test");
+  addRehearseOptions(rehearse, options);
+  rehearse.does([] { return 0; });
+  std::vector<const char*> words{"molar"};
+  for (const std::string& argument : arguments) words.push_back(argument.c_str());
+  EXPECT_EQ(molar.run(static_cast<int>(words.size()), words.data()), 0);
+  return options;
+}
+
+TEST(StartLists, EveryCaseIsOfferedTheUsualOneFirstChosen) {
+  const StartList list = someLists()[0];
+  ASSERT_EQ(list.choices.size(), cases().size());
+  for (std::size_t n = 0; n < cases().size(); ++n)
+    EXPECT_EQ(list.choices[n].arguments, std::vector<std::string>({"--case", std::string(cases()[n].name)}));
+  EXPECT_EQ(list.choice().arguments[1], usualCase().name);
+}
+
+TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
+  const StartLists lists = someLists();
+  for (std::size_t list = 0; list < lists.size(); ++list)
+    for (std::size_t choice = 0; choice < lists[list].choices.size(); ++choice) {
+      StartMenu menu(lists);
+      menu.choose(list, choice);
+      if (!lists[list].choices[choice].why_not.empty()) continue;
+      const RehearseOptions options = parsed(menu.arguments());
+      EXPECT_EQ(options.case_name.empty(), menu.isOverruled(0));
+      if (list == 3 && choice == 3) {
+        EXPECT_EQ(options.position, "behind");
+      }
+      if (list == 1 && choice == 1) {
+        EXPECT_EQ(options.plan.device, "openhaptics");
+      }
+      if (list == 2 && choice > 0) {
+        EXPECT_TRUE(options.rig.isGiven());
+      }
+      if (list == 4 && choice == 1) {
+        EXPECT_EQ(options.continued, "/data/0.molar");
+      }
+    }
+}
+
+TEST(StartLists, AUnitThatIsNotReadyTellsItsNextStep) {
+  const StartList hand = someLists()[1];
+  ASSERT_EQ(hand.choices.size(), 4u) << "mouse, two units, demonstration";
+  EXPECT_EQ(hand.choices[1].why_not, "");
+  EXPECT_EQ(hand.choices[2].why_not, "install OpenHaptics");
+}
+
+TEST(StartLists, SessionsThatCannotBeGoneOnWithAreLeftOut) {
+  const StartList list = someLists()[4];
+  ASSERT_EQ(list.choices.size(), 1 + kSessionsOffered);
+  EXPECT_EQ(list.choices[1].arguments[1], "/data/0.molar");
+  EXPECT_EQ(list.choices[2].arguments[1], "/data/3.molar");
+  EXPECT_EQ(list.choices[1].beside, "1:01");
+}
+
+}  // namespace
+}  // namespace app
