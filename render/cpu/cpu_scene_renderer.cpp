@@ -12,6 +12,7 @@
 
 #include "render/cpu/cpu_compositor.h"
 #include "render/cpu/edges.h"
+#include "render/cpu/enlarge.h"
 #include "render/cpu/eye_image.h"
 #include "render/cpu/ray_tracer.h"
 #include "render/display/srgb.h"
@@ -65,8 +66,16 @@ void blendOver(const Inset& inset, EyeImage& image) {
 
 // The last drawn state of an eye.
 struct RenderedEye {
-  StaticHits static_hits;
-  EyeImage image;
+  EyeImage image, enlarged;
+  bool is_enlarged = false;  // since it was drawn
+  // Of two sizes: the picture is drawn small while it moves and whole where it rests.
+  std::array<StaticHits, 2> static_hits;
+  std::size_t newest_hits = 0;
+
+  StaticHits& hitsOf(glm::ivec2 px) {
+    if (static_hits[newest_hits].px != px) newest_hits = 1 - newest_hits;
+    return static_hits[newest_hits];
+  }
 };
 
 class CpuSceneRenderer final : public SceneRenderer {
@@ -120,6 +129,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   std::array<std::vector<OverlayPatch>, kOutputs> patches_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayTracer>> tracers_{[] { return std::make_unique<RayTracer>(); }};
   std::array<RenderedEye, 3> eyes_;
+  Enlarger enlarger_;
   std::array<Image, kOutputs> outputs_;
 };
 
@@ -181,9 +191,10 @@ TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
 void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   RenderedEye& to = drawn(eye);
   to.image.resize(px);
+  to.is_enlarged = false;
   const TraceScene scene = sceneFor(frame, eye);
   arena_.execute([&] {
-    draw(scene, options_.samples, to.image, options_.samples == 1 ? &to.static_hits : nullptr);
+    draw(scene, options_.samples, to.image, options_.samples == 1 ? &to.hitsOf(px) : nullptr);
     if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.image);
   });
   for (const Inset& inset : insets_) blendOver(inset, to.image);
@@ -276,7 +287,17 @@ void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& image) 
 
 void CpuSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, int output) {
   Image& to = outputs_[static_cast<std::size_t>(output)];
-  arena_.execute([&] { render::compose(layout, drawn(left).image, drawn(right).image, kernels_, to); });
+  const glm::ivec2 full_px = eyeImageSize(layout.mode, layout.screen_px);
+  arena_.execute([&] {
+    const auto whole = [&](RenderedEye& eye) -> const EyeImage& {
+      if (eye.image.px == full_px) return eye.image;
+      if (!eye.is_enlarged || eye.enlarged.px != full_px) enlarger_.enlarge(eye.image, full_px, eye.enlarged);
+      eye.is_enlarged = true;
+      return eye.enlarged;
+    };
+    const EyeImage& of_left = whole(drawn(left));
+    render::compose(layout, of_left, left == right ? of_left : whole(drawn(right)), kernels_, to);
+  });
   for (const OverlayPatch& patch : patches_[static_cast<std::size_t>(output)]) blendOver(patch, to);
 }
 

@@ -17,6 +17,7 @@
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "render/frame_renderer.h"
+#include "render/quality_ladder.h"
 #include "tests/bench/cpu_time.h"
 
 namespace {
@@ -95,6 +96,9 @@ int main(int count, char** words) {
     measure(what, *renderer, changed, frames);
   };
   without("edges antialiased", [](render::Frame& f) { f.quality.antialias = render::Antialias::edges; });
+  // As drawn while it moves, and enlarged.
+  without("at half the resolution", [](render::Frame& f) { f.quality = render::kQualitySteps[5].quality; });
+  without("at a third of the resolution", [](render::Frame& f) { f.quality = render::kQualitySteps[6].quality; });
   without("without ambient shade", [](render::Frame& f) { f.quality.ambient_occlusion = false; });
   without("without the lamp's shadow", [](render::Frame& f) { f.quality.lamp_shadow = false; });
   without("without either", [](render::Frame& f) { f.quality.ambient_occlusion = f.quality.lamp_shadow = false; });

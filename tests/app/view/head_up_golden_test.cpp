@@ -2,18 +2,16 @@
 //   MOLAR_WRITE_GOLDEN=1 build/release/tests/app/view/app_view_test --gtest_filter="HeadUpGolden*"
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <opencv2/imgcodecs.hpp>
-
 #include "app/view/head_up_line.h"
 #include "render/cpu/cpu_compositor.h"
 #include "render/display/camera.h"
+#include "tests/app/view/golden_image.h"
 
 namespace app {
 namespace {
 
-/// Mean of all channels, of 255. The text's rasteriser differs between versions of FreeType: half a grey value.
-constexpr double kMean = 0.5;
+/// The text's rasteriser differs between versions of FreeType: half a grey value.
+void expectGolden(const render::Image& image, const std::string& name) { test::expectGolden(image, name, 0.5); }
 
 HeadUpContent drilling() {
   HeadUpContent content;
@@ -44,26 +42,6 @@ render::Image shown(const HeadUpContent& content, render::DisplayMode mode) {
   for (const render::OverlayPanel& panel : line.panels())
     render::blendOver(render::patchOf(panel, layout, render::screenOrientation(frame.rig)), image);
   return image;
-}
-
-void expectGolden(const render::Image& image, const std::string& name) {
-  const std::string stored = std::string(MOLAR_GOLDEN_DIR) + "/" + name;
-  cv::Mat is(image.h, image.w, CV_8UC3);
-  for (int y = 0; y < image.h; ++y)
-    for (int x = 0; x < image.w; ++x) {
-      const std::uint8_t* c = &image.rgba[4 * static_cast<std::size_t>(y * image.w + x)];
-      is.at<cv::Vec3b>(y, x) = {c[2], c[1], c[0]};
-    }
-  if (std::getenv("MOLAR_WRITE_GOLDEN") != nullptr) {
-    ASSERT_TRUE(cv::imwrite(stored, is));
-    return;
-  }
-  const cv::Mat should = cv::imread(stored);
-  ASSERT_EQ(is.size(), should.size()) << stored;
-  cv::Mat difference;
-  cv::absdiff(is, should, difference);
-  const cv::Scalar mean = cv::mean(difference);
-  EXPECT_LE((mean[0] + mean[1] + mean[2]) / 3.0, kMean) << name;
 }
 
 TEST(HeadUpGolden, LineAndWarnings) { expectGolden(shown(drilling(), render::DisplayMode::mono), "head_up_line.png"); }
