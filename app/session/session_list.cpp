@@ -72,12 +72,16 @@ const char* nameOf(SessionVerdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-std::vector<SessionListing> listSessions(const fs::path& folder, bool checks) {
-  std::vector<SessionListing> listings;
+std::vector<SessionListing> listSessions(const fs::path& folder, bool checks, std::size_t at_most) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> files;
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(folder, failed))
     if (entry.path().extension() == ".molar" && entry.is_regular_file(failed))
-      listings.push_back(listingOf(entry.path(), checks));
+      files.emplace_back(lastWritten(entry.path()), entry.path());
+  std::ranges::sort(files, std::ranges::greater());
+  files.resize(std::min(files.size(), at_most));
+  std::vector<SessionListing> listings;
+  for (const auto& [written, path] : files) listings.push_back(listingOf(path, checks));
   std::ranges::sort(listings, [](const SessionListing& a, const SessionListing& b) {
     return std::pair(a.unix_s, a.path) > std::pair(b.unix_s, b.path);
   });

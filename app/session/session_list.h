@@ -34,7 +34,9 @@ struct SessionListing {
   bool isReadable() const { return verdict != SessionVerdict::damaged && verdict != SessionVerdict::recording; }
 };
 
-/// `checks`: reads every byte and finds any changed one; as slow as the disk. A folder that does not exist is empty.
-std::vector<SessionListing> listSessions(const std::filesystem::path& folder, bool checks = false);
+/// `checks`: reads every byte and finds any changed one; as slow as the disk. `at_most`: of those written last. A
+/// folder that does not exist is empty.
+std::vector<SessionListing> listSessions(const std::filesystem::path& folder, bool checks = false,
+                                         std::size_t at_most = static_cast<std::size_t>(-1));
 
 }  // namespace app

@@ -138,7 +138,7 @@ StartLists startListsHere() {
   } catch (const std::exception&) {  // molar calibrate list tells why
   }
   try {
-    sessions = listSessions(usualSessionFolder());
+    sessions = listSessions(usualSessionFolder(), false, 2 * kSessionsOffered);
   } catch (const std::exception&) {  // molar sessions tells why
   }
   return startLists(devices, calibrations, sessions);

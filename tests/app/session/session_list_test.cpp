@@ -99,6 +99,20 @@ TEST(SessionList, ShowsWhatIsBeingRecordedAndDoesNotCallItTheLast) {
   EXPECT_EQ(sessionNamed("last"), (at.sessions / "b.molar").string());
 }
 
+TEST(SessionList, AtMostThoseWrittenLast) {
+  DataFolder at;
+  using namespace std::chrono_literals;
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (int n = 0; n < 5; ++n) {
+    const std::string day = "2026-11-2" + std::to_string(n) + "T08:00:00Z";
+    std::filesystem::last_write_time(at.record(std::to_string(n) + ".molar", day, 10), now + n * 1h);
+  }
+  const std::vector<SessionListing> list = listSessions(at.sessions, false, 2);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0].path, (at.sessions / "4.molar").string());
+  EXPECT_EQ(list[1].path, (at.sessions / "3.molar").string());
+}
+
 TEST(SessionFolder, LastIsTheOneWrittenLastAndOtherTextIsAName) {
   DataFolder at;
   EXPECT_EQ(sessionNamed("some/file.molar"), "some/file.molar");
