@@ -1,8 +1,9 @@
 // Adapts the rendering quality to the machine: a ladder of steps, changed by measured frame times. Down quickly when
 // frames are late, up slowly and only if the better step is predicted to be in time; each failed climb doubles the wait
-// for the next. Does not change while `may_change` is false, since a change during a stroke distracts the user.
-// Has no clock: frame times are passed in. Any one thread; sorts nine numbers a frame.
-// Relative costs of the steps: reference/rendering 6 (shading) and 2a (step, size).
+// for the next. What a better step costs is learned where the ladder went down: a machine whose frame time hardly
+// depends on the step would else stay at the worst for ever after a busy moment. Does not change while `may_change` is
+// false, since a change during a stroke distracts the user. Has no clock: frame times are passed in. Any one thread;
+// sorts nine numbers a frame. Relative costs of the steps: reference/rendering 6 (shading) and 2a (step, size).
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ namespace render {
 struct QualityStep {
   std::string_view description;  ///< for the status line
   Quality quality;
-  double climb_cost;  ///< frame time of the next better step relative to this one
+  double climb_cost;  ///< frame time of the next better step relative to this one, on a machine that only draws
 };
 
 /// Best first.
@@ -46,6 +47,7 @@ class QualityLadder {
  private:
   double typical_s() const;
   std::optional<int> goTo(int step);
+  void learnCost(double typical_s);
 
   double budget_s_;
   int step_;
@@ -53,6 +55,12 @@ class QualityLadder {
   double calm_s_ = 0.0;   ///< how long a better step would have been in time
   double climb_after_s_;  ///< calm_s_ required for the next climb
   double since_climb_s_ = 1e9;
+  std::array<double, kQualitySteps.size()> climb_cost_;  ///< as learned, at most those of the table
+  struct Descent {
+    int from = 0;
+    double left_at_s = 0.0;  ///< frame time
+  };
+  std::optional<Descent> descent_;  ///< the newest, until what it saved is measured
 };
 
 }  // namespace render

@@ -91,6 +91,27 @@ TEST(QualityLadder, DoesNotOscillateBetweenTwoSteps) {
   EXPECT_LE(later, 10);
 }
 
+// Without a graphics card a frame has a large part that no step saves. The table's costs alone forbade the way back.
+TEST(QualityLadder, ClimbsAgainAfterABusyMomentWhereStepsSaveLittle) {
+  for (const double load : {1.6, 2.0, 4.0}) {
+    QualityLadder ladder(kBudget_s);
+    const auto calm_s = [](int step) { return 0.0135 - 0.0004 * step; };
+    drive(ladder, 5.0, [&](int step) { return load * calm_s(step); });
+    EXPECT_EQ(ladder.step(), static_cast<int>(kQualitySteps.size()) - 1) << "busy";
+    drive(ladder, 60.0, calm_s);
+    EXPECT_EQ(ladder.step(), 0) << load;
+  }
+}
+
+// Learning never makes a step seem dearer than the table, and a machine as the table has it behaves as before.
+TEST(QualityLadder, ForgetsNothingOfTheTableOnAMachineThatOnlyDraws) {
+  QualityLadder ladder(kBudget_s);
+  drive(ladder, 5.0, [](int step) { return machine_s(step, 0.01); });
+  const int settled = ladder.step();
+  EXPECT_EQ(drive(ladder, 120.0, [](int step) { return machine_s(step, 0.01); }).changes, 0);
+  EXPECT_EQ(ladder.step(), settled);
+}
+
 TEST(QualityLadder, NeverChangesDuringAStrokeAndChangesRightAfterIt) {
   QualityLadder ladder(kBudget_s);
   const Trace stroke = drive(
