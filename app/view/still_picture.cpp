@@ -23,6 +23,8 @@ bool isSameView(const calibration::Rig& a, const calibration::Rig& b) {
 }
 
 bool areSameLayers(const render::Layers& a, const render::Layers& b) {
+  // A new layer does not compile until it is compared.
+  [[maybe_unused]] const auto& [face, gingiva, canal, clearance, cut, ghost, slices, ring] = a;
   return a.face_opacity == b.face_opacity && a.gingiva == b.gingiva && a.mandibular_canal == b.mandibular_canal &&
          a.clearance == b.clearance && a.planned_cut == b.planned_cut && a.ghost_tool == b.ghost_tool &&
          a.slices == b.slices && a.gap_ring == b.gap_ring;
@@ -31,12 +33,15 @@ bool areSameLayers(const render::Layers& a, const render::Layers& b) {
 }  // namespace
 
 bool showSameScene(const render::Frame& a, const render::Frame& b) {
+  // A new member does not compile until it is compared; quality and display are not the scene's.
+  [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
+                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, window, site] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible) return false;
   if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
       a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
     return false;
   if (a.slices_beside_bur_P_mm != b.slices_beside_bur_P_mm || a.face_window_mm != b.face_window_mm ||
-      a.gap.has_value() != b.gap.has_value() || a.site_P.mm != b.site_P.mm)
+      a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.site_P.mm != b.site_P.mm)
     return false;
   if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
   if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;

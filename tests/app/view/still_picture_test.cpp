@@ -59,6 +59,7 @@ TEST(StillPicture, DropsBackAtOnceWhateverMoves) {
       {"layer", [](render::Frame& f) { f.layers.mandibular_canal = true; }},
       {"face", [](render::Frame& f) { f.layers.face_opacity = 0.5f; }},
       {"scrolled slice", [](render::Frame& f) { f.slices_beside_bur_P_mm.z = 0.5; }},
+      {"ruler", [](render::Frame& f) { f.ruler = render::RulerLine{}; }},
       {"mirror", [](render::Frame& f) { f.second_visible = true; }},
   };
   for (const auto& [name, change] : changes) {
