@@ -1,5 +1,7 @@
 #include "render/eye_block.h"
 
+#include <numbers>
+
 namespace render {
 namespace {
 
@@ -17,6 +19,9 @@ glm::dmat4 reverseZ() {
 }
 
 glm::vec4 packed(const glm::dvec3& xyz, double w = 0.0) { return {glm::vec3(xyz), static_cast<float>(w)}; }
+
+// Factor of the squared distance in exp2() of the cover.
+double perSquareReach(double reach_mm) { return reach_mm > 0.0 ? std::numbers::log2e / (reach_mm * reach_mm) : 0.0; }
 
 }  // namespace
 
@@ -40,7 +45,9 @@ EyeBlock eyeBlock(const Frame& frame, const EyeView& view) {
           .lamp_axis_P = packed((X_PW * beam_W).xyz / beam_mm),
           .up_P = packed((X_PW * Vector<World>{{0.0, 1.0, 0.0}}).xyz),
           .window_eye_P = packed((X_PW * head_W).mm),
-          .window_site_P = packed(frame.site_P.mm, frame.face_window_mm)};
+          .window_site_P = packed(frame.site_P.mm, frame.face_window_mm),
+          .field_P = packed(frame.field.centre_P.mm, perSquareReach(frame.field.reach_mm)),
+          .field_cover = {frame.field.water, frame.field.blood, frame.field.dust, frame.field.spray}};
 }
 
 }  // namespace render

@@ -19,6 +19,7 @@ render::Frame openingFrame(const RehearsalPlan& plan) {
   frame.face_window_mm = plan.face_window_mm;
   frame.site_P = {plan.patient.focus_P_mm()};
   frame.X_PT.translation_mm = frame.site_P.mm;
+  frame.field = surgicalField(openingClarity(plan));
   return nextFrame(frame, {}, plan.command);
 }
 
@@ -53,6 +54,15 @@ glm::dvec3 scrolledSlices(const render::Frame& frame, render::SlicePlane plane, 
   glm::dvec3 beside_mm = frame.slices_beside_bur_P_mm;
   beside_mm[axis] = std::clamp(beside_mm[axis] + kStep_mm * steps, -kFarthest_mm, kFarthest_mm);
   return beside_mm;
+}
+
+FieldClarity openingClarity(const RehearsalPlan& plan) {
+  return FieldClarity({plan.cut ? plan.cut->surface_P_mm : plan.patient.focus_P_mm()});
+}
+
+render::SurgicalField surgicalField(const FieldClarity& clarity) {
+  const FieldCover& cover = clarity.cover();
+  return {clarity.centre_P(), clarity.reach_mm(), cover.water, cover.blood, cover.dust, cover.spray};
 }
 
 render::Layers layersAfter(const render::Layers& before, const ControlRequest& request) {

@@ -4,6 +4,7 @@
 
 #include "app/controls/control.h"
 #include "app/rehearsal/rehearsal_plan.h"
+#include "app/session/field_clarity.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
@@ -23,6 +24,11 @@ render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick,
 
 /// Frame::slices_beside_bur_P_mm after that many steps of half a millimetre along the plane's axis of P, within 15 mm.
 glm::dvec3 scrolledSlices(const render::Frame& frame, render::SlicePlane plane, double steps);
+
+/// Of the site before the first cut: living bone, moist.
+FieldClarity openingClarity(const RehearsalPlan& plan);
+/// What covers the site, as drawn.
+render::SurgicalField surgicalField(const FieldClarity& clarity);
 
 /// After a request: `layer` toggles one, `face` sets its opacity; others change nothing.
 render::Layers layersAfter(const render::Layers& before, const ControlRequest& request);

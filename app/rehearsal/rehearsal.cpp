@@ -45,7 +45,8 @@ class Rehearsal {
         view_(plan_, active_command_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
               event_log_.reporter("display")),
         pace_(plan_.ticking, equipment_, view_, router_.script(), duration_s_),
-        frame_(openingFrame(plan_)) {
+        frame_(openingFrame(plan_)),
+        clarity_(openingClarity(plan_)) {
     // Output files are claimed before the work.
     if (!plan_.snapshot.empty()) last_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_.emplace(plan_.first_snapshot, plan_.overwrite);
@@ -155,6 +156,8 @@ class Rehearsal {
   void readServo() {
     newest_ = station().newestTick();
     frame_ = nextFrame(frame_, newest_, active_command_.inForce());
+    clarity_.step(newest_, active_command_.inForce().irrigating);
+    frame_.field = surgicalField(clarity_);
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone();
@@ -215,6 +218,7 @@ class Rehearsal {
   std::optional<StatusReporter> status_reporter_;  // destroyed before view_
   render::Frame frame_;
   haptics::Tick newest_;
+  FieldClarity clarity_;
 };
 
 }  // namespace

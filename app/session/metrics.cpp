@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/session/field_clarity.h"
 #include "app/session/replay.h"
 #include "app/session/session_error.h"
 #include "app/text/clock_text.h"
@@ -26,9 +27,11 @@ double quantile(std::vector<float>& values, double fraction) {
   return static_cast<double>(values[static_cast<std::size_t>(nth)]);
 }
 
-/// Adds one tick; `before` is the previous one.
+constexpr double kObscured = 0.5;  ///< share of the cut in view
+
+/// Adds one tick; `before` is the previous one, `clarity` that of the field.
 void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional<haptics::Tick>& before,
-             bool irrigating) {
+             bool irrigating, double clarity) {
   const double force_N = glm::length(tick.commanded_force_P_N.xyz);
   const bool touches = tick.overlap_mm3 > 0.0;
   ++sum.ticks;
@@ -37,6 +40,7 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   if (tick.drilling) sum.drill_on_s += tick.dt_s;
   if (tick.drilling && touches) sum.drill_in_contact_s += tick.dt_s;
   if (tick.drilling && touches && !irrigating) sum.dry_drilling_s += tick.dt_s;
+  if (tick.drilling && touches && clarity < kObscured) sum.obscured_s += tick.dt_s;
   sum.max_force_N = std::max(sum.max_force_N, force_N);
   sum.max_depth_mm = std::max(sum.max_depth_mm, tick.depth_mm);
   sum.removed_mm3 += tick.removed_mm3;  // without lost ticks
@@ -87,10 +91,12 @@ SessionMetrics metricsOf(const std::string& path) {
   haptics::Command in_force;
   auto next = commands.begin();
   std::optional<haptics::Tick> before;
+  FieldClarity field;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& tick : block.ticks) {
       for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
-      addTick(metrics, tick, before, in_force.irrigating);
+      field.step(tick, in_force.irrigating);
+      addTick(metrics, tick, before, in_force.irrigating, field.cover().clarity());
       for (; ruler != events.end() && ruler->tick <= tick.index; ++ruler)
         metrics.measured.push_back({tick.t_s, *measuredMm(ruler->text), ruler->text});
       work_us.push_back(tick.work_us);

@@ -29,7 +29,8 @@ struct SessionMetrics {
   bool closed = false;                            ///< false: ended by a kill or a full disk
   std::optional<std::string> missing_log;         ///< killed, and this log of it is missing
   std::uint64_t ticks = 0, lost = 0, commands = 0, events = 0;
-  double duration_s = 0.0, contact_s = 0.0, drill_on_s = 0.0, drill_in_contact_s = 0.0, dry_drilling_s = 0.0;
+  double duration_s = 0.0, contact_s = 0.0, drill_on_s = 0.0, drill_in_contact_s = 0.0, dry_drilling_s = 0.0,
+         obscured_s = 0.0;
   double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
@@ -49,6 +50,8 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"drill_on_s", "s", "time with the drill on", &SessionMetrics::drill_on_s},
     {"drill_in_contact_s", "s", "time drilling in bone", &SessionMetrics::drill_in_contact_s},
     {"dry_drilling_s", "s", "time drilling in bone without irrigation", &SessionMetrics::dry_drilling_s},
+    {"obscured_s", "s", "time drilling in bone with less than half of the cut in view: dust, blood, spray",
+     &SessionMetrics::obscured_s},
     {"path_mm", "mm", "path length of the bur's centre", &SessionMetrics::path_mm},
     {"drilling_path_mm", "mm", "path length with the drill on", &SessionMetrics::drilling_path_mm},
     {"max_force_N", "N", "largest force on the hand", &SessionMetrics::max_force_N},

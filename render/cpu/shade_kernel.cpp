@@ -164,9 +164,11 @@ void surface(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* 
     const Float3 index = eye_index + t * direction;
     const Float3 p_P = splat(rays.origin_P) + (t * scene.spacing_mm) * direction;
     const Float3 normal = surfaceNormal(scene, index, mask);
-    const Surface s = tissueSurface(scene, index, normal, p_P, mask);
-    const Visibility visibility = besideTool(scene, visibilityFromVolume(scene, p_P, normal, mask), p_P, normal);
-    return underRing(scene, lit(scene, s, p_P, normal, -direction, visibility), p_P);
+    const Visibility open = visibilityFromVolume(scene, p_P, normal, mask);
+    const Surface s = tissueSurface(scene, index, normal, p_P, open.ambient, mask);
+    const Visibility visibility = besideTool(scene, litHollow(scene.eye, open), p_P, normal);
+    const Float3 light = throughSpray(scene.eye, lit(scene, s, p_P, normal, -direction, visibility), p_P);
+    return underRing(scene, light, p_P);
   });
 }
 

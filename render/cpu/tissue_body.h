@@ -2,6 +2,7 @@
 // (shade_kernel.cpp); internal linkage.
 #pragma once
 
+#include "render/cpu/field_body.h"
 #include "render/cpu/occlusion_body.h"
 
 namespace render::cpu {
@@ -121,7 +122,7 @@ inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3
 }
 
 inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const Float3& normal, const Float3& p_P,
-                             Mask mask) {
+                             Float open, Mask mask) {
   Float finish;
   Float3 albedo = appearanceAt(scene, index - static_cast<float>(COLOUR_DEPTH_VOXELS) * normal, mask, finish);
   const Float enamel = clamp(2.0f * finish - 1.0f, 0.0f, 1.0f), marrow = clamp(1.0f - 2.0f * finish, 0.0f, 1.0f);
@@ -134,8 +135,11 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
     const Float pore = smoothStep(0.42f, 0.68f, noise(2.3f * p_P) * 0.7f + noise(5.7f * p_P) * 0.3f);
     albedo = mix(albedo, vec3(0.36f, 0.09f, 0.07f), 0.75f * pore * marrow);
   }
-  albedo = guided(scene, albedo, index, p_P, enamel, mask);
-  return {albedo, vec3(shine.y), shine.x, shine.z, albedo};
+  Surface surface =
+      covered(scene.eye, {albedo, vec3(shine.y), shine.x, shine.z, albedo}, p_P, normal, marrow, mottle, open);
+  surface.albedo = guided(scene, surface.albedo, index, p_P, enamel, mask);
+  surface.scatter = surface.albedo;
+  return surface;
 }
 
 // Negative gradient of the smoothed field over two voxels, by central differences.

@@ -6,7 +6,8 @@
 
 vec3 boneLight(vec3 index, vec3 p_P, vec3 direction) {
   vec3 normal = surfaceNormal(index);
-  Surface surface = tissueSurface(index, normal, p_P);
-  Visibility visibility = besideTool(visibilityFromVolume(p_P, normal), p_P, normal);
-  return underRing(lit(surface, p_P, normal, -direction, visibility), p_P);
+  Visibility open = visibilityFromVolume(p_P, normal);
+  Surface surface = tissueSurface(index, normal, p_P, open.ambient);
+  Visibility visibility = besideTool(litHollow(open), p_P, normal);
+  return underRing(throughSpray(lit(surface, p_P, normal, -direction, visibility), p_P), p_P);
 }

@@ -12,6 +12,8 @@ layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   vec4 up_P;             // unit, away from the floor
   vec4 window_eye_P;     // the face window is around the line from here
   vec4 window_site_P;    // to here; w: its radius, 0 for none
+  vec4 field_P;          // centre of the operated site; w: 1 / (ln 2 · reach²), 0: everywhere
+  vec4 field_cover;      // water, blood, dust, spray there, 0..1; all 0: dry
 } eye;
 
 // Unit direction from the eye through a point of the image, 0..1 from its lower left.

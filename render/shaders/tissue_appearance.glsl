@@ -1,7 +1,7 @@
 // Surface of tooth and bone: colour and finish from the appearance field (C++: appearance_field.h), reflectance of the
 // finish, and fine detail that no scan resolves. Values chosen by eye; enamel is translucent (wrap, high F0).
 #include "volume_block.glsl"
-#include "lighting.glsl"
+#include "surgical_field.glsl"
 #include "guides.glsl"
 
 float hashed(ivec3 cell) {
@@ -24,8 +24,9 @@ float noise(vec3 x) {
   return sum;
 }
 
-// Material of the matter just below a surface point, where the scan has no partial volume.
-Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P) {
+// Material of the matter just below a surface point, where the scan has no partial volume, and what covers it.
+// `open`: share of the room that is seen from there.
+Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P, float open) {
   vec4 appearance = appearanceAt(index - COLOUR_DEPTH_VOXELS * normal);
   vec3 albedo = appearance.rgb;
   float enamel = clamp(2.0 * appearance.a - 1.0, 0.0, 1.0), marrow = clamp(1.0 - 2.0 * appearance.a, 0.0, 1.0);
@@ -36,6 +37,8 @@ Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P) {
   albedo *= 1.0 + 0.14 * mottle * shine.x;
   float pore = smoothstep(0.42, 0.68, noise(p_P * 2.3) * 0.7 + noise(p_P * 5.7) * 0.3);
   albedo = mix(albedo, vec3(0.36, 0.09, 0.07), 0.75 * pore * marrow);
-  albedo = guided(albedo, index, p_P, enamel);
-  return Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo);
+  Surface surface = covered(Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo), p_P, normal, marrow, mottle, open);
+  surface.albedo = guided(surface.albedo, index, p_P, enamel);
+  surface.scatter = surface.albedo;
+  return surface;
 }

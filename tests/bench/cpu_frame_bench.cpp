@@ -102,6 +102,7 @@ int main(int count, char** words) {
   without("without ambient shade", [](render::Frame& f) { f.quality.ambient_occlusion = false; });
   without("without the lamp's shadow", [](render::Frame& f) { f.quality.lamp_shadow = false; });
   without("without either", [](render::Frame& f) { f.quality.ambient_occlusion = f.quality.lamp_shadow = false; });
+  without("with water, blood, dust and spray", [](render::Frame& f) { f.field = {f.site_P, 8.0, 0.8, 0.6, 0.4, 0.8}; });
   frame.gap = renderer->gap(frame);
   without("with the ring of the gap", [](render::Frame&) {});
   frame.gap.reset();

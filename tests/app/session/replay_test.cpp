@@ -146,6 +146,7 @@ TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {
   EXPECT_GT(session.dry_s, 0.05);
   EXPECT_NEAR(metrics.dry_drilling_s, session.dry_s, 1e-9);
   EXPECT_GT(metrics.drill_in_contact_s, metrics.dry_drilling_s + 0.05);
+  EXPECT_LE(metrics.obscured_s, metrics.drill_in_contact_s);
   EXPECT_GT(session.returned_mm3, 0.05);
   EXPECT_NEAR(metrics.returned_mm3, session.returned_mm3, 1e-9);
   EXPECT_NEAR(metrics.removed_mm3, session.cut_mm3 - session.returned_mm3, 1e-9);

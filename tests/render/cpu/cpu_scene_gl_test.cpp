@@ -164,6 +164,28 @@ TEST_F(CpuScene, DrawsTranslucentBoneAsTheShaderDoes) {
   EXPECT_LE(d.worst, 2);
 }
 
+TEST_F(CpuScene, DrawsWaterBloodDustAndSprayAsTheShadersDo) {
+  for (std::size_t v = 0; v < ct_.label.size(); ++v) ct_.label[v] = static_cast<std::uint8_t>((v / 37) % 6);
+  open();
+  const Frame dry = frame();
+  cpu_->renderEye(dry, Eye::cyclopean);
+  const Image before = cpu_->readEye(Eye::cyclopean);
+  const SurgicalField all{{{-4.0, -6.0, 4.0}}, 5.0, 0.8, 0.6, 0.5, 0.7};
+  std::vector<SurgicalField> fields{all};
+  for (const auto share : {&SurgicalField::water, &SurgicalField::blood, &SurgicalField::dust, &SurgicalField::spray}) {
+    SurgicalField one{all.centre_P, all.reach_mm};
+    one.*share = 1.0;
+    fields.push_back(one);
+  }
+  fields.push_back({{}, 0.0, 0.35, 0.15});
+  for (const SurgicalField& field : fields) {
+    Frame f = dry;
+    f.field = field;
+    EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
+    EXPECT_GT(pixelsThatDiffer(before, cpu_->readEye(Eye::cyclopean), 4), 200u) << "seen";
+  }
+}
+
 TEST_F(CpuScene, OmitsOcclusionAndShadowAsTheShadersDo) {
   open();
   both([](FrameRenderer& r) { r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}}); });
