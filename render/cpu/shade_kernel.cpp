@@ -167,8 +167,8 @@ void surface(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* 
     const Visibility open = visibilityFromVolume(scene, p_P, normal, mask);
     const Surface s = tissueSurface(scene, index, normal, p_P, open.ambient, mask);
     const Visibility visibility = besideTool(scene, litHollow(scene.eye, open), p_P, normal);
-    const Float3 light = throughSpray(scene.eye, lit(scene, s, p_P, normal, -direction, visibility), p_P);
-    return underRing(scene, light, p_P);
+    const Float3 shown = throughSpray(scene.eye, lit(scene, s, p_P, normal, -direction, visibility), p_P);
+    return underRing(scene, shown, p_P);
   });
 }
 

@@ -1,6 +1,7 @@
-// The built-in patient against stored images of 240x150 pixels, drawn by the program on the CPU, so independent of
-// drivers. After an intended change, inspected by eye:
-//   MOLAR_WRITE_GOLDEN=1 build/release/tests/app/app_golden_test
+// The built-in patient against stored images, drawn by the program on the CPU, so independent of drivers: the whole
+// view in 240x150 pixels, the site at work scale in crops of 300 pixels. After an intended change, inspected by eye:
+//   MOLAR_WRITE_GOLDEN=1 build/release/tests/app/commands/app_commands_test --gtest_filter='GoldenPicture.*'
+#include <glm/glm.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/app/commands/program.h"
@@ -68,6 +69,29 @@ TEST_F(GoldenPicture, TranslucentBoneWithTheCanalUnderAFadedFace) {
             at("clear.png"));
   ASSERT_EQ(said.status, 0) << said.err;
   expectGolden("clear_left.png", "translucent_left.png", kStill);
+}
+
+TEST_F(GoldenPicture, TheSiteAtWorkScaleBeforeAndAfterTheTrough) {
+  // Flap, moist bone and the arch; then open marrow with blood and water, and the enamel of the crown.
+  const auto crop = [&](const std::string& picture, glm::ivec2 at_px) {
+    const cv::Mat whole = cv::imread(at(picture));
+    const cv::Rect around(at_px.x, at_px.y, 300, 300);
+    ASSERT_EQ((around & cv::Rect({0, 0}, whole.size())).area(), around.area());
+    ASSERT_TRUE(cv::imwrite(at("crop_" + picture), whole(around)));
+  };
+  constexpr char kWork[] =
+      "rehearse --headless --pace fast --device scripted --renderer cpu --snapshot-size 1280x800 --position ";
+  for (const auto& [position, at_px] :
+       {std::pair{"seated", glm::ivec2(500, 240)}, std::pair{"left", glm::ivec2(530, 280)}}) {
+    const std::string from = position;
+    const ProgramOutput said = molar(kWork + from + " --first-snapshot " + at(from + "_before.png") + " --snapshot " +
+                                     at(from + "_after.png"));
+    ASSERT_EQ(said.status, 0) << said.err;
+    for (const std::string when : {"before", "after"}) {
+      crop(from + "_" + when + "_left.png", at_px);
+      expectGolden("crop_" + from + "_" + when + "_left.png", "site_" + from + "_" + when + ".png", kStill);
+    }
+  }
 }
 
 TEST_F(GoldenPicture, ThePlannedCutAndTheSlices) {
