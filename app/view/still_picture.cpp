@@ -30,6 +30,13 @@ bool areSameLayers(const render::Layers& a, const render::Layers& b) {
          a.slices == b.slices && a.gap_ring == b.gap_ring;
 }
 
+// Water drains and blood wells up for seconds after the last motion; less than this is not seen.
+bool areSameFields(const render::SurgicalField& a, const render::SurgicalField& b) {
+  constexpr double kSeen = 0.1;
+  return std::abs(a.water - b.water) < kSeen && std::abs(a.blood - b.blood) < kSeen &&
+         std::abs(a.dust - b.dust) < kSeen && std::abs(a.spray - b.spray) < kSeen;
+}
+
 }  // namespace
 
 bool showSameScene(const render::Frame& a, const render::Frame& b) {
@@ -55,8 +62,11 @@ FrameDrawing StillPicture::next(const render::Frame& frame, bool changed, Time n
     since_ = now;
     return newest_ = FrameDrawing::live;
   }
-  if (newest_ != FrameDrawing::live) return newest_ = FrameDrawing::kept;
-  return newest_ = now - since_ >= kStillFor ? FrameDrawing::refined : FrameDrawing::live;
+  const bool is_refined = newest_ != FrameDrawing::live;
+  if (is_refined && areSameFields(still_->field, frame.field)) return newest_ = FrameDrawing::kept;
+  if (!is_refined && now - since_ < kStillFor) return newest_ = FrameDrawing::live;
+  still_->field = frame.field;
+  return newest_ = FrameDrawing::refined;
 }
 
 void show(SurgeonDisplay& display, render::Frame frame, FrameDrawing step) {

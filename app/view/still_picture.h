@@ -1,7 +1,7 @@
 // Refines the picture when nothing in it moves: after 0.3 s it is drawn once at the best quality and kept, only its
-// text is composed anew; whatever moves is drawn at the live quality again, in the same frame. A hand that rests on
-// the desk or in its inkwell still trembles: smaller motions than kStill_mm and kStill_rad are none. Has no clock.
-// Main thread; comparing costs under a microsecond.
+// text is composed anew, and it is refined again where water, blood or spray have changed; whatever moves is drawn at
+// the live quality again, in the same frame. A hand that rests on the desk or in its inkwell still trembles: smaller
+// motions than kStill_mm and kStill_rad are none. Has no clock. Main thread; comparing costs under a microsecond.
 #pragma once
 
 #include <chrono>

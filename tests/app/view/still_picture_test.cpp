@@ -44,6 +44,17 @@ TEST(StillPicture, RefinesOnceAfterThreeTenthsOfASecondAndKeepsThePicture) {
     EXPECT_EQ(still.next(frame, false, kStart + milliseconds(ms)), Step::kept) << ms;
 }
 
+TEST(StillPicture, IsRefinedAgainWhereTheFieldHasChangedAndNothingMoves) {
+  render::Frame frame = frameOfBur();
+  frame.field.water = 1.0;
+  StillPicture still = refinedAt300(frame);
+  frame.field.water = 0.95;
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(320)), Step::kept) << "not seen";
+  frame.field.water = 0.85;
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(340)), Step::refined);
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(360)), Step::kept);
+}
+
 TEST(StillPicture, DropsBackAtOnceWhateverMoves) {
   const render::Frame at_rest = frameOfBur();
   using Change = void (*)(render::Frame&);
