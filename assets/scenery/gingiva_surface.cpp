@@ -1,6 +1,8 @@
 #include "assets/scenery/gingiva_surface.h"
 
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Clip.h>
+#include <openvdb/tools/FastSweeping.h>
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -69,6 +71,37 @@ void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& 
   });
 }
 
+// Signed distance to the gingiva around the wound, in voxels: the narrow band is thinner than the flap and is widened.
+openvdb::FloatGrid::Ptr widened(const openvdb::FloatGrid& gingiva, const VolumeGrid& voxels, const Wound& wound) {
+  constexpr double kMargin_mm = ReflectedFlap::kFolded_mm + 1.0;
+  const glm::dvec3 low = voxels.indexFromPoint(wound.low_P_mm() - kMargin_mm);
+  const glm::dvec3 high = voxels.indexFromPoint(wound.high_P_mm() + kMargin_mm);
+  const openvdb::FloatGrid::Ptr near =
+      openvdb::tools::clip(gingiva, openvdb::BBoxd({low.x, low.y, low.z}, {high.x, high.y, high.z}));
+  const int wider = static_cast<int>(std::ceil(ReflectedFlap::kReach_mm / voxels.spacing_mm));
+  return openvdb::tools::dilateSdf(*near, wider, openvdb::tools::NN_FACE, 1,
+                                   openvdb::tools::FastSweepingDomain::SWEEP_GREATER_THAN_ISOVALUE);
+}
+
+// Cuts the relieving incision and adds the folded flap.
+void addFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& wound, const ReflectedFlap& flap) {
+  constexpr double kFold_mm = 0.7;  // width of its transition to the gingiva
+  const glm::ivec3 low(glm::floor(voxels.indexFromPoint(wound.low_P_mm() - ReflectedFlap::kFolded_mm)));
+  const glm::ivec3 high(glm::ceil(voxels.indexFromPoint(wound.high_P_mm() + ReflectedFlap::kFolded_mm)));
+  const auto outside = static_cast<double>(grid.background());
+  auto accessor = grid.getAccessor();
+  forVoxels(low, high + 1, [&](glm::ivec3 at) {
+    const glm::dvec3 p_P = voxels.centre_P_mm(at);
+    const openvdb::Coord voxel(at.x, at.y, at.z);
+    const double before = accessor.getValue(voxel);
+    double after = std::max(before, -flap.incision_mm(p_P) / voxels.spacing_mm);
+    const double to_flap = flap.distance_mm(p_P) / voxels.spacing_mm;
+    if (to_flap < outside) after = smoothMin(after, to_flap, kFold_mm / voxels.spacing_mm);
+    after = std::clamp(after, -outside, outside);
+    if (after != before) accessor.setValue(voxel, static_cast<float>(after));
+  });
+}
+
 constexpr glm::vec3 kPink(0.56f, 0.205f, 0.185f), kWound(0.30f, 0.035f, 0.03f);
 constexpr glm::vec3 kRaw(0.40f, 0.055f, 0.045f), kPeriosteum(0.60f, 0.27f, 0.22f);
 
@@ -121,9 +154,13 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cu
   const auto wound = cut ? std::optional<Wound>(*cut) : std::nullopt;
   std::optional<ReflectedFlap> flap;
   if (wound) {
-    flap.emplace(*surface, ct.grid, *cut, *wound);
+    flap.emplace(*cut, *wound, [closed = widened(*surface, ct.grid, *wound), &ct](const glm::dvec3& p_P_mm) {
+      const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm);
+      return ct.grid.spacing_mm * static_cast<double>(openvdb::tools::BoxSampler::sample(
+                                      closed->getConstUnsafeAccessor(), openvdb::Vec3d(at.x, at.y, at.z)));
+    });
     raiseFlap(*surface, ct.grid, *wound);
-    flap->addTo(*surface);
+    addFlap(*surface, ct.grid, *wound, *flap);
   }
 
   std::vector<openvdb::Vec3s> points;

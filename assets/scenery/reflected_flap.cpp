@@ -1,18 +1,14 @@
 #include "assets/scenery/reflected_flap.h"
 
-#include <openvdb/tools/Clip.h>
-#include <openvdb/tools/FastSweeping.h>
-#include <openvdb/tools/Interpolation.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assets/smooth_distance.h"
 
 namespace assets {
 namespace {
 
-constexpr double kNoFlap_mm = 10.0;
 constexpr double kGap_mm = 0.15;     // below the flap
 constexpr double kInWound_mm = 0.2;  // by which the fold reaches over the wound's edge
 constexpr double kRound_mm = 0.9;
@@ -21,21 +17,13 @@ constexpr double kIncision_mm = 7.5;    // length of the relieving incision
 constexpr double kIncisionHalf_mm = 0.5;
 constexpr double kBehindIncision_mm = 2.5;  // where the flap begins
 
-openvdb::BBoxd boxBetween(const VolumeGrid& voxels, const glm::dvec3& low_P_mm, const glm::dvec3& high_P_mm) {
-  const glm::dvec3 low = voxels.indexFromPoint(low_P_mm), high = voxels.indexFromPoint(high_P_mm);
-  return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
-}
-
 }  // namespace
 
-ReflectedFlap::ReflectedFlap(const openvdb::FloatGrid& gingiva, const VolumeGrid& voxels, const PlannedCut& cut,
-                             const Wound& wound)
+ReflectedFlap::ReflectedFlap(const PlannedCut& cut, const Wound& wound, GingivaDistance gingiva_mm)
     : wound_(wound),
-      voxels_(voxels),
+      gingiva_mm_(std::move(gingiva_mm)),
       middle_P_mm_(middleOf_P_mm(cut)),
-      buccal_P_(glm::normalize(cut.lateral_P)),
-      low_P_mm_(wound.low_P_mm() - kFolded_mm),
-      high_P_mm_(wound.high_P_mm() + kFolded_mm) {
+      buccal_P_(glm::normalize(cut.lateral_P)) {
   // Forwards along the arch: anterior is -y.
   const glm::dvec3 up = glm::normalize(cut.outward_P - glm::dot(cut.outward_P, buccal_P_) * buccal_P_);
   mesial_P_ = glm::cross(buccal_P_, up);
@@ -49,12 +37,6 @@ ReflectedFlap::ReflectedFlap(const openvdb::FloatGrid& gingiva, const VolumeGrid
   along_P_ = glm::normalize(0.55 * mesial_P_ + 0.45 * buccal_P_ - 0.75 * up);
   across_P_ = glm::normalize(glm::cross(along_P_, buccal_P_));
   if (glm::dot(across_P_, mesial_P_) < 0.0) across_P_ = -across_P_;
-
-  // The narrow band is thinner than the flap: widened around the wound.
-  surface_ = openvdb::tools::clip(gingiva, boxBetween(voxels_, low_P_mm_ - 1.0, high_P_mm_ + 1.0));
-  const int wider = static_cast<int>(std::ceil((kFlapThickness_mm + kGap_mm + kRound_mm + 0.6) / voxels_.spacing_mm));
-  surface_ = openvdb::tools::dilateSdf(*surface_, wider, openvdb::tools::NN_FACE, 1,
-                                       openvdb::tools::FastSweepingDomain::SWEEP_GREATER_THAN_ISOVALUE);
 }
 
 // 0 on the tongue's side, 1 on the cheek's.
@@ -64,13 +46,10 @@ double ReflectedFlap::towardsCheek(const glm::dvec3& p_P_mm) const {
 
 double ReflectedFlap::distance_mm(const glm::dvec3& p_P_mm) const {
   const double cheek = towardsCheek(p_P_mm);
-  if (cheek <= 0.0) return kNoFlap_mm;
+  if (cheek <= 0.0) return kNone_mm;
   const double over_mm = wound_.distance_mm(p_P_mm);
-  if (over_mm < -1.5 || over_mm > kFolded_mm + 3.0) return kNoFlap_mm;
-  const glm::dvec3 at = voxels_.indexFromPoint(p_P_mm);
-  const double above_mm =
-      voxels_.spacing_mm * static_cast<double>(openvdb::tools::BoxSampler::sample(surface_->getConstUnsafeAccessor(),
-                                                                                  openvdb::Vec3d(at.x, at.y, at.z)));
+  if (over_mm < -1.5 || over_mm > kFolded_mm + 3.0) return kNone_mm;
+  const double above_mm = gingiva_mm_(p_P_mm);
 
   // A sheet on the surface from the fold to a free edge that is not quite straight; narrower towards its ends.
   const double along_mm = glm::dot(p_P_mm - middle_P_mm_, mesial_P_);
@@ -84,29 +63,12 @@ double ReflectedFlap::distance_mm(const glm::dvec3& p_P_mm) const {
 }
 
 double ReflectedFlap::incision_mm(const glm::dvec3& p_P_mm) const {
-  if (glm::dot(p_P_mm - middle_P_mm_, buccal_P_) < 1.0) return kNoFlap_mm;
+  if (glm::dot(p_P_mm - middle_P_mm_, buccal_P_) < 1.0) return kNone_mm;
   // A wedge that narrows towards its end, through the whole gingiva.
   const double along_mm = glm::dot(p_P_mm - corner_P_mm_, along_P_);
   const double half_mm = kIncisionHalf_mm * std::clamp(1.0 - along_mm / kIncision_mm, 0.0, 1.0);
   return std::max(
       {std::abs(glm::dot(p_P_mm - corner_P_mm_, across_P_)) - half_mm, -2.0 - along_mm, along_mm - kIncision_mm});
-}
-
-void ReflectedFlap::addTo(openvdb::FloatGrid& grid) const {
-  const glm::ivec3 low(glm::floor(voxels_.indexFromPoint(low_P_mm_)));
-  const glm::ivec3 high(glm::ceil(voxels_.indexFromPoint(high_P_mm_)));
-  const auto outside = static_cast<double>(grid.background());
-  auto accessor = grid.getAccessor();
-  forVoxels(low, high + 1, [&](glm::ivec3 at) {
-    const glm::dvec3 p_P = voxels_.centre_P_mm(at);
-    const openvdb::Coord voxel(at.x, at.y, at.z);
-    const double before = accessor.getValue(voxel);
-    double after = std::max(before, -incision_mm(p_P) / voxels_.spacing_mm);
-    const double flap = distance_mm(p_P) / voxels_.spacing_mm;
-    if (flap < outside) after = smoothMin(after, flap, 0.7 / voxels_.spacing_mm);
-    after = std::clamp(after, -outside, outside);
-    if (after != before) accessor.setValue(voxel, static_cast<float>(after));
-  });
 }
 
 }  // namespace assets
