@@ -40,9 +40,10 @@ bool areSameFields(const render::SurgicalField& a, const render::SurgicalField& 
 }  // namespace
 
 bool showSameScene(const render::Frame& a, const render::Frame& b) {
-  // A new member does not compile until it is compared; quality and display are not the scene's.
+  // A new member does not compile until it is compared; quality and display are not the scene's, the
+  // field has its own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, window, site] = a;
+                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, window, site, field] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible) return false;
   if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
       a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
