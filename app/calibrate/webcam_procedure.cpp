@@ -97,8 +97,8 @@ void WebcamProcedure::turnTo(WebcamStep step) {
   switch (step) {
     case WebcamStep::letter:
       show(calibration::letterF(screen_.px));
-      sentence_ =
-          "Clamp the webcam " + cameraPosition(1) + " so that it sees the whole screen in the mirror, then press.";
+      sentence_ = "Clamp the webcam " + cameraPosition(1) + " so that it sees the whole screen" +
+                  (plan_.rig.mirror ? " in the mirror" : "") + ", then press.";
       return;
     case WebcamStep::lens:
       show(calibration::boardImage(board_));

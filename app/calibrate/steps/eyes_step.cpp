@@ -41,7 +41,10 @@ class EyesStep final : public WizardStep {
       return;
     }
     view.title = "How far is the eye from the screen?";
-    view.sentence = "With a tape, head in the rest: from the eye to the mirror, and on from the mirror to the screen.";
+    view.sentence =
+        context_.plan.record.rig.mirror
+            ? "With a tape, head in the rest: from the eye to the mirror, and on from the mirror to the screen."
+            : "With a tape, head in the rest: from the eye straight to the screen.";
     distance_.show(view, "mm");
   }
 

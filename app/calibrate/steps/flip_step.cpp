@@ -1,6 +1,7 @@
 // Whether the picture reaches the eye the right way round: a drawn F must read right. One thread.
 
 #include <array>
+#include <string>
 
 #include "app/calibrate/choice_menu.h"
 #include "app/calibrate/steps/step.h"
@@ -45,7 +46,8 @@ class FlipStep final : public WizardStep {
   bool needsDevice() const override { return false; }
   void show(WizardView& view) const override {
     view.title = which_ ? "How does it read?" : "Does the F read right?";
-    view.sentence = "Look into the mirror as for work: the letter must stand upright and read as on paper.";
+    view.sentence = std::string(context_.plan.record.rig.mirror ? "Look into the mirror" : "Look at the screen") +
+                    " as for work: the letter must stand upright and read as on paper.";
     view.figure = WizardFigure::letter_f;
     menu_.show(view);
   }

@@ -78,7 +78,10 @@ class HomeStep final : public WizardStep {
         break;
       case Phase::settling:
         view.sentence =
-            "Do not touch it: arm and motors settle. Switch the lamp under the mirror on and sit as for work.";
+            context_.plan.record.rig.mirror
+                ? "Do not touch it: arm and motors settle. Switch the lamp under the mirror on and sit as for "
+                  "work."
+                : "Do not touch it: arm and motors settle. Sit as for work.";
         view.time_left_s = std::max(0.0, context_.plan.settle_s - settled_s_);
         view.progress = std::min(1.0, settled_s_ / std::max(1e-9, context_.plan.settle_s));
         break;

@@ -116,6 +116,7 @@ TEST(PracticeInput, AMouseAloneLeadsAWholeCalibrationToAGoodVerdict) {
     if (tick % 25 == 0) {
       view = wizard.takeView();
       if (!pages.ends_with(view.title + "\n")) pages += view.title + "\n";
+      EXPECT_EQ(view.sentence.find("mirror"), std::string::npos) << "there is none: " << view.sentence;
       person.act(view, t_s);
       stylus.setPose(input.pose(view));
     }
@@ -125,6 +126,8 @@ TEST(PracticeInput, AMouseAloneLeadsAWholeCalibrationToAGoodVerdict) {
   EXPECT_EQ(wizard.outcome().end, WizardOutcome::End::accepted) << pages << wizard.outcome().reason;
   ASSERT_TRUE(wizard.outcome().errors);
   EXPECT_LT(wizard.outcome().errors->rms_mm, 1.0);
+  for (const char* page : {"Does the F read right?", "How far is the eye from the screen?", "Bring the device home"})
+    EXPECT_NE(pages.find(page), std::string::npos) << pages;
 }
 
 TEST(PracticeInput, AMiddleDragTiltsAndAMiddleClickDocks) {
