@@ -49,6 +49,7 @@ void stamp(RigRecord& record, const RigRecord& base, const MeasurementInfo& info
   record.provenance.opencv = openCvVersion();
   record.provenance.operator_code = info.operator_code;
   record.provenance.parent = base.hash;
+  if (!info.patient_position.empty()) record.patient_position = info.patient_position;
   record.hash.clear();
   if (record.verification && record.verification->checked_utc.empty()) record.verification->checked_utc = now;
 }

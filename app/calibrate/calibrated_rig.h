@@ -25,6 +25,7 @@ calibration::MeasuredArm armOf(const calibration::RigRecord& record, const calib
 /// Circumstances of a measurement; never a person's name.
 struct MeasurementInfo {
   std::string rig_id = "rig", serial, mount = "right", stylus_tip, operator_code;
+  std::string patient_position;  ///< empty: as in the rig before
 };
 
 /// Sets time, program, operator code and parent of a record measured now.

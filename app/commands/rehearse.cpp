@@ -1,5 +1,6 @@
 // `molar rehearse [PATIENT]`: the rehearsal.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -27,6 +28,7 @@
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
 #include "app/station/case_reach.h"
+#include "app/text/list.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
@@ -84,11 +86,24 @@ std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& o
   return chosen;
 }
 
-void placePatient(RehearsalPlan& plan, const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
+/// As asked for, else as the rig is set up for, else seated. Throws UsageError for a position that is not known.
+std::string positionOf(const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
+                       std::vector<std::string>& remarks) {
+  const std::string kept = chosen ? chosen->record.patient_position : std::string();
+  if (!kept.empty() && std::ranges::find(kPatientPositions, kept) == kPatientPositions.end())
+    throw UsageError(chosen->source + ": patient.position '" + kept + "' is not known, give one of " +
+                     joined(kPatientPositions));
+  if (options.position && !kept.empty() && *options.position != kept)
+    remarks.push_back("position " + *options.position + ": hand rest and head of " + chosen->source +
+                      " are set up for " + kept);
+  return options.position.value_or(kept.empty() ? std::string(kPatientPositions.front()) : kept);
+}
+
+void placePatient(RehearsalPlan& plan, const std::string& position, const std::optional<ChosenRig>& chosen,
                   const DeviceIdentity& device, const assets::FacePose& X_PF) {
   // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
   if (hasNoPatientPose(plan.rig))
-    plan.rig.X_WP = placePatientAtSite(plan.patient, X_PF, patientPositionNamed(options.position.value_or("seated")));
+    plan.rig.X_WP = placePatientAtSite(plan.patient, X_PF, patientPositionNamed(position));
   if (!chosen) return;
   const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
                                                    device.isCalibrated() ? device.model : std::string());
@@ -263,6 +278,7 @@ int run(RehearseOptions& options) {
                      options.continued);
   DeviceIdentity device;
   const std::optional<ChosenRig> chosen = chooseRig(plan, options, device);
+  const std::string position = positionOf(options, chosen, plan.remarks);
   options.display.refuseUnlessFits(plan.rig);
   reserveCoreForServo();
   if (!preparePatient(plan, options, jaw)) {
@@ -283,7 +299,7 @@ int run(RehearseOptions& options) {
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = replaceFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
-  placePatient(plan, options, chosen, device, X_PF);
+  placePatient(plan, position, chosen, device, X_PF);
   return rehearse(std::move(plan));
 }
 

@@ -77,6 +77,7 @@ void compareSurroundings(Lines& lines, const RigRecord& before, const RigRecord&
                glm::distance(b.left_eye.mm, b.right_eye.mm), 1, "mm");
   lines.number("head motion, 1 sigma", before.eye_sd_mm, after.eye_sd_mm, 1, "mm");
   comparePose(lines, "patient", a.X_WP, b.X_WP);
+  lines.text("position of the patient", before.patient_position, after.patient_position);
   lines.text("hand rest", before.rest ? "registered" : "", after.rest ? "registered" : "");
   if (before.rest && after.rest) {
     lines.position("hand rest", before.rest->translation_mm, after.rest->translation_mm);

@@ -1,6 +1,6 @@
 // The rig file: OpenCV FileStorage YAML, `schema: 1`, `kind: "molar_rig"`; blocks screen, mirror, eyes, X_WP, X_WD, and
-// optionally provenance, device, kinematics, procedure, verification, residuals, rest, and last a hash of all bytes
-// before it. mm, frame W. Start-up only. Unknown keys are ignored.
+// optionally provenance, device, kinematics, procedure, verification, residuals, rest, patient, and last a hash of all
+// bytes before it. mm, frame W. Start-up only. Unknown keys are ignored.
 #pragma once
 
 #include <string>

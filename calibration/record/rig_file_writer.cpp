@@ -123,6 +123,7 @@ std::string rigRecordText(const RigRecord& record) {
     yaml.put({{"fre_rms_mm", record.rest->fre_rms_mm}, {"worst_mm", record.rest->worst_mm}});
     yaml.close();
   }
+  if (!record.patient_position.empty()) yaml.map("patient", {{"position", record.patient_position}});
   if (!record.provenance.parent.empty()) yaml.put("parent", record.provenance.parent);
   const std::string text = yaml.text();
   return text + "sha256: \"" + sha256Of(text) + "\"\n";

@@ -180,6 +180,7 @@ void readMetadata(const CheckedYaml& yaml, double rotation_tolerance, RigRecord&
   if (yaml.has(root, "verify")) record.verification = verificationIn(yaml);
   if (yaml.has(root, "residuals")) record.residuals = residualsIn(yaml, root);
   if (yaml.has(root, "rest")) record.rest = restIn(yaml, rotation_tolerance);
+  if (yaml.has(root, "patient")) record.patient_position = codeIf(yaml, yaml.map(root, "patient"), "position");
   if (yaml.has(root, "kinematics") && yaml.has(root["kinematics"], "sigma"))
     record.sigma = sigmaIn(yaml, root["kinematics"]);
 }

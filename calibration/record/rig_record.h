@@ -52,8 +52,9 @@ struct RigRecord {
   std::optional<RigVerification> verification;
   std::vector<Residual> residuals;  ///< of the fit
   std::optional<RestRegistration> rest;
-  std::vector<double> sigma;  ///< of the fitted parameters, as in ArmFit; empty: not known
-  std::string hash;           ///< of the file it was read from; empty: none
+  std::string patient_position;  ///< that hand rest and head are set up for, as in --position; empty: not stated
+  std::vector<double> sigma;     ///< of the fitted parameters, as in ArmFit; empty: not known
+  std::string hash;              ///< of the file it was read from; empty: none
 };
 
 }  // namespace calibration

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/calibrate/calibration_text.h"
+#include "app/case/patient_placement.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
@@ -81,6 +82,11 @@ void addMeasurementInfo(CommandLine& command, MeasurementInfo& info) {
   command.option("--mount", info.mount, "Side of the surgeon on which the device stands")
       .oneOf({"right", "left"})
       .showsDefault();
+  command
+      .option(
+          "--position", info.patient_position,
+          "Where the surgeon sits, for which hand rest and head are set up; rehearse takes it from the rig [as before]")
+      .oneOf({kPatientPositions.begin(), kPatientPositions.end()});
   command.option("--serial", info.serial, "Serial of the device [as the observations have it]");
   command.option("--tip", info.stylus_tip, "Which bur or stylus end is in the handle");
   command.option("--operator", info.operator_code, "A code for who measures, never a name");

@@ -46,6 +46,7 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
   for (int id = 0; id < 16; ++id)
     record.verification->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
   for (int id = 0; id < 27; ++id) record.residuals.push_back({id, {vector(60.0)}, {vector(0.3)}, id != 13});
+  record.patient_position = "left";
   record.rest = RestRegistration{rotation(), vector(80.0), 0.2, 0.4};
   for (int i = 0; i < 28; ++i) record.sigma.push_back(std::abs(number(0.1)));
   return record;

@@ -71,6 +71,7 @@ TEST_F(RigRecordFile, RestoresEveryBlockBitForBit) {
     EXPECT_EQ(back.rig.arm->reach_delta_mm, record.rig.arm->reach_delta_mm);
     EXPECT_EQ(back.rig.arm->tip_H_mm, record.rig.arm->tip_H_mm);
     EXPECT_EQ(back.sigma, record.sigma);
+    EXPECT_EQ(back.patient_position, record.patient_position);
     EXPECT_EQ(back.rest->rotation, record.rest->rotation);
     EXPECT_EQ(back.rest->worst_mm, record.rest->worst_mm);
     EXPECT_EQ(back.residuals.size(), 27u);
