@@ -49,10 +49,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.time_s = tick.t_s + tick.dt_s;
   content.task = values.task;
   content.ruler = values.ruler;
-  if (tick.dt_s > 0.0) {
-    content.warnings = warnings_.update(values.situation);
-    times_.add(tick, command);
-  }
+  if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);
 
   if (!said_.line.empty() && !said_.until) {
     const double shown_s = std::max(kSaid_s, kReading_s_per_letter * static_cast<double>(said_.line.size()));

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/controls/control.h"
@@ -39,6 +40,11 @@ class HeadUp {
     std::string ruler;  ///< rulerText()
   };
   HeadUpContent content(const Values& values, Time now);
+
+  /// Every tick, for the times.
+  void follow(std::span<const haptics::Tick> ticks, bool irrigating) {
+    for (const haptics::Tick& tick : ticks) times_.add(tick, irrigating);
+  }
 
   const Warnings& warnings() const { return warnings_; }
   const WorkTimes& times() const { return times_; }

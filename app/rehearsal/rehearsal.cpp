@@ -16,6 +16,7 @@
 #include "app/rehearsal/ruler.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
+#include "app/rehearsal/touches.h"
 
 namespace app {
 namespace {
@@ -135,6 +136,7 @@ class Rehearsal {
       station().note("continues", plan_.recording->setup.former->file);
     event_log_.recordInto(station());
     event_log_.note("quality", view_.qualityText());
+    event_log_.note(kTouchEvent, kTouchCounting);
   }
 
   std::optional<Ending> endingNow() {
@@ -145,11 +147,20 @@ class Rehearsal {
   void updateCommand() {
     // A stepped rehearsal has no wall clock by which a file could change.
     if (pace_.isRealTime()) active_command_.pollSettingsFile(pace_.now());
-    if (plan_.procedure)
-      if (const std::vector<haptics::Tick> ticks = station().takeTicks(); !ticks.empty())
-        if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+    followTicks();
     active_command_.followStrokes(newest_);
     if (active_command_.takeToolChange() && pace_.isRealTime()) view_.showInstrument();
+  }
+
+  /// All of them, also those between two frames.
+  void followTicks() {
+    const std::vector<haptics::Tick> ticks = station().takeTicks();
+    if (ticks.empty()) return;
+    const haptics::Command& command = active_command_.inForce();
+    head_up_.follow(ticks, command.irrigating);
+    for (const Touch& touch : touches_.follow(ticks, command.tool.head)) event_log_.note(kTouchEvent, touchText(touch));
+    if (!plan_.procedure) return;
+    if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
   }
 
   /// The tick before the bricks: bone that a tick removed is in the same frame as its pose.
@@ -190,6 +201,8 @@ class Rehearsal {
   }
 
   RehearsalFigures finish(Ending ending) {
+    followTicks();
+    for (const Touch& touch : touches_.finish()) event_log_.note(kTouchEvent, touchText(touch));
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     readServo();
@@ -199,6 +212,7 @@ class Rehearsal {
     RehearsalFigures figures = status_reporter_->figures(state());
     figures.times = head_up_.times();
     if (plan_.summary) figures.exposed_share = exposedShare();
+    figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
     if (plan_.recording) figures.recording = recorded, figures.recorded_by_default = plan_.recording->by_default;
     return figures;
@@ -211,6 +225,7 @@ class Rehearsal {
   std::optional<double> duration_s_;
   RunMonitor monitor_;
   HeadUp head_up_;
+  Touches touches_{plan_.patient};
   ControlRouter router_;
   std::optional<StereoSnapshot> first_, last_;
   LiveView view_;

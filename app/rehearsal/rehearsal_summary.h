@@ -11,6 +11,7 @@
 #include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/warnings.h"
 #include "app/session/recorder.h"
+#include "app/session/touch_event.h"
 #include "app/view/motion_to_photon.h"
 #include "assets/tissue.h"
 #include "haptics/loop/loop_statistics.h"
@@ -22,6 +23,7 @@ struct RehearsalFigures {
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::optional<double> exposed_share;  ///< of the crown that the plan lays bare; none without a plan for it
   WorkTimes times;
+  std::vector<TouchCount> touched;  ///< teeth and canal
   std::vector<Warnings::Count> warnings;
   bool for_engineers = true;  ///< servo, display and latency as well
   bool has_motors = true;

@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
+#include "app/rehearsal/touches.h"
 #include "assets/soft_tissue.h"
 #include "assets/tooth.h"
-#include "calibration/geometry/segment.h"
 #include "haptics/safety/trips.h"
 #include "haptics/tool/bur_shape.h"
 
@@ -111,6 +111,7 @@ struct Row {
   const char* name;  ///< in the summary
   bool danger;
   Words (*words)(const Situation&);
+  bool is_counted_as_touch = false;  ///< by tick: app/rehearsal/touches
 };
 
 // The most important first.
@@ -118,7 +119,7 @@ constexpr std::array<Row, 12> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
     {"bur on soft tissue", true, burOnSoftTissue},
-    {"neighbour tooth touched", true, neighbourTouched},
+    {"neighbour tooth touched", true, neighbourTouched, true},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},
@@ -129,44 +130,12 @@ constexpr std::array<Row, 12> kTable = {{
     {"neck of the bur touched", false, neckTouches},
 }};
 
-/// Ends of the head's axis inside which its balls of `radius_mm` lie.
-std::pair<glm::dvec3, glm::dvec3> axisOf(const haptics::Tick& tick, const haptics::BurShape& head) {
-  const double half_mm = std::max(0.0, haptics::halfHeight_mm(head) - head.radius_mm);
-  const glm::dvec3 along = tick.hand.X_PT.rotation * glm::dvec3(0.0, 0.0, half_mm);
-  return {tick.proxy_P.mm - along, tick.proxy_P.mm + along};
-}
-
-/// A tooth other than the operated one within the head and half a voxel.
+/// A tooth other than the operated one that the bur touches.
 std::optional<int> neighbourAt(const haptics::Tick& tick, const haptics::BurShape& head,
                                const assets::Patient& patient) {
-  const assets::CtVolume& ct = patient.ct;
-  if (ct.tooth.empty() || tick.depth_mm <= 0.0) return {};
-  const auto axis = axisOf(tick, head);
-  const glm::dvec3 from = axis.first, to = axis.second;
-  const double reach_mm = head.radius_mm + 0.5 * ct.grid.spacing_mm;
-  const glm::ivec3 low = glm::max(glm::ivec3(glm::floor(ct.grid.indexFromPoint(glm::min(from, to) - reach_mm))), 0);
-  const glm::ivec3 end =
-      glm::min(glm::ivec3(glm::ceil(ct.grid.indexFromPoint(glm::max(from, to) + reach_mm))) + 1, ct.grid.size);
-  std::optional<int> touched;
-  assets::forVoxels(low, end, [&](glm::ivec3 ijk) {
-    const std::size_t v = ct.grid.index(ijk);
-    const int fdi = ct.tooth[v];
-    if (fdi == 0 || fdi == patient.operatedTooth() || ct.solid[v] < assets::kHalfSolid) return;
-    if (calibration::distanceToSegment(ct.grid.centre_P_mm(ijk), from, to) <= reach_mm) touched = fdi;
-  });
-  return touched;
-}
-
-std::optional<double> canalDistance_mm(const haptics::Tick& tick, const haptics::BurShape& head,
-                                       const assets::Patient& patient) {
-  const std::vector<glm::dvec3>& line = patient.mandibular_canal_P_mm;
-  if (line.size() < 2) return {};
-  const auto [from, to] = axisOf(tick, head);
-  double nearest_mm = 1e9;
-  for (const glm::dvec3& p : {from, 0.5 * (from + to), to})
-    for (std::size_t n = 1; n < line.size(); ++n)
-      nearest_mm = std::min(nearest_mm, calibration::distanceToSegment(p, line[n - 1], line[n]));
-  return nearest_mm - head.radius_mm - patient.mandibular_canal_radius_mm;
+  for (const int fdi : teethTouched(tick, head, patient))
+    if (fdi != patient.operatedTooth()) return fdi;
+  return {};
 }
 
 }  // namespace
@@ -174,12 +143,8 @@ std::optional<double> canalDistance_mm(const haptics::Tick& tick, const haptics:
 Situation situationOf(const haptics::Tick& tick, const haptics::Command& command, const assets::Patient& patient,
                       bool has_motors, bool recording_ended) {
   const haptics::BurShape& head = command.tool.head;
-  return {tick,
-          command,
-          has_motors,
-          recording_ended,
-          assets::isTooth(tick.contact_tissue) ? neighbourAt(tick, head, patient) : std::nullopt,
-          canalDistance_mm(tick, head, patient)};
+  return {
+      tick, command, has_motors, recording_ended, neighbourAt(tick, head, patient), canalGap_mm(tick, head, patient)};
 }
 
 std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
@@ -205,7 +170,7 @@ std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
 std::vector<Warnings::Count> Warnings::counts() const {
   std::vector<Count> counts;
   for (std::size_t n = 0; n < kTable.size(); ++n)
-    if (states_[n].times > 0) counts.push_back({kTable[n].name, states_[n].times});
+    if (states_[n].times > 0 && !kTable[n].is_counted_as_touch) counts.push_back({kTable[n].name, states_[n].times});
   return counts;
 }
 

@@ -28,18 +28,14 @@ struct Situation {
 Situation situationOf(const haptics::Tick& tick, const haptics::Command& command, const assets::Patient& patient,
                       bool has_motors, bool recording_ended);
 
-/// Time with the bur in bone or tooth, from frame to frame: of a stroke within one frame's time. The session has it by
-/// tick (app/session/metrics.h).
+/// Time with the bur in bone or tooth, from every tick.
 struct WorkTimes {
   double cutting_s = 0.0, dry_s = 0.0;
-  double last_s = 0.0;  ///< of the tick before
 
-  void add(const haptics::Tick& tick, const haptics::Command& command) {
-    const double since_s = tick.t_s - last_s;
-    last_s = tick.t_s;
-    if (since_s <= 0.0 || !tick.drilling || tick.depth_mm <= 0.0) return;
-    cutting_s += since_s;
-    if (!command.irrigating) dry_s += since_s;
+  void add(const haptics::Tick& tick, bool irrigating) {
+    if (!tick.drilling || tick.depth_mm <= 0.0) return;
+    cutting_s += tick.dt_s;
+    if (!irrigating) dry_s += tick.dt_s;
   }
 };
 

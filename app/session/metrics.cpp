@@ -84,6 +84,11 @@ SessionMetrics metricsOf(const std::string& path) {
   metrics.commands = commands.size();
   std::vector<SessionEvent> events = session.events();
   metrics.events = events.size();
+  for (const SessionEvent& event : events)
+    if (event.kind == kTouchEvent) {
+      if (!metrics.touched) metrics.touched.emplace();
+      if (const auto touch = touchFrom(event.text)) countInto(*metrics.touched, *touch);
+    }
   std::erase_if(events, [](const SessionEvent& event) { return event.kind != kRulerEvent || !measuredMm(event.text); });
 
   std::vector<float> work_us;
@@ -148,6 +153,8 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
+  if (metrics.touched)
+    words += "touched: " + (metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)) + "\n";
   for (const MeasuredWay& way : metrics.measured)
     words += "measured at " + clockText(way.t_s) + ": " + way.words + "\n";
   words += "\n";
@@ -202,6 +209,12 @@ std::string metricsJson(const SessionMetrics& metrics) {
     json["continues"] = {{"session", metrics.former->file}, {"duration_s", metrics.former->duration_s}};
   for (const Measure& measure : kMeasures) json[measure.key] = metrics.*measure.value;
   json["removed_mm3_by_label"] = by_label;
+  json["touched"] = nullptr;
+  if (metrics.touched) {
+    json["touched"] = nlohmann::ordered_json::array();
+    for (const TouchCount& count : *metrics.touched)
+      json["touched"].push_back({{"what", count.what}, {"times", count.times}, {"contact_s", count.contact_s}});
+  }
   json["measured"] = nlohmann::ordered_json::array();
   for (const MeasuredWay& way : metrics.measured)
     json["measured"].push_back({{"t_s", way.t_s}, {"mm", way.mm}, {"words", way.words}});

@@ -13,6 +13,7 @@
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
 #include "app/session/session_text.h"
+#include "app/session/touch_event.h"
 
 namespace app {
 
@@ -35,6 +36,7 @@ struct SessionMetrics {
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
   std::vector<MeasuredWay> measured;
+  std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 };
 

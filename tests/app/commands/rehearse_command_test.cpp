@@ -170,6 +170,47 @@ TEST_F(RehearseCommand, MeasuresWithTheRulerAndRecordsIt) {
   EXPECT_NE(molar("metrics " + at("ruler.molar")).out.find("measured at 0:00: 5.00 mm from"), std::string::npos);
 }
 
+TEST_F(RehearseCommand, TakesThePositionFromTheRigUnlessAskedForAnother) {
+  const std::string rig = calibration::rigText(calibration::desktopRig({96, 64}, 130.0));
+  write("plain.yaml", rig);
+  write("left.yaml", rig + "patient:\n   position: \"left\"\n");
+  write("odd.yaml", rig + "patient:\n   position: \"standing\"\n");
+  const auto picture = [&](const std::string& options) {
+    const ProgramOutput said = molar(kQuick + std::string("--device scripted --seconds 0.1 --renderer cpu --force ") +
+                                     "--snapshot-size 96x64 --first-snapshot " + at("p.png") + " " + options);
+    EXPECT_EQ(said.status, 0) << said.err;
+    return std::pair(read("p_left.png"), said.err);
+  };
+  const auto seated = picture("--rig " + at("plain.yaml")), kept = picture("--rig " + at("left.yaml")),
+             asked = picture("--position left --rig " + at("plain.yaml")),
+             other = picture("--position seated --rig " + at("left.yaml"));
+  EXPECT_TRUE(kept.first == asked.first) << "as the rig says";
+  EXPECT_FALSE(kept.first == seated.first);
+  EXPECT_TRUE(other.first == seated.first) << "as asked for";
+  EXPECT_NE(other.second.find("are set up for left"), std::string::npos) << other.second;
+  expectRefusal(kQuick + ("--device scripted --rig " + at("odd.yaml")), "standing");
+}
+
+/// What stands after a name in a text of lines.
+std::string wordsAfter(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find(name);
+  if (at == std::string::npos) return "";
+  const std::size_t from = text.find_first_not_of(' ', at + name.size());
+  return text.substr(from, text.find('\n', from) - from);
+}
+
+TEST_F(RehearseCommand, TheSummaryAndTheRecordingTellTheSameTouches) {
+  const ProgramOutput said = molar(kCoarse + std::string("--record ") + at("touched.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::string touched = wordsAfter(said.out, "\n  touched ");
+  EXPECT_NE(touched.find("lower right third molar"), std::string::npos) << said.out;
+  EXPECT_EQ(wordsAfter(molar("metrics " + at("touched.molar")).out, "\ntouched:"), touched);
+  const auto json = nlohmann::json::parse(molar("metrics " + at("touched.molar") + " --json").out);
+  ASSERT_FALSE(json["touched"].empty());
+  EXPECT_EQ(json["touched"][0]["what"], "lower right third molar");
+  EXPECT_GT(json["touched"][0]["contact_s"].get<double>(), 0.0);
+}
+
 TEST_F(RehearseCommand, ExecutesTheLastRowInRealTimeToo) {
   write("p.csv", std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,2,snapshot\n");
   const std::string line = "cd " + folder_.string() + " && " + MOLAR_PROGRAM +

@@ -26,7 +26,8 @@ RehearsalFigures afterWork() {
   figures.removed_mm3[1] = 4.0;
   figures.removed_mm3[4] = 0.5;
   figures.times = {31.0, 12.0};
-  figures.warnings = {{"cutting dry", 3}, {"neighbour tooth touched", 1}};
+  figures.touched = {{"lower right second molar", 2, 0.83}, {"mandibular canal", 1, 0.1}};
+  figures.warnings = {{"cutting dry", 3}, {"force limited", 1}};
   figures.recording = RecordingSummary{12000, 3, std::nullopt, "s.molar.new"};
   return figures;
 }
@@ -41,7 +42,8 @@ TEST(RehearsalSummary, AnswersTheSurgeonFirst) {
             "  time             1:12, cutting 0:31, 0:12 of it without water\n"
             "  bone removed     4.0 mm³ (cortical bone 4.0)\n"
             "  tooth removed    0.5 mm³ (enamel 0.5)\n"
-            "  warnings         cutting dry 3 times, neighbour tooth touched once\n"
+            "  touched          lower right second molar 2 times, 0.8 s; mandibular canal once, 0.1 s\n"
+            "  warnings         cutting dry 3 times, force limited once\n"
             "  recorded in      s.molar.new, 3 ticks lost\n");
 }
 
@@ -58,14 +60,12 @@ TEST(RehearsalSummary, EngineersFiguresFollowAfterALine) {
 
 TEST(WorkTimes, CountCuttingAndCuttingWithoutWater) {
   WorkTimes times;
-  haptics::Command command;
   haptics::Tick tick;
+  tick.dt_s = 0.1;
   for (int n = 1; n <= 100; ++n) {
-    tick.t_s = 0.1 * n;
     tick.drilling = n > 20;
     tick.depth_mm = n > 40 ? 0.1 : 0.0;
-    command.irrigating = n <= 70;
-    times.add(tick, command);
+    times.add(tick, n <= 70);
   }
   EXPECT_NEAR(times.cutting_s, 6.0, 1e-9);
   EXPECT_NEAR(times.dry_s, 3.0, 1e-9);
