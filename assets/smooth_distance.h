@@ -1,6 +1,6 @@
 // Smooth union and intersection of signed distances, negative inside: polynomial smooth minimum and maximum (Quilez
-// 2013). `blend` is the width of the transition, in the unit of the distances; exact outside it, at most blend/4 too deep
-// inside it. Any thread.
+// 2013). `blend` is the width of the transition, in the unit of the distances; exact outside it, at most blend/4 too
+// deep inside it. Any thread.
 #pragma once
 
 #include <algorithm>

@@ -42,7 +42,7 @@ struct RehearsalStatus {
   double cutting_s = 0.0, dry_s = 0.0;  ///< time with the bur in bone or tooth, and that without water
   std::string said;                     ///< to the surgeon, last
   std::optional<double> gap_mm;  ///< from the bur to tooth or bone as drawn; none: farther than render::kMaxGap_mm
-  std::string ruler;  ///< between two touches; empty: none
+  std::string ruler;             ///< between two touches; empty: none
   RecordingState recording = RecordingState::none;
   std::string recording_path;
   std::string to_surgeon, to_instructor;  ///< messages of a procedure; a question to the surgeon

@@ -123,8 +123,7 @@ Query queryFor(const MeshBodies& bodies, std::vector<Layer>* layers) {
   Query query{.context = {}, .window = &bodies.window(), .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (layers != nullptr || bodies.window().radius_mm > 0.0f || bodies.hasGuides())
-    query.context.filter = filter;
+  if (layers != nullptr || bodies.window().radius_mm > 0.0f || bodies.hasGuides()) query.context.filter = filter;
   return query;
 }
 

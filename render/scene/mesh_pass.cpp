@@ -51,11 +51,10 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
     glm::vec4 colour = part.material.base_colour;
     colour.a *= placement.opacity;
     if ((colour.a < 1.0f) != transparent) continue;
-    block_.set(PART_BLOCK,
-               {.P_from_mesh = glm::mat4(part.is_bur ? rotated : placement.P_from_mesh),
-                .base_colour = colour,
-                .finish = {part.material.roughness, part.material.metallic, static_cast<float>(part.finish),
-                           part.is_cut ? 1.0f : 0.0f}});
+    block_.set(PART_BLOCK, {.P_from_mesh = glm::mat4(part.is_bur ? rotated : placement.P_from_mesh),
+                            .base_colour = colour,
+                            .finish = {part.material.roughness, part.material.metallic, static_cast<float>(part.finish),
+                                       part.is_cut ? 1.0f : 0.0f}});
     part.triangles.draw();
   }
 }
