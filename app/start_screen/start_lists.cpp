@@ -88,14 +88,15 @@ StartList positionList() {
       {"Lying, from the right", "At 10 o'clock, the head turned and tilted towards you."},
       {"Lying, from the left", "At 2 o'clock, the head turned and tilted towards you."},
       {"Lying, from behind", "At 12 o'clock, behind the head."}};
+  list.choices.push_back({.words = "Usual",
+                          .beside = "",
+                          .about = "As the calibration was set up; without one seated before you.",
+                          .arguments = {}});
   for (std::size_t n = 0; n < kPatientPositions.size(); ++n)
-    // Seated is what is done where nothing is asked for, unless a measured rig states the pose of the head.
-    list.choices.push_back(
-        {.words = kWords[n].first,
-         .beside = "",
-         .about = kWords[n].second,
-         .arguments = n == 0 ? std::vector<std::string>{}
-                             : std::vector<std::string>{"--position", std::string(kPatientPositions[n])}});
+    list.choices.push_back({.words = kWords[n].first,
+                            .beside = "",
+                            .about = kWords[n].second,
+                            .arguments = {"--position", std::string(kPatientPositions[n])}});
   return list;
 }
 

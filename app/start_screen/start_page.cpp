@@ -25,7 +25,7 @@ constexpr std::array<ListPlace, kStartLists> kLists{{
     {{5.0, 14.0}, 80.0, 9},
     {{91.0, 14.0}, 64.0, 4},
     {{91.0, 37.5}, 64.0, 4},
-    {{91.0, 61.0}, 64.0, 4},
+    {{91.0, 61.0}, 64.0, 5},
     {{5.0, 60.0}, 80.0, 4},
 }};
 constexpr glm::dvec2 kButton{127.0, 88.5}, kButtonSize{28.0, 7.0};

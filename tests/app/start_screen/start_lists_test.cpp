@@ -66,7 +66,7 @@ TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
       if (!lists[list].choices[choice].why_not.empty()) continue;
       const RehearseOptions options = parsed(menu.arguments());
       EXPECT_EQ(options.case_name.empty(), menu.isOverruled(0));
-      if (list == 3 && choice == 3) {
+      if (list == 3 && choice == 4) {
         EXPECT_EQ(options.position, "behind");
       }
       if (list == 1 && choice == 1) {
