@@ -17,6 +17,7 @@ struct PlannedCut {
   glm::dvec3 outward_P{0.0};                          ///< out of the bone, towards the bur
   glm::dvec3 lateral_P{0.0};                          ///< across the cut, away from the tooth (buccal)
   glm::dvec3 sight_P{0.0};                            ///< to the eye that sees the whole cut, unit; zero: any
+  glm::dvec3 shaft_P{0.0};                            ///< from the bur to a handpiece that lies clear, unit; zero: any
   double bur_radius_mm = 1.5;
 };
 

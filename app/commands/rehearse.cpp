@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <memory>
 #include <thread>
 
 #include "app/case/case.h"
+#include "app/case/handpiece_direction.h"
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
@@ -33,6 +35,7 @@
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/scenery/soft_tissue_distance.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
@@ -64,8 +67,12 @@ std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& o
   if (haptics::isDeviceAddress(options.plan.device))
     plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
   device = deviceIdentity(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
-  if (plan.opened && !plan.opened->device->capabilities().has_orientation)
-    plan.remarks.push_back(device.model + ": it measures no orientation, the handpiece keeps a fixed one");
+  const bool turns = plan.opened ? plan.opened->device->capabilities().has_orientation : plan.device != "mouse";
+  if (plan.opened && !turns)
+    plan.remarks.push_back(device.model + ": it measures no orientation, the bur keeps a fixed one, without handpiece");
+  // A hand that cannot turn a handpiece out of the way holds the bur alone.
+  plan.command.tool.handpiece = turns;
+  for (haptics::Tool& tool : plan.other_tools) tool.handpiece = turns;
   std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen);
   plan.full_screen = chosen.has_value();
@@ -110,20 +117,51 @@ void placePatient(RehearsalPlan& plan, const std::string& position, const std::o
   plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
 }
 
-/// Generated or read while the surgeon's windows show the progress. False: cancelled.
-bool preparePatient(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw) {
+struct PreparedCase {
+  assets::Patient patient;
+  assets::FacePose X_PF = assets::kFaceAxes_PF;
+  std::optional<CutPlan> cut;
+  assets::SoftTissueField soft_tissue;
+};
+
+/// The patient, and what is computed from it: the cut and how a handpiece lies clear of soft tissue while it is made.
+PreparedCase prepared(const RehearseOptions& options, const assets::JawParameters& jaw, const haptics::Tool& tool,
+                      const assets::ReportProgress& report) {
+  PreparedCase one;
+  one.patient = options.patient.empty() ? builtInPatient(jaw, report) : assets::loadPatient(options.patient);
+  if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
+  auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
+  const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
+  one.soft_tissue =
+      assets::softTissueField(assets::softTissueSurfaces(one.patient.gingiva, one.patient.face, region), region);
+  one.cut = cut.get();
+  if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);
+  return one;
+}
+
+/// Prepared while the surgeon's windows show the progress. False: cancelled.
+bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
+                 assets::FacePose& X_PF) {
   const SurgeonDisplay::Options shown = displayOf(plan);
   Preparation preparation({.windows = shown.windows,
                            .eyes_swapped = shown.eyes_swapped,
                            .headless = plan.headless,
                            .needs_window = shown.needs_window},
                           plan.rig, "Preparing the patient", printMessage);
-  auto patient = preparation.run<assets::Patient>([&](const assets::ReportProgress& report) {
-    return options.patient.empty() ? builtInPatient(jaw, report) : assets::loadPatient(options.patient);
-  });
-  if (!patient) return false;
-  plan.patient = std::move(*patient);
+  auto one = preparation.run<PreparedCase>(
+      [&](const assets::ReportProgress& report) { return prepared(options, jaw, plan.command.tool, report); });
+  if (!one) return false;
+  plan.patient = std::move(one->patient);
+  plan.soft_tissue = std::move(one->soft_tissue);
   plan.windows = preparation.takeWindows();
+  X_PF = one->X_PF;
+  if (!one->cut) return true;
+  plan.cut = one->cut->cut;
+  const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
+  if (one->cut->kind == CutKind::nearest_bone && hand && hand->follows_plan)
+    printMessage((plan.patient.site ? "no gutter fits beside the " + assets::toothName(plan.patient.site->fdi)
+                                    : std::string("no operated tooth is labelled")) +
+                 ", the scripted cut is on the nearest bone");
   return true;
 }
 
@@ -140,17 +178,6 @@ void refuseUnlessSteppable(const RehearseOptions& options) {
   if (options.plan.instructor_window) throw UsageError("--pace fast: a window needs real time, leave --instructor out");
   if (options.pedal != "auto" && options.pedal != "none")
     throw UsageError("--pace fast: a pedal needs real time, leave --pedal out");
-}
-
-void planCut(RehearsalPlan& plan) {
-  const auto planned = plannedCut(plan.patient, plan.command.tool.head.radius_mm);
-  if (!planned) return;
-  plan.cut = planned->cut;
-  const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
-  if (planned->kind == CutKind::gutter || !hand || !hand->follows_plan) return;
-  const std::string why = plan.patient.site ? "no gutter fits beside the " + assets::toothName(plan.patient.site->fdi)
-                                            : std::string("no operated tooth is labelled");
-  printMessage(why + ", the scripted cut is on the nearest bone");
 }
 
 /// Mesa's software renderer would use every core.
@@ -281,11 +308,11 @@ int run(RehearseOptions& options) {
   const std::string position = positionOf(options, chosen, plan.remarks);
   options.display.refuseUnlessFits(plan.rig);
   reserveCoreForServo();
-  if (!preparePatient(plan, options, jaw)) {
+  assets::FacePose X_PF;
+  if (!prepareCase(plan, options, jaw, X_PF)) {
     printMessage("left before the patient was ready");
     return 0;
   }
-  planCut(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
@@ -296,8 +323,6 @@ int run(RehearseOptions& options) {
     setup.tray.insert(setup.tray.begin(), plan.command.tool);
     if (former) setup.former = former->setup.former;
   }
-  assets::FacePose X_PF = assets::kFaceAxes_PF;
-  if (!options.face.empty()) X_PF = replaceFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   placePatient(plan, position, chosen, device, X_PF);
   return rehearse(std::move(plan));

@@ -7,13 +7,13 @@
 namespace app {
 namespace {
 
-PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig) {
+PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut) {
   PoseSource source;
   source.library = std::move(opened.library);
   source.device = std::move(opened.device);
   source.X_PD = rig.X_WP.inverse() * rig.X_WD;
   if (source.library) standAsMeasured(source, rig);
-  if (!source.device->capabilities().has_orientation) fixOrientation(source, rig, restingTool().rotation);
+  if (!source.device->capabilities().has_orientation) fixOrientation(source, rig, restingTool(rig, cut).rotation);
   return source;
 }
 
@@ -23,6 +23,14 @@ glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.
 
 calibration::Pose<calibration::World, calibration::Tool> restingTool() {
   return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}};
+}
+
+calibration::Pose<calibration::World, calibration::Tool> restingTool(const calibration::Rig& rig,
+                                                                     const std::optional<assets::PlannedCut>& cut) {
+  auto X_WT = restingTool();
+  if (cut && cut->shaft_P != glm::dvec3(0.0))
+    X_WT.rotation = glm::dquat(glm::dvec3(0, 0, 1), rig.X_WP.rotation * cut->shaft_P);
+  return X_WT;
 }
 
 void standAsMeasured(PoseSource& source, const calibration::Rig& rig) {
@@ -38,7 +46,7 @@ void fixOrientation(PoseSource& source, const calibration::Rig& rig, const glm::
 
 PoseSource openMouse(const std::string&, const PoseSourceContext& at) {
   PoseSource source;
-  const auto X_WT = restingTool();
+  const auto X_WT = restingTool(at.rig, at.cut);
   auto mouse =
       std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{X_WT.rotation, X_WT.translation_mm}, false});
   source.mouse = mouse.get();
@@ -56,8 +64,8 @@ PoseSource openPoseSource(const std::string& address, const DeviceOptions& optio
   refuseUnlessPoseSource(address);
   const PoseSourceKind* const kind = poseSourceKindOf(address);
   PoseSource source = kind     ? kind->open(haptics::addressRest(address), {patient, rig, cut})
-                      : opened ? realDevice(std::move(*opened), rig)
-                               : realDevice(haptics::openDevice(address, options), rig);
+                      : opened ? realDevice(std::move(*opened), rig, cut)
+                               : realDevice(haptics::openDevice(address, options), rig, cut);
   if (source.name.empty()) source.name = source.device->capabilities().model;
   return source;
 }

@@ -39,8 +39,11 @@ struct PoseSource {
   std::vector<TimedRequest> requests;           ///< in the order of their times
 };
 
-/// Where the mouse's tool begins: in front of the site.
+/// Where the mouse's tool begins: in front of the site; the handpiece as planned for the cut, else towards the viewer
+/// and down.
 calibration::Pose<calibration::World, calibration::Tool> restingTool();
+calibration::Pose<calibration::World, calibration::Tool> restingTool(const calibration::Rig& rig,
+                                                                     const std::optional<assets::PlannedCut>& cut);
 
 /// For a device that measures no orientation: its tool keeps the rotation R_WT.
 void fixOrientation(PoseSource& source, const calibration::Rig& rig, const glm::dquat& R_WT);

@@ -27,7 +27,7 @@ PoseSource openPoses(const std::string& path, const PoseSourceContext& at);
 /// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
 glm::dvec3 shaftDirection_W();
 
-/// How the scripted hand holds the handpiece for a cut.
+/// How the scripted hand holds the handpiece for a cut: as planned, else between the way in and the line of sight.
 haptics::CuttingMotion cuttingMotion(const assets::PlannedCut& cut, const calibration::Rig& rig);
 
 /// A Phantom's base and the tip in its handle: as measured, or as its model has them.

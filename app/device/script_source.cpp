@@ -17,6 +17,7 @@ const assets::PlannedCut& cutFor(const PoseSourceContext& at) {
 }  // namespace
 
 haptics::CuttingMotion cuttingMotion(const assets::PlannedCut& cut, const calibration::Rig& rig) {
+  if (cut.shaft_P != glm::dvec3(0.0)) return {.shaft_P = cut.shaft_P};
   // Half way between the way into the bone, where the neck has room, and what leaves the site to be seen.
   return {.shaft_P =
               glm::normalize(glm::normalize(cut.outward_P) + glm::conjugate(rig.X_WP.rotation) * shaftDirection_W())};

@@ -24,7 +24,7 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
       view_(view),
       head_up_(head_up),
       event_log_(event_log),
-      input_(restingTool()),
+      input_(restingTool(plan.rig, plan.cut)),
       desk_view_(plan.rig, plan.rig.X_WP * calibration::Point<calibration::Patient>{plan.patient.focus_P_mm()}),
       script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {}
 

@@ -17,6 +17,7 @@
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
 #include "app/rehearsal/touches.h"
+#include "app/session/soft_touches.h"
 
 namespace app {
 namespace {
@@ -118,7 +119,7 @@ class Rehearsal {
   void placeMouse() {
     if (equipment_.mouse() == nullptr) return;
     render::Frame held = frame_;
-    held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool().rotation;
+    held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool(plan_.rig, plan_.cut).rotation;
     held.tool_visible = true;
     const glm::dvec3 goal_P_mm = plan_.cut ? plan_.cut->surface_P_mm : plan_.patient.focus_P_mm();
     const auto start_W_mm =
@@ -157,10 +158,16 @@ class Rehearsal {
     const std::vector<haptics::Tick> ticks = station().takeTicks();
     if (ticks.empty()) return;
     const haptics::Command& command = active_command_.inForce();
+    countSoftTouches(ticks);
     head_up_.follow(ticks, command.irrigating);
     for (const Touch& touch : touches_.follow(ticks, command.tool.head)) event_log_.note(kTouchEvent, touchText(touch));
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  void countSoftTouches(const std::vector<haptics::Tick>& ticks) {
+    for (const haptics::Tick& tick : ticks) soft_touches_.add(tick);
+    for (const std::string& line : soft_touches_.takeEvents()) event_log_.note("soft tissue", line);
   }
 
   /// The tick before the bricks: bone that a tick removed is in the same frame as its pose.
@@ -205,6 +212,7 @@ class Rehearsal {
     for (const Touch& touch : touches_.finish()) event_log_.note(kTouchEvent, touchText(touch));
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
+    countSoftTouches(station().takeTicks());
     readServo();
     if (last_)
       view_.takeSnapshot(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
@@ -214,6 +222,7 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
+    figures.soft_touches = soft_touches_.counts();
     if (plan_.recording) figures.recording = recorded, figures.recorded_by_default = plan_.recording->by_default;
     return figures;
   }
@@ -227,6 +236,7 @@ class Rehearsal {
   HeadUp head_up_;
   Touches touches_{plan_.patient};
   ControlRouter router_;
+  SoftTouchCounter soft_touches_;
   std::optional<StereoSnapshot> first_, last_;
   LiveView view_;
   Pace pace_;

@@ -14,6 +14,7 @@
 #include "app/view/display_windows.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
+#include "assets/soft_tissue_field.h"
 #include "calibration/rig.h"
 #include "haptics/device/pedal/foot_pedal.h"
 #include "haptics/servo/command.h"
@@ -26,6 +27,7 @@ struct RehearsalPlan {
   assets::Patient patient;
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
   std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
+  assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
   calibration::Rig rig;
   bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own
   render::DisplayMode display = render::DisplayMode::mono;

@@ -11,6 +11,7 @@
 #include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/warnings.h"
 #include "app/session/recorder.h"
+#include "app/session/soft_touches.h"
 #include "app/session/touch_event.h"
 #include "app/view/motion_to_photon.h"
 #include "assets/tissue.h"
@@ -32,6 +33,7 @@ struct RehearsalFigures {
   double frame_ms = 0.0;                                 ///< mean time between frames
   std::optional<LatencyEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
   double first_frame_s = 0.0;  ///< from the user's command to the first frame, loading included
+  SoftTouches soft_touches;    ///< lip, cheek, tongue …, and the turning bur on them
   std::optional<RecordingSummary> recording;
   bool recorded_by_default = false;  ///< nobody asked for the recording
 };

@@ -43,11 +43,12 @@ void visitByTissue(const std::string& key, auto& factors, Visit&& visit) {
 
 template <class Visit>
 void visitTool(auto& tool, Visit&& visit) {
-  auto& [head, shaft] = tool;
+  auto& [head, shaft, handpiece] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("tool.head.kind", kind), visit("tool.head.radius_mm", radius_mm), visit("tool.head.length_mm", length_mm);
   visit("tool.shaft.radius_mm", shaft_radius_mm), visit("tool.shaft.length_mm", shaft_length_mm);
+  visit("tool.handpiece", handpiece);
 }
 
 template <class Visit>

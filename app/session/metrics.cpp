@@ -93,6 +93,7 @@ SessionMetrics metricsOf(const std::string& path) {
 
   std::vector<float> work_us;
   auto ruler = events.begin();
+  SoftTouchCounter soft_touches;
   haptics::Command in_force;
   auto next = commands.begin();
   std::optional<haptics::Tick> before;
@@ -104,6 +105,7 @@ SessionMetrics metricsOf(const std::string& path) {
       addTick(metrics, tick, before, in_force.irrigating, field.cover().clarity());
       for (; ruler != events.end() && ruler->tick <= tick.index; ++ruler)
         metrics.measured.push_back({tick.t_s, *measuredMm(ruler->text), ruler->text});
+      soft_touches.add(tick);
       work_us.push_back(tick.work_us);
       before = tick;
     }
@@ -118,6 +120,7 @@ SessionMetrics metricsOf(const std::string& path) {
     metrics.removed_mm3_by_label = removedByReplay(session);
   }
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
+  metrics.soft_touches = soft_touches.counts();
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);
   metrics.work_max_us = quantile(work_us, 1.00);
@@ -150,6 +153,10 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.former)
     words += fmt::format("this part only: it continues {}, {:.1f} s before it\n", metrics.former->file,
                          metrics.former->duration_s);
+  if (const std::string touched = countsText(metrics.soft_touches.touched); !touched.empty())
+    words += "soft tissue touched: " + touched + "\n";
+  if (const std::string cut = countsText(metrics.soft_touches.cut); !cut.empty())
+    words += "bur turned on: " + cut + "\n";
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
@@ -187,6 +194,21 @@ nlohmann::ordered_json calibrationMetrics(const SessionCalibration& c) {
 
 }  // namespace
 
+namespace {
+
+/// By the key of the tissue; all of them, so that a table has the same columns for every session.
+nlohmann::ordered_json softTouchesJson(const SoftTouches& touches) {
+  nlohmann::ordered_json json;
+  for (std::size_t n = 1; n < assets::kSoftTissueCount; ++n)
+    json[assets::kSoftTissues[n].key] = {{"touches", touches.touched[n].times},
+                                         {"touched_s", touches.touched[n].seconds},
+                                         {"bur_on", touches.cut[n].times},
+                                         {"bur_on_s", touches.cut[n].seconds}};
+  return json;
+}
+
+}  // namespace
+
 std::string metricsJson(const SessionMetrics& metrics) {
   nlohmann::ordered_json by_label;
   if (metrics.removed_mm3_by_label) {
@@ -218,6 +240,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
   json["measured"] = nlohmann::ordered_json::array();
   for (const MeasuredWay& way : metrics.measured)
     json["measured"].push_back({{"t_s", way.t_s}, {"mm", way.mm}, {"words", way.words}});
+  json["soft_tissue"] = softTouchesJson(metrics.soft_touches);
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -13,6 +13,7 @@
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
 #include "app/session/session_text.h"
+#include "app/session/soft_touches.h"
 #include "app/session/touch_event.h"
 
 namespace app {
@@ -37,6 +38,7 @@ struct SessionMetrics {
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
   std::vector<MeasuredWay> measured;
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
+  SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 };
 

@@ -54,8 +54,9 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
 /// The servo on the initial bone, driven by the recorded hand and commands.
 class Rerun {
  public:
-  Rerun(haptics::CarvedBone& bone, std::vector<SessionCommand> commands)
-      : servo_(bone), commands_(std::move(commands)) {}
+  /// Borrows bone and soft tissue.
+  Rerun(haptics::CarvedBone& bone, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands)
+      : servo_(bone, &soft_tissue), commands_(std::move(commands)) {}
 
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded) {
@@ -95,7 +96,7 @@ std::optional<std::string> finalBoneDifference(SessionReader& session, const Sto
 void rerunAll(SessionReader& session, ReplayReport& report) {
   const StoredStart start = session.start();
   haptics::CarvedBone bone(start.grid, start.solid, start.label);
-  Rerun rerun(bone, session.commands());
+  Rerun rerun(bone, start.soft_tissue, session.commands());
   haptics::Tick again;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& recorded : block.ticks) {
@@ -208,7 +209,7 @@ ReplayedState replayTo(SessionReader& session, double t_s) {
   session.rewind();
   StoredStart start = session.start();
   haptics::CarvedBone bone(start.grid, start.solid, start.label);
-  Rerun rerun(bone, session.commands());
+  Rerun rerun(bone, start.soft_tissue, session.commands());
   haptics::Tick last, last_recorded;
   std::optional<ReplayDifference> divergence;
   double recorded_mm3 = 0.0, again_mm3 = 0.0;

@@ -188,6 +188,19 @@ struct SessionReader::Impl {
 
   StoredStart about() { return isPacked() ? old_formats::packedAbout(database, schema) : aboutWithLabels().start; }
 
+  /// The grid is known; size 0: none is stored.
+  void readSoftTissue(assets::SoftTissueField& soft) {
+    if (soft.grid.size.x == 0) return;
+    refuseInvalidGrid(soft.grid);
+    const std::size_t voxels = soft.grid.voxelCount();
+    const std::vector<std::uint8_t> bytes = volume(session_format::kSoftDistance, 2 * voxels);
+    soft.tissue = volume(session_format::kSoftTissue, voxels);
+    if (bytes.empty() || soft.tissue.empty()) throw damagedSession("its soft tissue is missing");
+    soft.distance.resize(voxels);
+    for (std::size_t v = 0; v < voxels; ++v)
+      soft.distance[v] = static_cast<std::int16_t>(static_cast<std::uint16_t>(bytes[v] | bytes[v + voxels] << 8));
+  }
+
   StoredStart start() {
     StoredStart start = about();
     if (isPacked()) {
@@ -198,6 +211,7 @@ struct SessionReader::Impl {
       if (start.solid.empty()) throw damagedSession("it has no bone");
       start.label = volume(session_format::kLabel, voxels);
       if (start.label.empty()) start.label.resize(voxels);
+      readSoftTissue(start.soft_tissue);
     }
     for (std::uint8_t& value : start.label) value = label[value];
     return start;

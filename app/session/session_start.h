@@ -11,6 +11,7 @@
 #include "app/session/servo_build.h"
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
+#include "assets/soft_tissue_field.h"
 #include "assets/volume_grid.h"
 #include "haptics/servo/command.h"
 
@@ -27,7 +28,8 @@ struct SessionStart {
   SessionCalibration calibration = {};
   ServoBuild servo = thisServo();
   SessionSetup setup = {};
-  std::string started_utc = {};  ///< empty: not stored
+  std::string started_utc = {};                          ///< empty: not stored
+  const assets::SoftTissueField* soft_tissue = nullptr;  ///< borrowed by the constructor of the recorder; null: none
 };
 
 /// The start as stored, with its voxels; labels are those of this program.
@@ -36,6 +38,7 @@ struct StoredStart {
   double dt_s = 0.0;
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
+  assets::SoftTissueField soft_tissue;            ///< empty: none, or recorded before it was stored
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was stored
   ServoBuild servo;
   SessionSetup setup;

@@ -69,8 +69,9 @@ void forEachParameter(auto& jaw, auto&& visit) {
   visit("seed", seed);
 }
 
+/// Whether there is a handpiece is the device's, not the tray's.
 void forEachNumber(auto& tool, auto&& visit) {
-  auto& [head, shaft] = tool;
+  auto& [head, shaft, handpiece] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("radius_mm", radius_mm), visit("length_mm", length_mm);
@@ -121,8 +122,8 @@ json gridJson(const assets::VolumeGrid& grid) {
           {"origin_P_mm", {grid.origin_P_mm.x, grid.origin_P_mm.y, grid.origin_P_mm.z}}};
 }
 
-assets::VolumeGrid gridFrom(const json& about) {
-  const auto found = about.find("grid");
+assets::VolumeGrid gridFrom(const json& about, const char* name = "grid") {
+  const auto found = about.find(name);
   assets::VolumeGrid grid;
   const auto three = [&](const char* key) -> const json& {
     const auto at = found->find(key);
@@ -199,16 +200,19 @@ void refuseInvalidGrid(const assets::VolumeGrid& grid) {
 }
 
 std::string aboutText(const SessionStart& start) {
-  return dumped({{"program", start.program_version},
-                 {"patient", start.patient_title},
-                 {"servo_revision", start.servo.revision},
-                 {"instruction_set", start.servo.instruction_set},
-                 {"dt_s", start.dt_s},
-                 {"grid", gridJson(start.grid)},
-                 {"labels", ownLabels()},
-                 {"calibration", calibrationJson(start.calibration)},
-                 {"setup", setupJson(start.setup)},
-                 {"started_utc", start.started_utc}});
+  json about = {{"program", start.program_version},
+                {"patient", start.patient_title},
+                {"servo_revision", start.servo.revision},
+                {"instruction_set", start.servo.instruction_set},
+                {"dt_s", start.dt_s},
+                {"grid", gridJson(start.grid)},
+                {"labels", ownLabels()},
+                {"calibration", calibrationJson(start.calibration)},
+                {"setup", setupJson(start.setup)},
+                {"started_utc", start.started_utc}};
+  if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty())
+    about["soft_tissue_grid"] = gridJson(start.soft_tissue->grid);
+  return dumped(about);
 }
 
 SessionAbout aboutFromText(std::string_view text) {
@@ -220,6 +224,7 @@ SessionAbout aboutFromText(std::string_view text) {
   about.start.servo.instruction_set = valueOf(object, "instruction_set", std::string());
   about.start.dt_s = valueOf(object, "dt_s", 0.001);
   about.start.grid = gridFrom(object);
+  if (object.contains("soft_tissue_grid")) about.start.soft_tissue.grid = gridFrom(object, "soft_tissue_grid");
   if (const auto found = object.find("labels"); found != object.end()) about.label = labelsFrom(*found);
   if (const auto found = object.find("calibration"); found != object.end()) {
     if (!found->is_object()) throw damagedSession("it has no valid calibration");

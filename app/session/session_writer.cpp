@@ -97,8 +97,7 @@ struct SessionWriter::Impl {
 
   /// `fill(first, part)` writes the voxels of a part.
   template <class Fill>
-  void appendVolume(std::string_view volume, Fill&& fill) {
-    const std::size_t voxels = grid.voxelCount();
+  void appendVolume(std::string_view volume, std::size_t voxels, Fill&& fill) {
     std::vector<std::uint8_t> part(std::min(kBonePartBytes, voxels));
     for (std::size_t first = 0; first < voxels; first += part.size()) {
       part.resize(std::min(kBonePartBytes, voxels - first));
@@ -107,16 +106,31 @@ struct SessionWriter::Impl {
     }
   }
 
+  void appendSoftTissue(const assets::SoftTissueField& soft) {
+    const std::size_t voxels = soft.distance.size();
+    appendVolume(session_format::kSoftDistance, 2 * voxels, [&](std::size_t first, std::span<std::uint8_t> part) {
+      for (std::size_t n = 0; n < part.size(); ++n) {
+        const std::size_t at = first + n;
+        const auto bits = static_cast<std::uint16_t>(soft.distance[at % voxels]);
+        part[n] = static_cast<std::uint8_t>(at < voxels ? bits : bits >> 8);
+      }
+    });
+    appendVolume(session_format::kSoftTissue, voxels, [&](std::size_t first, std::span<std::uint8_t> part) {
+      std::copy_n(soft.tissue.begin() + static_cast<std::ptrdiff_t>(first), part.size(), part.begin());
+    });
+  }
+
   void appendStart(const SessionStart& start) {
     append("meta", {session_format::kSchema, aboutText(start)});
     for (const TickColumn& c : tickColumns()) append("tick_column", {c.name, c.type, c.unit, c.frame, c.meaning});
-    appendVolume(session_format::kSolid, [&](std::size_t first, std::span<std::uint8_t> part) {
+    appendVolume(session_format::kSolid, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
       std::ranges::copy(start.solid.subspan(first, part.size()), part.begin());
     });
     if (!start.label.empty())
-      appendVolume(session_format::kLabel, [&](std::size_t first, std::span<std::uint8_t> part) {
+      appendVolume(session_format::kLabel, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::ranges::copy(start.label.subspan(first, part.size()), part.begin());
       });
+    if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty()) appendSoftTissue(*start.soft_tissue);
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
   }
 
@@ -126,7 +140,7 @@ struct SessionWriter::Impl {
     std::vector<std::uint8_t> start;
     const haptics::SolidField field = bone.field();
     glm::ivec3 ijk(0);
-    appendVolume(session_format::kRemoved, [&](std::size_t, std::span<std::uint8_t> part) {
+    appendVolume(session_format::kRemoved, grid.voxelCount(), [&](std::size_t, std::span<std::uint8_t> part) {
       if (!parts.executeStep()) throw damagedSession("a part of its bone is missing");
       start.resize(part.size());
       decompressInto(start, blobOf(parts.getColumn(0)));

@@ -16,7 +16,8 @@ constexpr double kWrittenTogether_s = 0.5;
 
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
                                      double rate_Hz, const haptics::Command& command, haptics::TickLog& log,
-                                     Ticking ticking, std::string& refusal) {
+                                     Ticking ticking, const assets::SoftTissueField& soft_tissue,
+                                     std::string& refusal) {
   if (!recording) return nullptr;
   SessionStart start;
   start.patient_title = patient.title;
@@ -25,6 +26,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.grid = patient.ct.grid;
   start.solid = patient.ct.solid;
   start.label = patient.ct.label;
+  start.soft_tissue = &soft_tissue;
   start.command = command;
   start.calibration = recording->calibration;
   start.setup = recording->setup;
@@ -50,15 +52,18 @@ haptics::LoopSettings withSecondLog(haptics::LoopSettings settings, std::optiona
 
 Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
                          const haptics::LoopSettings& settings, const haptics::Command& command,
-                         const std::optional<Recording>& recording, Ticking ticking, bool keeps_ticks)
+                         const std::optional<Recording>& recording, Ticking ticking, bool keeps_ticks,
+                         assets::SoftTissueField soft_tissue)
     : device_(std::move(device)),
       bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
-      servo_(bone_),
+      soft_tissue_(std::move(soft_tissue)),
+      servo_(bone_, &soft_tissue_),
       rate_Hz_(settings.rate_Hz),
       command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
       commands_(command_),
       log_(roomAt(rate_Hz_)),
-      recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking, recording_refusal_)),
+      recorder_(
+          recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking, soft_tissue_, recording_refusal_)),
       pedal_(settings.pedal),
       loop_(servo_, servedAs(*device_, ticking), commands_, log_, newest_,
             withSecondLog(settings, kept_ticks_, keeps_ticks)) {}

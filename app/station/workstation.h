@@ -31,10 +31,12 @@ struct Recording {
 
 class Workstation {
  public:
-  /// `keeps_ticks`: for takeTicks(). Throws SessionError or haptics::DeviceError.
+  /// `keeps_ticks`: for takeTicks(). `soft_tissue`: what the instrument can touch; empty: none. Throws SessionError or
+  /// haptics::DeviceError.
   Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
               const haptics::LoopSettings& settings, const haptics::Command& command,
-              const std::optional<Recording>& recording, Ticking ticking = Ticking::realtime, bool keeps_ticks = false);
+              const std::optional<Recording>& recording, Ticking ticking = Ticking::realtime, bool keeps_ticks = false,
+              assets::SoftTissueField soft_tissue = {});
 
   ~Workstation() { loop_.stop(); }
 
@@ -76,6 +78,7 @@ class Workstation {
  private:
   std::unique_ptr<haptics::HapticDevice> device_;
   haptics::CarvedBone bone_;
+  const assets::SoftTissueField soft_tissue_;
   haptics::Servo servo_;
   double rate_Hz_;
   haptics::Command command_;

@@ -11,6 +11,7 @@ assets::HandpieceParameters drawnAs(const haptics::Tool& tool) {
   drawn.bur_radius_mm = tool.head.radius_mm;
   drawn.bur_length_mm = tool.head.length_mm;
   drawn.neck_radius_mm = tool.shaft.radius_mm;
+  drawn.handpiece = tool.handpiece;
   return drawn;
 }
 static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));

@@ -169,7 +169,8 @@ MeshPart bur(const HandpieceParameters& parameters) {
                          {start + 4.0, neck * 0.95},
                          {start + 9.0, kShankRadius_mm, false},
                          {26.0, kShankRadius_mm},
-                         {27.0, kShankRadius_mm}},
+                         {27.0, kShankRadius_mm, true},
+                         {27.0, 0.0, true}},
                         glm::vec4(0.95f, 0.95f, 0.95f, 1.0f)));
   part.name = "Bur";
   part.material = {{0.56f, 0.57f, 0.58f, 1.0f}, 0.28f, 1.0f};
@@ -234,7 +235,9 @@ MeshModel surgicalHandpiece(const HandpieceParameters& parameters) {
   if (parameters.flutes < 8 || parameters.flutes > 40) {
     throw LoadError("instrument: a bur has 8..40 flutes, choose a number in between");
   }
-  return {{bur(parameters), handpiece()}};
+  MeshModel instrument{{bur(parameters)}};
+  if (parameters.handpiece) instrument.parts.push_back(handpiece());
+  return instrument;
 }
 
 }  // namespace assets

@@ -17,6 +17,7 @@ struct HandpieceParameters {
   BurForm form = BurForm::round;
   double bur_length_mm = 0.0;   ///< 0..20, of the capsule's straight part, the cylinder or the cone
   double neck_radius_mm = 0.0;  ///< behind the head, at most its radius; 0: default
+  bool handpiece = true;        ///< false: the bur with its shank alone
 };
 
 /// Throws LoadError if a parameter is out of range.

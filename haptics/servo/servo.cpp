@@ -32,7 +32,10 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   const SafetyLayer::Admitted admitted = safety_.admit(hand, command.safety, command.rearm, tick.dt_s);
   const HandSample& valid = admitted.hand;
   // Without force the proxy follows the hand.
-  if (admitted.relocated || (command.safety.must_be_armed && admitted.state != SafetyState::active)) proxy_.release();
+  if (admitted.relocated || (command.safety.must_be_armed && admitted.state != SafetyState::active)) {
+    proxy_.release();
+    soft_hold_.release();
+  }
   tick.faults = admitted.faults;
   tick.state = admitted.state;
 
@@ -47,13 +50,18 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
   tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
 
+  // Soft tissue holds the tool off; bone contact starts from there.
+  const SoftHold::State soft =
+      soft_hold_.update(soft_tissue_, command.tool, valid.X_PT, valid.velocity_P_mm_per_s, tick.drilling);
+  tick.soft = soft.touch;
+
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
-  const Proxy::State proxy = embedded ? proxy_.passThrough(bone_.field(), command.law, command.tool, valid.X_PT, motion)
-                                      : proxy_.update(bone_.field(), command.law, command.tool, valid.X_PT, motion,
+  const Proxy::State proxy = embedded ? proxy_.passThrough(bone_.field(), command.law, command.tool, soft.X_PT, motion)
+                                      : proxy_.update(bone_.field(), command.law, command.tool, soft.X_PT, motion,
                                                       command.safety.max_stiffness_N_per_mm);
   if (embedded && !proxy.touches()) undo_.release();
-  X_PQ_ = {valid.X_PT.rotation, proxy.proxy_P.mm};
+  X_PQ_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
   tick.proxy_P = proxy.proxy_P;
   tick.overlap_mm3 = proxy.head.volume_mm3;
   tick.depth_mm = proxy.head.depth_mm;
@@ -64,11 +72,12 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // The law's wrench, then the commanded one.
   tick.law_force_P_N = proxy.force_P_N() + dampingForce_N(command.law, proxy.touching(), valid.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = proxy.torque_P_Nmm();
-  const SafetyLayer::Request law{{tick.law_force_P_N, tick.law_torque_P_Nmm},
-                                 proxy.head.vibration_P_N,
-                                 {},
-                                 proxy.maxStored_Nmm(),
-                                 proxy.touches()};
+  const SafetyLayer::Request law{
+      {tick.law_force_P_N + tick.soft.force_P_N, tick.law_torque_P_Nmm + tick.soft.torque_P_Nmm},
+      proxy.head.vibration_P_N,
+      {},
+      proxy.maxStored_Nmm() + soft.max_stored_Nmm,
+      proxy.touches()};
   const Delivery::Changes changes{command.serial != last_serial_ || embedded != was_embedded_, admitted.relocated};
   last_serial_ = command.serial;
   was_embedded_ = embedded;

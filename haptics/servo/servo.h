@@ -9,6 +9,7 @@
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/proxy.h"
+#include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
 #include "haptics/servo/tick.h"
 
@@ -19,15 +20,19 @@ Command sanitised(const Command& command);
 
 class Servo {
  public:
-  /// Borrows the bone, which must outlive this; becomes its only writer. Allocates the undo history.
-  explicit Servo(CarvedBone& bone) : bone_(bone), undo_(bone) {}
+  /// Borrows bone and soft tissue (null: none), which must outlive this; becomes the only writer of the bone. Allocates
+  /// the undo history.
+  explicit Servo(CarvedBone& bone, const assets::SoftTissueField* soft_tissue = nullptr)
+      : bone_(bone), soft_tissue_(soft_tissue), undo_(bone) {}
 
   /// One tick of length `dt_s`. Invalid input is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
 
  private:
   CarvedBone& bone_;
+  const assets::SoftTissueField* soft_tissue_;
   SafetyLayer safety_;
+  SoftHold soft_hold_;
   Proxy proxy_;
   Cutting cutting_;
   Delivery delivery_;

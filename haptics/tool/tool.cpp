@@ -12,7 +12,7 @@ constexpr double kThickestShaft_mm = 5.0, kLongestShaft_mm = 100.0;
 }  // namespace
 
 Tool sanitised(const Tool& tool) noexcept {
-  Tool safe{sanitised(tool.head), {}};
+  Tool safe{sanitised(tool.head), {}, tool.handpiece};
   const Shaft& shaft = tool.shaft;
   if (shaft.radius_mm > 0.0 && shaft.length_mm > 0.0 && std::isfinite(shaft.radius_mm) &&
       std::isfinite(shaft.length_mm))

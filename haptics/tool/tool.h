@@ -1,5 +1,6 @@
 // The tool in the hand: a head that cuts and is felt, and a shaft that is felt and never cuts. Frame T, mm. Trivially
-// copyable, part of a Command; any thread. Without the handpiece behind it.
+// copyable, part of a Command; any thread. A handpiece behind it is touched by soft tissue only
+// (instrument_outline.h).
 #pragma once
 
 #include "haptics/tool/bur_shape.h"
@@ -16,6 +17,7 @@ struct Shaft {
 struct Tool {
   BurShape head;
   Shaft shaft;
+  bool handpiece = true;  ///< false: the bur alone, for a hand that cannot turn it out of the way
   bool operator==(const Tool&) const = default;
 };
 

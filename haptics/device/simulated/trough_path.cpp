@@ -15,6 +15,7 @@ constexpr double kPedalBefore = 0.1;  // of the approach
 constexpr double kMeets_mm = 1.6;     // ends of strokes that are joined in the bone
 constexpr double kOver_mm = 2.0;      // above the bone between others
 constexpr double kTilt_rad = 0.35;    // of the shaft towards the cheek, so that the handpiece clears the teeth
+constexpr double kLeastSteep = 0.6;   // cosine between shaft and the way out of the bone
 constexpr double kLeast_s = 0.02;
 
 bool positive(double x) { return std::isfinite(x) && x > 0.0; }
@@ -50,14 +51,23 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
       shaft_length > 0.0 ? shaft_D / shaft_length : std::cos(kTilt_rad) * outward + std::sin(kTilt_rad) * buccal;
   rotation_ = glm::normalize(glm::dquat(glm::dvec3(0.0, 0.0, 1.0), shaft));
 
+  // In and out along the shaft, where it leads out of the bone.
+  const double steep = glm::dot(shaft, outward);
+  const glm::dvec3 away = shaft_length > 0.0 && steep > kLeastSteep ? shaft : outward;
+  const double way_per_height = 1.0 / glm::dot(away, outward);
+
   // Over everything that is cut.
   double over_mm = -1e9;
   for (const auto& stroke : strokes_mm)
     for (const glm::dvec3& p : stroke) over_mm = std::max(over_mm, glm::dot(p, outward) + kOver_mm);
 
-  const auto lifted = [&](const glm::dvec3& p) { return p + std::max(over_mm - glm::dot(p, outward), 0.0) * outward; };
+  // From stroke to stroke half that way: along the shaft the bur would pass over the neighbour's crown.
+  const glm::dvec3 half_way = glm::normalize(outward + away);
+  const auto lifted = [&](const glm::dvec3& p) {
+    return p + std::max(over_mm - glm::dot(p, outward), 0.0) / glm::dot(half_way, outward) * half_way;
+  };
   begins_s_.push_back(0.0);
-  corner_mm_.push_back(strokes_mm.front().front() + motion.clearance_mm * outward);
+  corner_mm_.push_back(strokes_mm.front().front() + motion.clearance_mm * away);
   way_mm_.push_back(0.0);
   first_.push_back(1);
   go(strokes_mm.front().front(), kApproach_mm_per_s);
@@ -75,7 +85,7 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   pedal_to_s_ = begins_s_.back();
   const glm::dvec3 end_mm = corner_mm_.back();
   const double above_mm = glm::dot(strokes_mm.front().front() - end_mm, outward) + motion.clearance_mm;
-  go(end_mm + std::max(above_mm, motion.clearance_mm) * outward, kApproach_mm_per_s);
+  go(end_mm + std::max(above_mm, motion.clearance_mm) * way_per_height * away, kApproach_mm_per_s);
 }
 
 void TroughPath::go(const glm::dvec3& to_mm, double speed_mm_per_s) {

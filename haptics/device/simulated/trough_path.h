@@ -1,7 +1,8 @@
-// The path of a surgeon's hand that makes a planned cut: approach from above, the plan's strokes one after another with
-// the pedal down, then retreat. From one stroke to the next it goes straight where they meet, over the bone where they
-// do not. Frame D, mm, s; handle and tool coincide (X_HT = identity). 10-15 mm/s along a stroke: a starting value from
-// the surgery (buccal gutter along the crown), not measured. A pure function of time; no allocation after construction.
+// The path of a surgeon's hand that makes a planned cut: approach along the shaft, the plan's strokes one after another
+// with the pedal down, then retreat. From one stroke to the next it goes straight where they meet, over the bone where
+// they do not. Frame D, mm, s; handle and tool coincide (X_HT = identity). 10-15 mm/s along a stroke: a starting value
+// from the surgery (buccal gutter along the crown), not measured. A pure function of time; no allocation after
+// construction.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,7 @@
 namespace haptics {
 
 struct CuttingMotion {
-  glm::dvec3 shaft_P{0.0};       ///< from bur to handle; zero: outward, tilted to the cheek
+  glm::dvec3 shaft_P{0.0};       ///< from bur to handle; zero: outward, tilted to the cheek, in and out along outward
   double speed_mm_per_s = 12.0;  ///< mean along a stroke
   double clearance_mm = 15.0;    ///< of the bur above the bone, before and after
 };

@@ -52,6 +52,23 @@ std::uint64_t readEverything(SessionReader& session) {
   return ticks;
 }
 
+TEST(SessionFile, GivesBackTheSoftTissue) {
+  const tests::ScratchFolder folder;
+  const test::SmallBone bone;
+  assets::SoftTissueField soft;
+  soft.grid = {{7, 5, 4}, 1.0, {-3.0, 0.5, 2.0}};
+  for (std::size_t v = 0; v < soft.grid.voxelCount(); ++v) {
+    soft.distance.push_back(static_cast<std::int16_t>(static_cast<int>(v * 37 % 3000) - 1000));
+    soft.tissue.push_back(static_cast<std::uint8_t>(v % assets::kSoftTissueCount));
+  }
+  for (const assets::SoftTissueField* const stored : {&soft, static_cast<assets::SoftTissueField*>(nullptr)}) {
+    SessionStart start = bone.start();
+    start.soft_tissue = stored;
+    SessionWriter(folder.file("s.molar"), true, start).seal(0);
+    EXPECT_EQ(SessionReader(folder.file("s.molar")).start().soft_tissue, stored ? soft : assets::SoftTissueField());
+  }
+}
+
 TEST(SessionFile, GivesBackWhatWasWritten) {
   const tests::ScratchFolder folder;
   writeSession(folder.file("s.molar"), true);

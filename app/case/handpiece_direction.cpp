@@ -1,0 +1,127 @@
+#include "app/case/handpiece_direction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "assets/cut_field.h"
+#include "calibration/geometry/units.h"
+#include "haptics/tool/instrument_outline.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t kPlaces = 32;           // of the cut at which the outline is laid
+constexpr double kLeastOutward = 0.2;         // cosine of the angle to the way out of the bone
+constexpr int kDirections = 1000;             // on the whole sphere
+constexpr double kCloser = 0.035;             // 2 degrees, between directions around the best
+constexpr double kFreeOfSoftTissue_mm = 1.0;  // no better with more
+// The rest in mm of room at soft tissue that they are worth.
+constexpr double kInBone_mm = 12.0;  // at every place
+constexpr double kPerDegreeFromWayIn_mm = 0.01;
+// The handpiece hides what lies within 6 degrees around its axis, the eyes stand 4 degrees beside the line of sight.
+constexpr double kHides_deg = 20.0, kPerDegreeHidden_mm = 0.3;
+
+double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
+  return calibration::degreesFromRad(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+/// Places all over the cut, the outline of the tool and the bone that stays.
+class Mouth {
+ public:
+  Mouth(const assets::PlannedCut& cut, const assets::CtVolume& ct, const assets::SoftTissueField& soft,
+        const haptics::Tool& tool)
+      : ct_(ct), soft_(soft), removed_(cut, 1.0), outline_(haptics::outlineOf(haptics::sanitised(tool))) {
+    std::vector<glm::dvec3> all;
+    for (const auto& stroke : cut.strokes_P_mm) all.insert(all.end(), stroke.begin(), stroke.end());
+    const std::size_t count = std::min(all.size(), kPlaces);
+    for (std::size_t n = 0; n < count; ++n) places_P_mm_.push_back(all[n * all.size() / count]);
+  }
+
+  bool isEmpty() const { return places_P_mm_.empty(); }
+
+  HandpieceRoom room(const glm::dvec3& direction_P) const {
+    HandpieceRoom room{assets::SoftTissueField::kOutside_mm, 0.0};
+    const glm::dvec3 aside = glm::normalize(
+        glm::cross(direction_P, std::abs(direction_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 across = glm::cross(direction_P, aside);
+    int in_bone = 0;
+    for (const glm::dvec3& place : places_P_mm_) {
+      bool meets_bone = false;
+      for (std::size_t n = outline_.head_count; n < outline_.count; ++n) {
+        const glm::dvec3 centre = place + outline_.balls[n].z_mm * direction_P;
+        const double radius_mm = outline_.balls[n].radius_mm;
+        room.soft_mm = std::min(room.soft_mm, soft_.at(centre).distance_mm - radius_mm);
+        if (meets_bone || outline_.balls[n].z_mm > kBoneWithin_mm) continue;
+        for (const glm::dvec3& side : {glm::dvec3(0.0), aside, -aside, across, -across})
+          meets_bone = meets_bone || isInBone(centre + radius_mm * side);
+      }
+      in_bone += meets_bone;
+    }
+    room.in_bone_share = in_bone / static_cast<double>(std::max<std::size_t>(places_P_mm_.size(), 1));
+    return room;
+  }
+
+ private:
+  static constexpr double kBoneWithin_mm = 25.0;  ///< of the bur; farther up is the handpiece, wider than the mouth
+
+  bool isInBone(const glm::dvec3& p_P_mm) const {
+    const glm::ivec3 ijk(glm::round(ct_.grid.indexFromPoint(p_P_mm)));
+    return ct_.grid.contains(ijk) && ct_.solid[ct_.grid.index(ijk)] >= assets::kHalfSolid && !removed_.contains(p_P_mm);
+  }
+
+  const assets::CtVolume& ct_;
+  const assets::SoftTissueField& soft_;
+  assets::CutField removed_;
+  haptics::InstrumentOutline outline_;
+  std::vector<glm::dvec3> places_P_mm_;
+};
+
+}  // namespace
+
+HandpieceRoom handpieceRoom(const assets::PlannedCut& cut, const assets::CtVolume& ct,
+                            const assets::SoftTissueField& soft, const haptics::Tool& tool,
+                            const glm::dvec3& direction_P) {
+  return Mouth(cut, ct, soft, tool).room(glm::normalize(direction_P));
+}
+
+glm::dvec3 handpieceDirection_P(const assets::PlannedCut& cut, const assets::CtVolume& ct,
+                                const assets::SoftTissueField& soft, const haptics::Tool& tool) {
+  const Mouth mouth(cut, ct, soft, tool);
+  const double out_length = glm::length(cut.outward_P), sight_length = glm::length(cut.sight_P);
+  if (mouth.isEmpty() || !(out_length > 0.0)) return glm::dvec3(0.0);
+  const glm::dvec3 outward = cut.outward_P / out_length;
+
+  struct Choice {
+    glm::dvec3 direction_P{0.0};
+    double cost_mm = 1e9;
+  };
+  const auto weigh = [&](const glm::dvec3& direction) {
+    const HandpieceRoom room = mouth.room(direction);
+    double cost_mm = std::max(0.0, kFreeOfSoftTissue_mm - room.soft_mm) + kInBone_mm * room.in_bone_share +
+                     kPerDegreeFromWayIn_mm * angle_deg(direction, outward);
+    if (sight_length > 0.0)
+      cost_mm += kPerDegreeHidden_mm * std::max(0.0, kHides_deg - angle_deg(direction, cut.sight_P));
+    return Choice{direction, cost_mm};
+  };
+  Choice best;
+  const auto keepBetter = [&](const glm::dvec3& direction) {
+    if (glm::dot(direction, outward) < kLeastOutward) return;
+    if (const Choice choice = weigh(direction); choice.cost_mm < best.cost_mm) best = choice;
+  };
+  // A Fibonacci lattice, then rings around the best of it.
+  const double golden_rad = calibration::kPi * (3.0 - std::sqrt(5.0));
+  for (int n = 0; n < kDirections; ++n) {
+    const double z = 1.0 - (2.0 * n + 1.0) / kDirections, side = std::sqrt(1.0 - z * z);
+    keepBetter({side * std::cos(n * golden_rad), side * std::sin(n * golden_rad), z});
+  }
+  const glm::dvec3 middle = best.direction_P;
+  const glm::dvec3 aside = glm::normalize(glm::cross(middle, outward + glm::dvec3(1e-3, 2e-3, 3e-3)));
+  const glm::dvec3 across = glm::cross(middle, aside);
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j)
+      keepBetter(glm::normalize(middle + kCloser * (double(i) * aside + double(j) * across)));
+  return best.direction_P;
+}
+
+}  // namespace app
