@@ -116,6 +116,9 @@ float emptyLength(const CastJob& job, const Cone& cone) {
     float leave = kFar;
     for (int a = 0; a < 3; ++a) {
       const int low = brick[a] - away + 1, high = brick[a] + away;
+      // A wide cone may reach out of the box, or not be in it yet.
+      if (low > 0 && job.eye[a] + t * low_slope[a] < static_cast<float>(low * kEdge)) return t;
+      if (high < job.bricks[a] && job.eye[a] + t * high_slope[a] > static_cast<float>(high * kEdge)) return t;
       if (low > 0 && low_slope[a] < 0.0f) {
         const float reached = (static_cast<float>(low * kEdge) - job.eye[a]) / low_slope[a];
         leave = leave < reached ? leave : reached;

@@ -220,6 +220,41 @@ TEST(VolumeCast, SurfaceSkippingEqualsBruteForceToTheBit) {
   EXPECT_GT(hits, 5000);
 }
 
+/// Rays that are drawn again at silhouettes lie anywhere: a beam of them is wide where the volume is mostly empty.
+TEST(VolumeCast, ScatteredRaysMissNothingInALargeVolume) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const glm::ivec3 size(180, 150, 120);
+  Scene scene{BorderedField<std::uint8_t>(size), BorderedField<std::uint8_t>(size)};
+  for (int ball = 0; ball < 40; ++ball) {
+    const glm::ivec3 centre(glm::dvec3(size) * glm::dvec3(unit(random), unit(random), unit(random)));
+    forVoxels(glm::ivec3(9), [&](glm::ivec3 v) {
+      const glm::ivec3 at = centre + v - 4;
+      if (glm::all(glm::lessThan(at, size)) && glm::all(glm::greaterThanEqual(at, glm::ivec3(0))))
+        scene.at(at) = grey(3.5 - glm::length(glm::dvec3(v - 4)));
+    });
+  }
+  const SolidCells cells(scene.solid);
+  int hits = 0;
+  const auto anywhere = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  for (int n = 0; n < 300; ++n) {
+    View view = randomView(random, size);
+    view.limit_mm.fill(1e9f);
+    const glm::dvec3 look_at = glm::dvec3(size) * anywhere();
+    const glm::dvec3 eye = look_at + (150.0 + 600.0 * unit(random)) * glm::normalize(anywhere() - 0.5);
+    view.settings.eye_index = glm::vec3(eye);
+    const double spread = 5.0 + 60.0 * unit(random);
+    for (std::size_t ray = 0; ray < RayBatch::kMaxRays; ++ray) {
+      const glm::vec3 d(glm::normalize(look_at + spread * (anywhere() - 0.5) - eye));
+      view.rays.x[ray] = d.x, view.rays.y[ray] = d.y, view.rays.z[ray] = d.z;
+    }
+    const VolumePoints fast = surfaceOf(cells, view, true, setsHere().back());
+    ASSERT_EQ(text(fast), text(surfaceOf(cells, view, false, setsHere().back()))) << "view " << n;
+    hits += fast.count;
+  }
+  EXPECT_GT(hits, 200);
+}
+
 TEST(VolumeCast, TranslucentSkippingEqualsBruteForceToTheBit) {
   std::mt19937 random(12);
   int shown = 0;
