@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -62,7 +63,8 @@ const Case& usualCase() { return *caseNamed("usual"); }
 
 std::string angulationText(const Case& one) {
   constexpr std::string_view kNames[] = {"disto-angular", "vertical", "mesio-angular", "horizontal"};
-  return fmt::format("{}, {:g}°", kNames[static_cast<std::size_t>(angulationOf(one))], one.jaw.winter_angle_deg);
+  return fmt::format("{}, {:g}°", kNames[static_cast<std::size_t>(angulationOf(one))],
+                     std::abs(one.jaw.winter_angle_deg));
 }
 
 std::string depthText(const Case& one) {
