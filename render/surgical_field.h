@@ -3,6 +3,7 @@
 // as for a dry specimen, leaves every pixel as it is. Frame P, mm. Plain data; any thread.
 #pragma once
 
+#include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 
 namespace render {

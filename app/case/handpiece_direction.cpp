@@ -105,7 +105,7 @@ glm::dvec3 handpieceDirection_P(const assets::PlannedCut& cut, const assets::CtV
     return Choice{direction, cost_mm};
   };
   Choice best;
-  const auto keepBetter = [&](const glm::dvec3& direction) {
+  const auto keep_better = [&](const glm::dvec3& direction) {
     if (glm::dot(direction, outward) < kLeastOutward) return;
     if (const Choice choice = weigh(direction); choice.cost_mm < best.cost_mm) best = choice;
   };
@@ -113,14 +113,14 @@ glm::dvec3 handpieceDirection_P(const assets::PlannedCut& cut, const assets::CtV
   const double golden_rad = calibration::kPi * (3.0 - std::sqrt(5.0));
   for (int n = 0; n < kDirections; ++n) {
     const double z = 1.0 - (2.0 * n + 1.0) / kDirections, side = std::sqrt(1.0 - z * z);
-    keepBetter({side * std::cos(n * golden_rad), side * std::sin(n * golden_rad), z});
+    keep_better({side * std::cos(n * golden_rad), side * std::sin(n * golden_rad), z});
   }
   const glm::dvec3 middle = best.direction_P;
   const glm::dvec3 aside = glm::normalize(glm::cross(middle, outward + glm::dvec3(1e-3, 2e-3, 3e-3)));
   const glm::dvec3 across = glm::cross(middle, aside);
   for (int i = -2; i <= 2; ++i)
     for (int j = -2; j <= 2; ++j)
-      keepBetter(glm::normalize(middle + kCloser * (double(i) * aside + double(j) * across)));
+      keep_better(glm::normalize(middle + kCloser * (double(i) * aside + double(j) * across)));
   return best.direction_P;
 }
 

@@ -72,7 +72,7 @@ using Places = std::unordered_map<glm::vec3, unsigned, PlaceHash>;
 void add(SoftTissueSurface& to, Places& places, const MeshPart& part, SoftTissue tissue, const glm::dvec3& centre,
          double reach_mm) {
   const auto near = [&](std::uint32_t v) { return glm::distance(glm::dvec3(part.position_mm[v]), centre) <= reach_mm; };
-  const auto vertexAt = [&](const glm::vec3& p) {
+  const auto vertex_at = [&](const glm::vec3& p) {
     const auto [place, is_new] = places.try_emplace(p, static_cast<unsigned>(to.position_P_mm.size()));
     if (is_new) to.position_P_mm.emplace_back(p);
     return place->second;
@@ -80,8 +80,8 @@ void add(SoftTissueSurface& to, Places& places, const MeshPart& part, SoftTissue
   for (std::size_t t = 0; t + 2 < part.triangles.size(); t += 3) {
     const std::uint32_t a = part.triangles[t], b = part.triangles[t + 1], c = part.triangles[t + 2];
     if (!near(a) && !near(b) && !near(c)) continue;
-    const glm::uvec3 corners(vertexAt(part.position_mm[a]), vertexAt(part.position_mm[b]),
-                             vertexAt(part.position_mm[c]));
+    const glm::uvec3 corners(vertex_at(part.position_mm[a]), vertex_at(part.position_mm[b]),
+                             vertex_at(part.position_mm[c]));
     if (corners.x == corners.y || corners.y == corners.z || corners.z == corners.x) continue;
     to.triangles.push_back(corners);
     to.tissue.push_back(tissue);
@@ -108,14 +108,14 @@ void splitHead(SoftTissueSurface& head) {
   for (const glm::dvec3& p : line) low = glm::min(low, p), high = glm::max(high, p);
   // Points of the line by cells of the lip's width.
   using Cell = std::array<int, 3>;
-  const auto cellOf = [](const glm::dvec3& p) {
+  const auto cell_of = [](const glm::dvec3& p) {
     const glm::ivec3 cell(glm::floor(p / kLipWidth_mm));
     return Cell{cell.x, cell.y, cell.z};
   };
   std::map<Cell, std::vector<glm::dvec3>> cells;
-  for (const glm::dvec3& p : line) cells[cellOf(p)].push_back(p);
-  const auto isLip = [&](const glm::dvec3& p) {
-    const Cell at = cellOf(p);
+  for (const glm::dvec3& p : line) cells[cell_of(p)].push_back(p);
+  const auto is_lip = [&](const glm::dvec3& p) {
+    const Cell at = cell_of(p);
     for (int n = 0; n < 27; ++n) {
       const auto found = cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
       if (found == cells.end()) continue;
@@ -131,7 +131,7 @@ void splitHead(SoftTissueSurface& head) {
     const glm::dvec3 &a = head.position_P_mm[head.triangles[t].x], &b = head.position_P_mm[head.triangles[t].y],
                      &c = head.position_P_mm[head.triangles[t].z];
     const glm::dvec3 centre = (a + b + c) / 3.0;
-    if (isLip(centre)) {
+    if (is_lip(centre)) {
       head.tissue[t] = SoftTissue::lip;
     } else if (head.tissue[t] == SoftTissue::mucosa && std::abs(centre.x - middle_x) > kCheekFrom_mm) {
       const glm::dvec3 normal = glm::cross(b - a, c - a);
@@ -147,17 +147,17 @@ std::vector<SoftTissueSurface> softTissueSurfaces(const MeshModel& gingiva_P, co
                                                   const SoftTissueRegion& region) {
   std::array<SoftTissueSurface, 3> bodies;
   std::array<Places, 3> places;
-  const auto addPart = [&](const MeshPart& part, Body body, SoftTissue tissue) {
+  const auto add_part = [&](const MeshPart& part, Body body, SoftTissue tissue) {
     const auto n = static_cast<std::size_t>(body);
     add(bodies[n], places[n], part, tissue, region.centre_P_mm, region.reach_mm);
   };
   for (const MeshPart& part : gingiva_P.parts) {
     const PartWord* const word = wordIn(part.name);
-    addPart(part, Body::gingiva, word && word->tissue == SoftTissue::flap ? SoftTissue::flap : SoftTissue::gingiva);
+    add_part(part, Body::gingiva, word && word->tissue == SoftTissue::flap ? SoftTissue::flap : SoftTissue::gingiva);
   }
   for (const MeshPart& part : face_P.parts) {
     const PartWord* const word = wordIn(part.name);
-    if (word && word->body && part.material.metallic < 0.5f) addPart(part, *word->body, word->tissue);
+    if (word && word->body && part.material.metallic < 0.5f) add_part(part, *word->body, word->tissue);
   }
   splitHead(bodies[static_cast<std::size_t>(Body::head)]);
   std::vector<SoftTissueSurface> surfaces;

@@ -107,7 +107,7 @@ double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dve
 // Premolars and molars in the shapes of the scanned teeth, down to the gingiva.
 double lowerBackTeeth(const dvec3& p) {
   // Isolated: the shapes are built in parallel, and a waiting thread must not come back here for another task.
-  static const std::vector<PlacedTooth> teeth = tbb::this_task_arena::isolate([] {
+  static const std::vector<PlacedTooth> kTeeth = tbb::this_task_arena::isolate([] {
     const DentalArch arch;
     std::vector<PlacedTooth> placed;
     for (int position = 4; position <= 7; ++position) placed.push_back(eruptedTooth(arch, position));
@@ -115,7 +115,7 @@ double lowerBackTeeth(const dvec3& p) {
   });
   constexpr double kExact_mm = 3.0, kUnderGingiva_mm = -11.5;
   double d = 1e9;
-  for (const PlacedTooth& tooth : teeth) {
+  for (const PlacedTooth& tooth : kTeeth) {
     const dvec3 q = tooth.local(p);
     const double bound = tooth.shape.outerLowerBound_mm(q);
     d = std::min(d, bound > kExact_mm ? bound : tooth.shape.outer_mm(q));
@@ -192,9 +192,9 @@ double jawSegmentSpace_mm(const dvec3& p) {
   }
   const double vertical = std::max(p.z - upper, -39.0 - p.z);
   // The scan begins behind the canine; in front of it face and gingiva are whole.
-  static const ArchStation cut = anteriorCut(DentalArch());
+  static const ArchStation kCut = anteriorCut(DentalArch());
   constexpr double kGap_mm = 0.4;
-  const double anterior = glm::dot(cut.centre_mm - dvec2(p), cut.distal) - kGap_mm;
+  const double anterior = glm::dot(kCut.centre_mm - dvec2(p), kCut.distal) - kGap_mm;
   return std::max(-smoothMin(-d, -vertical, 5.0), anterior);
 }
 

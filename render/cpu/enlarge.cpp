@@ -102,15 +102,15 @@ void Enlarger::findEdges(const EyeImage& from) {
     }
   });
   tbb::parallel_for(0, h, [&](int y) {
-    const auto [above, here, below] = rows_around(y);
+    const std::array<std::size_t, 3> rows = rows_around(y);
     for (int x = 0; x < w; ++x) {
       const auto left = static_cast<std::size_t>(std::max(x - 1, 0)), middle = static_cast<std::size_t>(x),
                  right = static_cast<std::size_t>(std::min(x + 1, w - 1));
       const auto blurred = [&](const std::vector<float>& p) {
         const auto row = [&](std::size_t at) { return p[at + left] + 2.0f * p[at + middle] + p[at + right]; };
-        return 0.0625f * (row(above) + 2.0f * row(here) + row(below));
+        return 0.0625f * (row(rows[0]) + 2.0f * row(rows[1]) + row(rows[2]));
       };
-      const std::size_t n = here + middle;
+      const std::size_t n = rows[1] + middle;
       const float xx = tensor_.xx[n] = blurred(sharp_.xx), xy = tensor_.xy[n] = blurred(sharp_.xy),
                   yy = tensor_.yy[n] = blurred(sharp_.yy);
       // Corners and speckles have no direction.
