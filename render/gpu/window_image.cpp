@@ -23,6 +23,8 @@ void showImageOnWindow(const Texture& image, const WindowTarget& target) {
   glm::ivec2 low = target.corner_px, high = low + target.size_px;
   if (target.flipped_x) std::swap(low.x, high.x);
   if (target.flipped_y) std::swap(low.y, high.y);
+  // Bound, not only named: Mesa takes up the buffers of a window after a swap when it is bound.
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   glNamedFramebufferDrawBuffer(0, nameOf(target.buffer));
   glBlitNamedFramebuffer(from.get(), 0, 0, 0, size.x, size.y, low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT,
                          target.size_px == size ? GL_NEAREST : GL_LINEAR);
@@ -31,6 +33,7 @@ void showImageOnWindow(const Texture& image, const WindowTarget& target) {
 
 void clearWindow(WindowBuffer buffer) {
   const std::array<float, 4> black{0.0f, 0.0f, 0.0f, 1.0f};
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   glNamedFramebufferDrawBuffer(0, nameOf(buffer));
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_SCISSOR_TEST);

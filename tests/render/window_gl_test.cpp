@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "render/gpu/frame_fence.h"
 #include "render/gpu/gpu_error.h"
+#include "render/gpu/window_image.h"
 #include "tests/render/drawn_scene.h"
 #include "tests/render/window_pixels.h"
 
@@ -29,17 +32,22 @@ TEST(Window, RefusesInOneLineWithoutADisplay) {
   if (!kept.empty()) setenv("DISPLAY", kept.c_str(), 1);
 }
 
-TEST(Window, ShowsAFrameOfTheRenderer) {
+/// A page of the processor first, as while a patient is prepared: what is shown after a swap must reach the window too.
+TEST(Window, ShowsEveryFrameOfTheRenderer) {
   if (!hasDisplay()) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
-  Window::Options options;
-  options.size_px = {320, 240};
-  Window window(options);
+  const glm::ivec2 px(320, 240);
+  Window window({.size_px = px});
+  WindowUpload upload;
+  upload.show({px.x, px.y, std::vector<std::uint8_t>(4 * static_cast<std::size_t>(px.x * px.y), 200)}, {.size_px = px});
+  window.present();
   const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 9.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
-  const Frame frame = testing::frameFor(cameraRig({.eye_P_mm = {0, -200, 0}, .fov_y_rad = 0.17}, {320, 240}));
-  renderer.render(frame);
-  renderer.showOnWindow({.size_px = window.framebufferSize_px()});
-  window.present();
+  for (const double from_mm : {-200.0, -240.0, -280.0}) {
+    renderer.render(testing::frameFor(cameraRig({.eye_P_mm = {0, from_mm, 0}, .fov_y_rad = 0.17}, px)));
+    renderer.showOnWindow({.size_px = px});
+    EXPECT_EQ(testing::windowPixels(px), renderer.readImage().rgba) << from_mm;
+    window.present();
+  }
   EXPECT_GT(renderer.readImage().rgba[4 * (120 * 320 + 160)], 60);
   EXPECT_NO_THROW(renderer.throwIfError());
   EXPECT_NO_THROW(window.takeEvents());
