@@ -11,16 +11,16 @@
 namespace app {
 namespace {
 
-constexpr std::size_t kPlaces = 32;           // of the cut at which the outline is laid
+constexpr std::size_t kPlaces = 48;           // of the cut at which the outline is laid
 constexpr double kLeastOutward = 0.2;         // cosine of the angle to the way out of the bone
-constexpr int kDirections = 1000;             // on the whole sphere
+constexpr int kDirections = 2000;             // on the whole sphere
 constexpr double kCloser = 0.035;             // 2 degrees, between directions around the best
 constexpr double kFreeOfSoftTissue_mm = 1.0;  // no better with more
 // The rest in mm of room at soft tissue that they are worth.
 constexpr double kInBone_mm = 12.0;  // at every place
 constexpr double kPerDegreeFromWayIn_mm = 0.01;
 // The handpiece hides what lies within 6 degrees around its axis, the eyes stand 4 degrees beside the line of sight.
-constexpr double kHides_deg = 20.0, kPerDegreeHidden_mm = 0.3;
+constexpr double kHides_deg = 20.0, kPerDegreeHidden_mm = 0.1;
 
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return calibration::degreesFromRad(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));

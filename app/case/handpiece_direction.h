@@ -1,7 +1,7 @@
 // How a straight handpiece lies while the planned cut is made: the direction from the bur to the handpiece that keeps
 // shaft and handpiece clear of lips, cheek, tongue and gingiva, and the shaft of bone and teeth that stay, without
 // standing in the surgeon's line of sight. The outline is laid at places all over the cut and the directions of the
-// half space outside the bone are compared, first 6 degrees apart, then closer around the best. Frame P, mm.
+// half space outside the bone are compared, first 4.5 degrees apart, then closer around the best. Frame P, mm.
 // Start-up, any thread; about 0.1 s.
 #pragma once
 

@@ -32,8 +32,7 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   frame.bur_form = static_cast<assets::BurForm>(head.kind);
   frame.tool_visible = tick.dt_s > 0.0;
   if (!frame.tool_visible) return frame;
-  if (!haptics::has(tick.faults, haptics::Fault::bad_pose))
-    frame.X_PT.rotation = tick.soft.turn_P * tick.hand.X_PT.rotation;
+  if (!haptics::has(tick.faults, haptics::Fault::bad_pose)) frame.X_PT.rotation = tick.heldRotation();
   frame.X_PT.translation_mm = tick.proxy_P.mm;
   frame.X_PT_at_hand = {glm::conjugate(tick.soft.turn_P) * frame.X_PT.rotation, tick.hand.X_PT.translation_mm};
   if (tick.drilling) {

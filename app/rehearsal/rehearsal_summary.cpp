@@ -70,8 +70,8 @@ std::string surgeonsText(const RehearsalFigures& f) {
   line("other removed", removedText(f, is_soft));
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("touched", f.touched.empty() ? "no tooth, no canal" : touchesText(f.touched));
-  line("soft tissue", countsText(f.soft_touches.touched));
-  line("bur turned on", countsText(f.soft_touches.cut));
+  line("soft tissue", softTouchesText(f.soft_touches.touched));
+  line("bur turned on", softTouchesText(f.soft_touches.cut));
   std::string warnings;
   for (const Warnings::Count& count : f.warnings)
     warnings += fmt::format("{}{} {}", warnings.empty() ? "" : ", ", count.name,

@@ -16,7 +16,7 @@ namespace {
 /// Ends of the head's axis, inside which its balls of `radius_mm` lie.
 std::pair<glm::dvec3, glm::dvec3> axisOf(const haptics::Tick& tick, const haptics::BurShape& head) {
   const double half_mm = std::max(0.0, haptics::halfHeight_mm(head) - head.radius_mm);
-  const glm::dvec3 along = tick.hand.X_PT.rotation * glm::dvec3(0.0, 0.0, half_mm);
+  const glm::dvec3 along = tick.heldRotation() * glm::dvec3(0.0, 0.0, half_mm);
   return {tick.proxy_P.mm - along, tick.proxy_P.mm + along};
 }
 
@@ -63,7 +63,7 @@ std::vector<Touch> Touches::follow(std::span<const haptics::Tick> ticks, const h
       if (const auto gap_mm = canalGap_mm(tick, head, patient_); gap_mm && *gap_mm <= 0.0)
         touch("mandibular canal", tick);
     if (running_.empty()) continue;
-    const std::vector<Touch> over = endedBefore(tick.t_s - kPause_s);
+    const std::vector<Touch> over = endedBefore(tick.t_s - kTouchPause_s);
     ended.insert(ended.end(), over.begin(), over.end());
   }
   return ended;

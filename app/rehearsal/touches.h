@@ -1,5 +1,5 @@
 // How often and how long the bur touched teeth and the mandibular canal, from every tick, so that a touch shorter than
-// a frame counts. A pause of kPause_s ends a touch; its time is that in contact. Each touch that ended becomes an event
+// a frame counts. Each touch that ended becomes an event
 // of the recording, from which metrics makes the same numbers (app/session/touch_event). Main thread, once a frame;
 // microseconds a tick, some tens of them while a tooth is touched.
 #pragma once
@@ -26,8 +26,6 @@ std::optional<double> canalGap_mm(const haptics::Tick& tick, const haptics::BurS
 
 class Touches {
  public:
-  static constexpr double kPause_s = 0.25;
-
   /// Borrows the patient.
   explicit Touches(const assets::Patient& patient) : patient_(patient) {}
 

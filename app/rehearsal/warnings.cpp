@@ -111,20 +111,20 @@ struct Row {
   const char* name;  ///< in the summary
   bool danger;
   Words (*words)(const Situation&);
-  bool is_counted_as_touch = false;  ///< by tick: app/rehearsal/touches
+  bool is_counted_as_touch = false;  ///< by tick: touches.h, app/session/soft_touches.h
 };
 
 // The most important first.
 constexpr std::array<Row, 12> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
-    {"bur on soft tissue", true, burOnSoftTissue},
+    {"bur on soft tissue", true, burOnSoftTissue, true},
     {"neighbour tooth touched", true, neighbourTouched, true},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},
     {"cutting dry", false, dry},
-    {"soft tissue touched", false, softTissuePressed},
+    {"soft tissue touched", false, softTissuePressed, true},
     {"drill held back", false, drillHeldBack},
     {"force limited", false, forceLimited},
     {"neck of the bur touched", false, neckTouches},

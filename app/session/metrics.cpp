@@ -153,9 +153,9 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.former)
     words += fmt::format("this part only: it continues {}, {:.1f} s before it\n", metrics.former->file,
                          metrics.former->duration_s);
-  if (const std::string touched = countsText(metrics.soft_touches.touched); !touched.empty())
+  if (const std::string touched = softTouchesText(metrics.soft_touches.touched); !touched.empty())
     words += "soft tissue touched: " + touched + "\n";
-  if (const std::string cut = countsText(metrics.soft_touches.cut); !cut.empty())
+  if (const std::string cut = softTouchesText(metrics.soft_touches.cut); !cut.empty())
     words += "bur turned on: " + cut + "\n";
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";

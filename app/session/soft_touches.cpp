@@ -1,25 +1,14 @@
 #include "app/session/soft_touches.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
 
+#include "app/session/touch_event.h"
+
 namespace app {
-namespace {
-
-constexpr double kSameTouch_s = 0.3;
-
-}  // namespace
-
-bool SoftTouches::any() const {
-  const auto counted = [](const Count& count) { return count.times > 0; };
-  return std::ranges::any_of(touched, counted) || std::ranges::any_of(cut, counted);
-}
-
 /// True where a touch begins.
 bool SoftTouchCounter::count(SoftTouches::Count& count, double& last_s, bool now, const haptics::Tick& tick) {
   if (!now) return false;
-  const bool begins = tick.t_s - last_s > kSameTouch_s;
+  const bool begins = tick.t_s - last_s > kTouchPause_s;
   if (begins) ++count.times;
   count.seconds += tick.dt_s;
   last_s = tick.t_s + tick.dt_s;
@@ -38,15 +27,12 @@ void SoftTouchCounter::add(const haptics::Tick& tick) {
   }
 }
 
-std::string countsText(const std::array<SoftTouches::Count, assets::kSoftTissueCount>& counts) {
-  std::string text;
-  for (std::size_t n = 1; n < counts.size(); ++n) {
-    if (counts[n].times == 0) continue;
-    const std::string times = counts[n].times == 1 ? "once" : fmt::format("{} times", counts[n].times);
-    text += fmt::format("{}{} {}, {:.1f} s", text.empty() ? "" : "; ", assets::kSoftTissues[n].name, times,
-                        counts[n].seconds);
-  }
-  return text;
+std::string softTouchesText(const std::array<SoftTouches::Count, assets::kSoftTissueCount>& counts) {
+  std::vector<TouchCount> touched;
+  for (std::size_t n = 1; n < counts.size(); ++n)
+    if (counts[n].times > 0)
+      touched.push_back({std::string(assets::kSoftTissues[n].name), counts[n].times, counts[n].seconds});
+  return touchesText(touched);
 }
 
 }  // namespace app

@@ -1,6 +1,6 @@
 // Counts how often and how long the instrument touched each soft tissue, and a turning bur was in it. Fed every tick in
-// order, live and from a recording, so that summary, metrics and events agree. A touch ends when the tissue has been
-// free for 0.3 s, which counts to no touch. Any one thread; below a microsecond a tick, except for a touch's event.
+// order, live and from a recording, so that summary, metrics and events agree. kTouchPause_s ends a touch. Any one
+// thread; below a microsecond a tick, except for a touch's event.
 #pragma once
 
 #include <array>
@@ -19,8 +19,6 @@ struct SoftTouches {
   };
   std::array<Count, assets::kSoftTissueCount> touched{};  ///< by assets::SoftTissue
   std::array<Count, assets::kSoftTissueCount> cut{};      ///< by a turning bur: errors
-
-  bool any() const;
 };
 
 class SoftTouchCounter {
@@ -46,7 +44,7 @@ class SoftTouchCounter {
   }
 };
 
-/// "lip 3 times, 2.1 s; cheek once, 0.4 s"; empty: none.
-std::string countsText(const std::array<SoftTouches::Count, assets::kSoftTissueCount>& counts);
+/// In the words of touchesText(); empty: none.
+std::string softTouchesText(const std::array<SoftTouches::Count, assets::kSoftTissueCount>& counts);
 
 }  // namespace app

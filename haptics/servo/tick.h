@@ -43,6 +43,9 @@ struct Tick {
   SafetyState state = SafetyState::off;             ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
+
+  /// Attitude of the tool as held by soft tissue, drawn, felt and cut with at proxy_P.
+  glm::dquat heldRotation() const { return soft.turn_P * hand.X_PT.rotation; }
 };
 
 }  // namespace haptics
