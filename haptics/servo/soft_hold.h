@@ -8,7 +8,8 @@
 // Sneddon 1965) of 0.03 to 0.4 N/mm; gingiva is stiffer, and lies on bone that is felt as such.
 // A turning bur cuts soft tissue: its head is not held. Tissue in which the instrument is placed (start, change of
 // tool, a jump) does not push it; it holds again what has left it. Frame P; mm, N, s. Servo thread, no allocation. At
-// most 4 steps of 3 sweeps over at most 80 balls; out of reach one look-up a ball. Not a physical deformation.
+// most 4 steps of 3 sweeps over at most 80 balls; out of reach one look-up a ball: 1.7 us free, 20 us
+// held (haptics_servo_bench soft). Not a physical deformation.
 #pragma once
 
 #include <array>

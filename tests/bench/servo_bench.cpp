@@ -1,6 +1,7 @@
 // Work per tick, against the sum voxel by voxel, in one run: nothing else to install, nothing to compare by hand.
 //   haptics_servo_bench            sums, laws, ticks, growth with the radius, instruction sets
 //   haptics_servo_bench correction what the measured arm adds to a tick
+//   haptics_servo_bench soft       what soft tissue adds to a tick
 //   haptics_servo_bench memory     60 x 60 x 50 mm of bone at 0.1 mm: bytes a voxel, as counted and as resident
 // Times are CPU time of this thread, so that other work on the machine disturbs them less; p10 is what the code costs.
 #include <time.h>
@@ -18,6 +19,7 @@
 #include "haptics/contact/overlap.h"
 #include "haptics/servo/measured_handle.h"
 #include "haptics/servo/servo.h"
+#include "haptics/servo/soft_hold.h"
 #include "tests/haptics/phantom.h"
 #include "tests/haptics/time_erosion.h"
 #include "tests/haptics/untrue_omni.h"
@@ -215,6 +217,31 @@ void correction() {
               kNs * us.p99);
 }
 
+/// The whole instrument along z in an opening between two walls of soft tissue, by hand motions of 1 mm.
+void softTissue() {
+  assets::SoftTissueField field;
+  field.grid = {glm::ivec3(101), 1.5, glm::dvec3(-75.0, -75.0, -20.0)};
+  field.tissue.assign(field.grid.voxelCount(), static_cast<std::uint8_t>(assets::SoftTissue::lip));
+  field.distance.resize(field.grid.voxelCount());
+  assets::forVoxels(field.grid, [&](glm::ivec3 at, std::size_t voxel) {
+    field.distance[voxel] = assets::SoftTissueField::stored(12.0 - std::abs(field.grid.centre_P_mm(at).x));
+  });
+  Tool tool;
+  tool.head.radius_mm = 1.5;
+  tool.shaft = standardShaft(tool.head);
+  std::printf("\nsoft tissue, a tick\n%-24s %9s %9s %9s\n", "the instrument", "p10 us", "p50 us", "p99 us");
+  volatile double sink = 0.0;
+  for (const auto& [name, x_mm] : {std::pair("free", 0.0), std::pair("held, 2 mm deep", 5.5)}) {
+    SoftHold hold;
+    const auto step = [&](double at_mm) {
+      return hold.update(&field, tool, {{1.0, 0.0, 0.0, 0.0}, {at_mm, 0.0, 0.0}}, {}, false).touch.depth_mm;
+    };
+    for (int n = 0; n < 200; ++n) sink = step(x_mm * n / 200.0);
+    const Figures us = measure(3000, [&](int i) { sink = step(x_mm + 0.5 * std::sin(0.01 * i)); });
+    std::printf("%-24s %9.1f %9.1f %9.1f\n", name, us.p10, us.p50, us.p99);
+  }
+}
+
 double resident_MB() {
   long pages = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> pages >> resident;
@@ -243,10 +270,12 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "memory") return memory();
   if (argc > 1 && std::string_view(argv[1]) == "ticks") return ticks(), 0;
   if (argc > 1 && std::string_view(argv[1]) == "correction") return correction(), 0;
+  if (argc > 1 && std::string_view(argv[1]) == "soft") return softTissue(), 0;
   sums();
   growth();
   instructionSets();
   laws();
   ticks();
+  softTissue();
   correction();
 }
