@@ -8,7 +8,10 @@
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "assets/load_error.h"
 #include "assets/scenery/reflected_flap.h"
@@ -23,6 +26,7 @@ constexpr double kSightStep_mm = 1.0, kSight_mm = 14.0;
 constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
 constexpr int kSmoothingSteps = 4;
+constexpr double kOnFlap_mm = 0.2;  // of the surface from the folded sheet
 
 bool carriesGingiva(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
 
@@ -126,6 +130,36 @@ glm::vec3 colourAt(const glm::dvec3& p_P, const std::optional<Wound>& wound, con
   return glm::mix(gingiva, undersideAt(p_P, over_mm), static_cast<float>(on_flap));
 }
 
+// Two parts: the triangles with all corners on the flap are "Gum flap". Normals stay those of the whole.
+template <class IsOnFlap>
+MeshModel split(const MeshPart& whole, const IsOnFlap& is_on_flap) {
+  std::vector<bool> on_flap;
+  for (const glm::vec3& p : whole.position_mm) on_flap.push_back(is_on_flap(p));
+  MeshModel model;
+  model.parts.resize(2);
+  for (MeshPart& part : model.parts) part.name = whole.name, part.material = whole.material;
+  model.parts[1].name += " flap";
+  constexpr std::uint32_t kNew = ~0u;
+  std::array<std::vector<std::uint32_t>, 2> moved;
+  moved.fill(std::vector<std::uint32_t>(on_flap.size(), kNew));
+  for (std::size_t t = 0; t < whole.triangles.size(); t += 3) {
+    const std::span corners = std::span(whole.triangles).subspan(t, 3);
+    const std::size_t n = on_flap[corners[0]] && on_flap[corners[1]] && on_flap[corners[2]] ? 1 : 0;
+    MeshPart& part = model.parts[n];
+    for (const std::uint32_t v : corners) {
+      if (moved[n][v] == kNew) {
+        moved[n][v] = static_cast<std::uint32_t>(part.position_mm.size());
+        part.position_mm.push_back(whole.position_mm[v]);
+        part.normal.push_back(whole.normal[v]);
+        part.colour.push_back(whole.colour[v]);
+      }
+      part.triangles.push_back(moved[n][v]);
+    }
+  }
+  if (model.parts[1].triangles.empty()) model.parts.pop_back();
+  return model;
+}
+
 }  // namespace
 
 Wound::Wound(const PlannedCut& cut)
@@ -181,7 +215,8 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cu
     gingiva.colour.emplace_back(colourAt(p_P, wound, flap), 1.0f);
   }
   gingiva.normal = vertexNormals(gingiva.position_mm, gingiva.triangles);
-  return {{std::move(gingiva)}};
+  if (!flap) return {{std::move(gingiva)}};
+  return split(gingiva, [&](const glm::vec3& p_P) { return flap->distance_mm(glm::dvec3(p_P)) < kOnFlap_mm; });
 }
 
 }  // namespace assets

@@ -34,7 +34,7 @@ class Wound {
   glm::dvec3 sight_P_, low_P_mm_, high_P_mm_;
 };
 
-/// One part "Gum", or no part where nothing is labelled gingiva. The flap is raised only where there is a cut.
+/// "Gum" and, where there is a cut, the flap raised for it as "Gum flap"; no part where nothing is labelled gingiva.
 /// Throws LoadError if labels and grid do not fit.
 MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cut);
 

@@ -39,7 +39,8 @@ std::string lastError() {
 
 void startLibrary() {
   if (glfwInit() != GLFW_TRUE)
-    throw GpuError("no window, display: " + lastError() + "; start a desktop session or use --headless");
+    throw GpuError("no window, display: " + lastError() +
+                   "; start a desktop session, or give --headless where a command has it");
 }
 
 std::span<GLFWmonitor*> connectedMonitors() {

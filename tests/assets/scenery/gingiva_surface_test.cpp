@@ -103,14 +103,23 @@ TEST(GingivaSurface, IsDarkerAtTheWoundsEdge) {
 TEST(GingivaSurface, LaysAThickFlapOverTheCheeksSideAndKeepsItOutOfTheWound) {
   const Wound wound(cutAlongTheCrest());
   const MeshModel model = gingivaSurface(ridge(), cutAlongTheCrest());
-  double highest_mm = 0.0, highest_of_tongue_side_mm = 0.0;
-  for (const glm::vec3& v : model.parts.at(0).position_mm) {
-    const glm::dvec3 p(v);
-    if (p.z < kGingivaTop_mm - 0.5) continue;
-    (p.x > 20.0 ? highest_mm : highest_of_tongue_side_mm) =
-        std::max(p.x > 20.0 ? highest_mm : highest_of_tongue_side_mm, p.z);
-    EXPECT_GT(wound.distance_mm(p), -0.6) << "between the cut and the eye: " << p.x << ' ' << p.y << ' ' << p.z;
-  }
+  ASSERT_EQ(model.parts.size(), 2u);
+  EXPECT_EQ(model.parts[0].name, "Gum");
+  EXPECT_EQ(model.parts[1].name, "Gum flap");
+  double highest_mm = 0.0, highest_of_tongue_side_mm = 0.0, highest_beside_flap_mm = 0.0;
+  for (const MeshPart& part : model.parts)
+    for (const glm::vec3& v : part.position_mm) {
+      const glm::dvec3 p(v);
+      if (p.z < kGingivaTop_mm - 0.5) continue;
+      double& highest = p.x > 20.0 ? highest_mm : highest_of_tongue_side_mm;
+      highest = std::max(highest, p.z);
+      EXPECT_GT(wound.distance_mm(p), -0.6) << "between the cut and the eye: " << p.x << ' ' << p.y << ' ' << p.z;
+      if (&part == &model.parts[0])
+        highest_beside_flap_mm = std::max(highest_beside_flap_mm, p.z);
+      else
+        EXPECT_GT(p.x, 20.0) << "the flap lies on the cheek's side";
+    }
+  EXPECT_LT(highest_beside_flap_mm, kGingivaTop_mm + 0.7 * kFlapThickness_mm);
   EXPECT_NEAR(highest_mm, kGingivaTop_mm + kFlapThickness_mm, 0.4);
   EXPECT_NEAR(highest_of_tongue_side_mm, kGingivaTop_mm, 0.3);
 }
