@@ -43,11 +43,11 @@ FieldView<T> viewOf(const BorderedField<T>& field) {
 }
 
 // Hits on face and gingiva by tile, kept while the eye does not move.
-struct StaticHits {
+struct KeptHits {
   std::array<glm::vec4, 4> view{};  ///< of the EyeBlock
   glm::ivec2 px{0};
   std::uint64_t revision = ~std::uint64_t{0};
-  std::vector<MeshHits> tiles;
+  std::vector<MeshHits> tiles, veil_tiles;  // `veil_tiles`: only while there is a veil
 };
 
 // The image holds linear light after the shoulder, as displayed.
@@ -69,10 +69,10 @@ struct RenderedEye {
   EyeImage image, enlarged;
   bool is_enlarged = false;  // since it was drawn
   // Of two sizes: the picture is drawn small while it moves and whole where it rests.
-  std::array<StaticHits, 2> static_hits;
+  std::array<KeptHits, 2> static_hits;
   std::size_t newest_hits = 0;
 
-  StaticHits& hitsOf(glm::ivec2 px) {
+  KeptHits& hitsOf(glm::ivec2 px) {
     if (static_hits[newest_hits].px != px) newest_hits = 1 - newest_hits;
     return static_hits[newest_hits];
   }
@@ -110,9 +110,9 @@ class CpuSceneRenderer final : public SceneRenderer {
  private:
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   TraceScene sceneFor(const Frame& frame, Eye eye);
-  void draw(const TraceScene& scene, int samples, EyeImage& image, StaticHits* static_hits);
+  void draw(const TraceScene& scene, int samples, EyeImage& image, KeptHits* static_hits);
   void drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayTracer& tracer,
-                EyeImage& image, MeshHits* static_hits, bool static_hits_valid);
+                EyeImage& image, const StaticHits& kept);
   void drawEdgesAgain(const TraceScene& scene, EyeImage& image);
 
   RenderOptions options_;
@@ -200,7 +200,7 @@ void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   for (const Inset& inset : insets_) blendOver(inset, to.image);
 }
 
-void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& image, StaticHits* static_hits) {
+void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& image, KeptHits* static_hits) {
   const int edge = kTile / samples;
   const glm::ivec2 tiles = (image.px + edge - 1) / edge;
   bool static_hits_valid = false;
@@ -212,19 +212,24 @@ void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& imag
     static_hits->view = view;
     static_hits->px = image.px;
     static_hits->revision = meshes_.staticRevision();
-    static_hits->tiles.resize(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
+    const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+    static_hits->tiles.resize(count);
+    static_hits->veil_tiles.resize(meshes_.hasVeil() ? count : 0);
   }
   tbb::parallel_for(0, tiles.x * tiles.y, [&](int tile) {
     const glm::ivec2 first = edge * glm::ivec2(tile % tiles.x, tile / tiles.x);
-    MeshHits* const hits = static_hits != nullptr ? &static_hits->tiles[static_cast<std::size_t>(tile)] : nullptr;
-    drawTile(scene, samples, first, glm::min(first + edge, image.px), *tracers_.local(), image, hits,
-             static_hits_valid);
+    StaticHits kept;
+    if (static_hits != nullptr) {
+      kept = {.opaque = &static_hits->tiles[static_cast<std::size_t>(tile)], .are_valid = static_hits_valid};
+      if (meshes_.hasVeil()) kept.veil = &static_hits->veil_tiles[static_cast<std::size_t>(tile)];
+    }
+    drawTile(scene, samples, first, glm::min(first + edge, image.px), *tracers_.local(), image, kept);
   });
 }
 
 // Pixels in [first, end), each the mean of samples x samples rays on a regular grid.
 void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
-                                RayTracer& tracer, EyeImage& image, MeshHits* static_hits, bool static_hits_valid) {
+                                RayTracer& tracer, EyeImage& image, const StaticHits& kept) {
   const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * image.px;
   int n = 0;
   std::array<std::uint16_t, RayTracer::kMaxRays> pixel;
@@ -236,7 +241,7 @@ void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2
           tracer.uv_y[n] = (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
           pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
         }
-  tracer.trace(scene, n, static_hits, static_hits_valid);
+  tracer.trace(scene, n, kept);
 
   for (int y = first.y; y < end.y; ++y)
     for (std::vector<float>* plane : {&image.r, &image.g, &image.b})

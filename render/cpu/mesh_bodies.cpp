@@ -61,7 +61,8 @@ void MeshBodies::throwIfFailed() const {
 void MeshBodies::attach(std::size_t index, std::optional<MeshGroup> group) {
   MeshBody& body = bodies_[index];
   if (body.group == group) return;
-  if (body.group == MeshGroup::fixed || group == MeshGroup::fixed) ++static_revision_;
+  const auto is_static = [](std::optional<MeshGroup> of) { return of == MeshGroup::fixed || of == MeshGroup::veil; };
+  if (is_static(body.group) || is_static(group)) ++static_revision_;
   if (body.group) rtcDetachGeometry(scene(*body.group), static_cast<unsigned>(index));
   if (group) rtcAttachGeometryByID(scene(*group), body.instance, static_cast<unsigned>(index));
   body.group = group;
@@ -168,7 +169,9 @@ void MeshBodies::place(const Placements& placements, const FaceWindow& window) {
     const bool is_in_hand = isInHand(body.model);
     const Placement& at = placements_[body.model];
     const bool visible = at.opacity > 0.0f, is_transparent = body.transparent || at.opacity < 1.0f;
+    const bool is_veil = is_transparent && isVeilWhenFaded(body.model, body.parts.front().material);
     const MeshGroup group = isOverlay(body.model) ? MeshGroup::overlay
+                            : is_veil             ? MeshGroup::veil
                             : is_transparent      ? MeshGroup::transparent
                             : is_in_hand          ? MeshGroup::moving
                                                   : MeshGroup::fixed;

@@ -25,9 +25,10 @@ struct FaceWindow {
   bool operator==(const FaceWindow&) const = default;
 };
 
-/// The top-level scenes. `overlay`: guides seen through bone; `occluders`: copies of what hides these.
-enum class MeshGroup { fixed, moving, transparent, overlay, occluders };
-inline constexpr std::size_t kMeshGroups = 5;
+/// The top-level scenes. `veil`: the faded face; `overlay`: guides seen through bone; `occluders`: copies of what hides
+/// these.
+enum class MeshGroup { fixed, moving, veil, transparent, overlay, occluders };
+inline constexpr std::size_t kMeshGroups = 6;
 
 struct MeshBodyPart {
   std::vector<glm::vec4> normals, colours;  ///< per vertex; no colours: white

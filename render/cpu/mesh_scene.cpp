@@ -211,6 +211,11 @@ void MeshScene::staticHits(const RayBatch& rays, MeshHits& hits) const {
   if (has(MeshGroup::fixed)) trace(*this, scene(MeshGroup::fixed), rays, rays.far_mm, hits);
 }
 
+void MeshScene::veilHits(const RayBatch& rays, MeshHits& hits) const {
+  std::fill_n(hits.distance_mm, rays.count, 0.0f);
+  trace(*this, scene(MeshGroup::veil), rays, rays.far_mm, hits);
+}
+
 void MeshScene::addDynamicHits(const RayBatch& rays, MeshHits& hits) const {
   if (!has(MeshGroup::moving)) return;
   alignas(64) float limit_mm[RayBatch::kMaxRays];
@@ -227,9 +232,20 @@ void MeshScene::addSeen(const RayBatch& rays, const MeshHits& hits, const float*
   }
 }
 
-void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const {
+void MeshScene::layers(const RayBatch& rays, const float* limit_mm, const MeshHits* veil, MeshPoints& to) const {
   static thread_local std::vector<Layer> met;
   met.clear();
+  for (int r = 0; veil != nullptr && r < rays.count; ++r)
+    if (veil->distance_mm[r] > 0.0f && veil->distance_mm[r] < limit_mm[r])
+      met.push_back({.ray = r,
+                     .distance_mm = veil->distance_mm[r],
+                     .u = veil->u[r],
+                     .v = veil->v[r],
+                     .body = veil->body[r],
+                     .part = veil->part[r],
+                     .triangle = veil->triangle[r],
+                     .faces_eye = veil->faces_eye[r]});
+  const std::size_t of_veil = met.size();
   Query query = queryFor(*this, &met);
   alignas(32) RTCRayHit8 packet;
   alignas(32) int valid[kPacket];
@@ -245,11 +261,12 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
   removeOccluded(*this, rays, limit_mm, met, first_overlay);
   if (met.empty()) return;
 
-  // Ray by ray from back to front; at equal distance the later body is in front.
-  std::ranges::sort(met, [](const Layer& a, const Layer& b) {
-    return std::tuple(a.ray, -a.distance_mm, a.body, a.part, a.triangle) <
-           std::tuple(b.ray, -b.distance_mm, b.body, b.part, b.triangle);
-  });
+  // Ray by ray from back to front; at equal distance the later body is in front. The veil alone is in order.
+  if (met.size() > of_veil)
+    std::ranges::sort(met, [](const Layer& a, const Layer& b) {
+      return std::tuple(a.ray, -a.distance_mm, a.body, a.part, a.triangle) <
+             std::tuple(b.ray, -b.distance_mm, b.body, b.part, b.triangle);
+    });
   to.makeRoom(static_cast<int>(met.size()));
   for (const Layer& layer : met) {
     const MeshBody& body = all()[layer.body];

@@ -21,11 +21,11 @@ void RayTracer::scatter(const Light& light, const std::int32_t* ray, int count) 
   for (int n = 0; n < count; ++n) r[ray[n]] = light.r[n], g[ray[n]] = light.g[n], b[ray[n]] = light.b[n];
 }
 
-void RayTracer::trace(const TraceScene& scene, int count, MeshHits* static_hits, bool static_hits_valid) {
+void RayTracer::trace(const TraceScene& scene, int count, const StaticHits& kept) {
   rays_.count = count;
   scene.kernels->aim(scene.shade.eye, uv_x, uv_y, rays_);
-  if (!static_hits_valid) scene.meshes->staticHits(rays_, static_hits != nullptr ? *static_hits : hits_);
-  if (static_hits != nullptr) hits_ = *static_hits;
+  if (!kept.are_valid) scene.meshes->staticHits(rays_, kept.opaque != nullptr ? *kept.opaque : hits_);
+  if (kept.opaque != nullptr) hits_ = *kept.opaque;
   scene.meshes->addDynamicHits(rays_, hits_);
   for (int i = 0; i < count; ++i) {
     distance_mm[i] = hits_.distance_mm[i];
@@ -36,7 +36,7 @@ void RayTracer::trace(const TraceScene& scene, int count, MeshHits* static_hits,
     traceSurface(scene);
   else
     traceTranslucent(scene);
-  layers(scene);
+  layers(scene, kept);
   scene.kernels->shoulder({r, g, b}, count);
 }
 
@@ -91,11 +91,13 @@ void RayTracer::meshes(const TraceScene& scene, const float* seen_mm) {
 }
 
 // The layers of each ray are sorted back to front.
-void RayTracer::layers(const TraceScene& scene) {
+void RayTracer::layers(const TraceScene& scene, const StaticHits& kept) {
   if (!scene.meshes->hasTransparent()) return;
+  MeshHits& veil = kept.veil != nullptr ? *kept.veil : veil_;
+  if (scene.meshes->hasVeil() && !(kept.veil != nullptr && kept.are_valid)) scene.meshes->veilHits(rays_, veil);
   for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
   transparent_.clear();
-  scene.meshes->layers(rays_, limit_mm_, transparent_);
+  scene.meshes->layers(rays_, limit_mm_, scene.meshes->hasVeil() ? &veil : nullptr, transparent_);
   if (transparent_.count == 0) return;
   const Light light = roomFor(transparent_.count);
   scene.kernels->meshes(scene.shade, rays_, transparent_, light);

@@ -24,15 +24,21 @@ struct TraceScene {
   const ShadeKernels* kernels = nullptr;
 };
 
+/// First hits on what stands still, kept from frame to frame while the eye does too.
+struct StaticHits {
+  MeshHits* opaque = nullptr;
+  MeshHits* veil = nullptr;  ///< of the faded face
+  bool are_valid = false;    ///< else they are filled in
+};
+
 class RayTracer {
  public:
   static constexpr int kMaxRays = RayBatch::kMaxRays;
 
   RayTracer();
 
-  /// Rays through the first `count` points of uv. `static_hits`: cache of the hits on face and gingiva, valid from an
-  /// earlier frame if `static_hits_valid`, else filled in; null: not cached.
-  void trace(const TraceScene& scene, int count, MeshHits* static_hits = nullptr, bool static_hits_valid = false);
+  /// Rays through the first `count` points of uv. Hits without a place in `kept` are not kept.
+  void trace(const TraceScene& scene, int count, const StaticHits& kept = {});
 
   alignas(64) float uv_x[kMaxRays + kLanePadding] = {}, uv_y[kMaxRays + kLanePadding] =
                                                             {};  ///< input: image points, 0..1 from the lower left
@@ -47,10 +53,10 @@ class RayTracer {
   void traceTranslucent(const TraceScene& scene);
   void background(const TraceScene& scene);
   void meshes(const TraceScene& scene, const float* seen_mm);
-  void layers(const TraceScene& scene);
+  void layers(const TraceScene& scene, const StaticHits& kept);
 
   RayBatch rays_;
-  MeshHits hits_;
+  MeshHits hits_, veil_;
   MeshPoints seen_, transparent_;
   VolumePoints volume_;
   RaySums sums_;

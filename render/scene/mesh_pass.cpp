@@ -26,7 +26,8 @@ SceneMesh::SceneMesh(const assets::MeshModel& mesh, Model model) {
                         .material = part.material,
                         .finish = finishOf(model, part.name),
                         .is_bur = part.name == "Bur",
-                        .is_cut = isCutByWindow(model, part)});
+                        .is_cut = isCutByWindow(model, part),
+                        .is_veil_when_faded = isVeilWhenFaded(model, part.material)});
 }
 
 bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
@@ -51,10 +52,12 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
     glm::vec4 colour = part.material.base_colour;
     colour.a *= placement.opacity;
     if ((colour.a < 1.0f) != transparent) continue;
+    const int traits =
+        (part.is_cut ? PART_CUT_BY_WINDOW : 0) + (transparent && part.is_veil_when_faded ? PART_VEIL : 0);
     block_.set(PART_BLOCK, {.P_from_mesh = glm::mat4(part.is_bur ? rotated : placement.P_from_mesh),
                             .base_colour = colour,
                             .finish = {part.material.roughness, part.material.metallic, static_cast<float>(part.finish),
-                                       part.is_cut ? 1.0f : 0.0f}});
+                                       static_cast<float>(traits)}});
     part.triangles.draw();
   }
 }

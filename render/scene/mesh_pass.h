@@ -36,7 +36,8 @@ class SceneMesh {
     assets::Material material;
     Finish finish = Finish::skin;
     bool is_bur = false;
-    bool is_cut = false;  ///< by the face window
+    bool is_cut = false;              ///< by the face window
+    bool is_veil_when_faded = false;  ///< only the nearest surface counts
   };
   std::vector<Part> parts_;
 };

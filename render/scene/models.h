@@ -52,6 +52,11 @@ inline bool isCutByWindow(Model model, const assets::MeshPart& part) {
   return model == Model::face && part.material.metallic < 0.5f;
 }
 
+/// Of a faded face only the surface nearest to the eye is drawn; parts that are transparent anyway stay layers.
+inline bool isVeilWhenFaded(Model model, const assets::Material& material) {
+  return model == Model::face && material.base_colour.a >= 1.0f;
+}
+
 struct Placement {
   glm::dmat4 P_from_mesh{1.0};
   double bur_angle_rad = 0.0;  ///< of the part "Bur", about the mesh's z axis

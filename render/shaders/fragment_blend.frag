@@ -1,6 +1,6 @@
 #version 450
 // Blends the transparent fragments of a pixel, nearest first, into one premultiplied colour. Guides count where they lie
-// behind what is seen.
+// behind what is seen; of the faded face only the nearest fragment.
 #include "fragment_list.glsl"
 #include "light_constants.glsl"
 
@@ -23,6 +23,7 @@ void main() {
 
   // The nearest of the list, then the nearest behind it, and so on, without memory for sorting.
   uvec3 last = uvec3(0u);
+  bool is_veiled = false;
   for (int n = 0; n < kMaxFragments; ++n) {
     uvec3 nearest = uvec3(kEnd);
     uint at = first;
@@ -32,8 +33,12 @@ void main() {
       if (liesBefore(last, here) && liesBefore(here, nearest)) nearest = here;
     }
     if (nearest.x == kEnd) break;
-    vec2 red_green = unpackHalf2x16(nearest.y), blue_opacity = unpackHalf2x16(nearest.z);
+    vec2 red_green = unpackHalf2x16(nearest.y), blue_opacity = unpackHalf2x16(nearest.z & ~kVeilBit);
     last = nearest;
+    if ((nearest.z & kVeilBit) != 0u) {
+      if (is_veiled) continue;
+      is_veiled = true;
+    }
     bool is_open = seen_mm == 0.0 || uintBitsToFloat(nearest.x) < seen_mm + GUIDE_HIDDEN_MM;
     if (blue_opacity.y < 0.0 && is_open) continue;
     colour += (1.0 - colour.a) * abs(blue_opacity.y) * vec4(red_green, blue_opacity.x, 1.0);

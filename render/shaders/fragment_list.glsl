@@ -3,6 +3,8 @@
 #include "shared_constants.glsl"
 
 const uint kEnd = 0xffffffffu;
+// The sign of blue: a fragment of the faded face, of which only the nearest counts.
+const uint kVeilBit = 0x8000u;
 
 struct Fragment {
   uvec2 light;         // four halves: colour (not premultiplied) and opacity; negative: drawn only where hidden

@@ -31,7 +31,7 @@ vec4 meshColour() {
 
   // The rim of the window is drawn as a cut edge, darker and redder.
   float rim = 1.0;
-  if (part.finish.w > 0.5 && eye.window_site_P.w > 0.0) {
+  if ((int(part.finish.w) & PART_CUT_BY_WINDOW) != 0 && eye.window_site_P.w > 0.0) {
     float away = rimDistance(p_P);
     if (away < 0.0) discard;
     rim = smoothstep(0.0, RIM_WIDTH, away);

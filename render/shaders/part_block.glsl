@@ -4,5 +4,5 @@
 layout(std140, binding = PART_BLOCK) uniform PartBlock {
   mat4 P_from_mesh;      // rigid
   vec4 base_colour;      // linear, with opacity
-  vec4 finish;           // x: roughness, y: metallic, z: FINISH_…, w: 1 where the face window cuts
+  vec4 finish;           // x: roughness, y: metallic, z: FINISH_…, w: PART_CUT_BY_WINDOW + PART_VEIL
 } part;

@@ -40,6 +40,8 @@
 #define FINISH_INSTRUMENT 2
 #define FINISH_GUIDE 3
 #define FINISH_TOOTH 4
+#define PART_CUT_BY_WINDOW 1     // bits: traits of a mesh part
+#define PART_VEIL 2              // of the faded face only the nearest surface is drawn
 
 #define DISPLAY_MONO 0           // display modes, render::DisplayMode
 #define DISPLAY_QUAD_BUFFER 1

@@ -1,5 +1,6 @@
 // What a stereo frame costs on the CPU: milliseconds of CPU over all threads (getrusage) and of the wall, medians, for
-// the surgeon's view of a patient, and where they go, by leaving one thing out at a time.
+// the surgeon's view of a patient, and where they go, by leaving one thing out at a time. The share of CPU is that of
+// "all of it" in the same run.
 // cpu_frame_bench [--patient FOLDER] [--face FILE.glb] [--size WxH] [--frames N]
 
 #include <algorithm>
@@ -33,7 +34,15 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void measure(const char* what, render::FrameRenderer& renderer, render::Frame frame, int frames) {
+// CPU time of a frame with everything; 0 before it is known.
+double whole_ms = 0.0;
+
+void print(const char* what, double frame_ms) {
+  std::printf("%-34s %6.1f ms CPU", what, frame_ms);
+  if (whole_ms > 0.0) std::printf("  %5.2f of all", frame_ms / whole_ms);
+}
+
+double measure(const char* what, render::FrameRenderer& renderer, render::Frame frame, int frames) {
   std::vector<double> cpu, wall;
   for (int n = 0; n < frames; ++n) {
     frame.bur_angle_rad = 0.1 * n;
@@ -42,7 +51,9 @@ void measure(const char* what, render::FrameRenderer& renderer, render::Frame fr
     cpu.push_back(cpu_ms() - c);
     wall.push_back(wall_ms() - w);
   }
-  std::printf("%-34s %6.1f ms CPU  %6.1f ms wall\n", what, median(cpu), median(wall));
+  print(what, median(cpu));
+  std::printf("  %6.1f ms wall\n", median(wall));
+  return median(cpu);
 }
 
 }  // namespace
@@ -76,20 +87,24 @@ int main(int count, char** words) {
               options.contains("--face") ? options["--face"].c_str() : "its own");
 
   measure("(first)", *renderer, frame, 1);
-  measure("all of it", *renderer, frame, frames);
+  whole_ms = measure("all of it", *renderer, frame, frames);
   double aside_mm = 0.0;
   const auto moving = [&](render::FrameRenderer& r, render::Frame f) {
     f.rig.left_eye.mm.x += aside_mm += 0.01;
     f.rig.right_eye.mm.x += aside_mm;
     r.render(f);
   };
-  std::vector<double> cpu;
-  for (int n = 0; n < frames; ++n) {
-    const double c = cpu_ms();
-    moving(*renderer, frame);
-    cpu.push_back(cpu_ms() - c);
-  }
-  std::printf("%-34s %6.1f ms CPU\n", "the eyes moving", median(cpu));
+  const auto measure_moving = [&](const char* what, const render::Frame& f) {
+    std::vector<double> cpu;
+    for (int n = 0; n < frames; ++n) {
+      const double c = cpu_ms();
+      moving(*renderer, f);
+      cpu.push_back(cpu_ms() - c);
+    }
+    print(what, median(cpu));
+    std::puts("");
+  };
+  measure_moving("the eyes moving", frame);
   const auto without = [&](const char* what, const std::function<void(render::Frame&)>& change) {
     render::Frame changed = frame;
     change(changed);
@@ -125,6 +140,9 @@ int main(int count, char** words) {
     f.layers.gingiva = false;
   });
   without("face faded by half", [](render::Frame& f) { f.layers.face_opacity = 0.5f; });
+  frame.layers.face_opacity = 0.5f;
+  measure_moving("face faded, the eyes moving", frame);
+  frame.layers.face_opacity = 1.0f;
   without("with clearance and plan", [](render::Frame& f) { f.layers.clearance = f.layers.planned_cut = true; });
   without("with all guides and a held tool", [](render::Frame& f) {
     f.layers.clearance = f.layers.planned_cut = f.layers.mandibular_canal = f.layers.ghost_tool = true;

@@ -351,6 +351,26 @@ TEST(FrameRenderer, TheFaceFadesAndTheGingivaCanBeHidden) {
   EXPECT_EQ(seen().rgba, bare.rgba);
 }
 
+TEST(FrameRenderer, AFadedFaceHidesItsOwnInside) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 5.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {80, 60}));
+  frame.layers.face_opacity = 0.5f;
+  const auto seenWith = [&](std::vector<assets::MeshPart> parts) {
+    renderer.setFace({std::move(parts)});
+    renderer.renderEye(frame, Eye::left);
+    return renderer.readEye(Eye::left);
+  };
+  const assets::MeshPart skin = sphereMesh({{0, 0, 0}, 10.0}, {0.8f, 0.6f, 0.5f, 1.0f}).parts[0],
+                         tongue = sphereMesh({{0, -7, 0}, 2.0}, {0.1f, 0.2f, 0.9f, 1.0f}).parts[0],
+                         glass = sphereMesh({{0, -7, 0}, 2.0}, {0.1f, 0.2f, 0.9f, 0.9f}).parts[0];
+  const Image alone = seenWith({skin});
+  EXPECT_EQ(pixelsThatDiffer(seenWith({tongue, skin}), alone), 0u);
+  EXPECT_GT(pixelsThatDiffer(seenWith({glass, skin}), alone, 8), 10u) << "transparent parts stay layers";
+  EXPECT_GT(pixelsThatDiffer(seenWith({tongue}), alone, 8), 50u);
+}
+
 TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});

@@ -399,11 +399,13 @@ TEST_F(CpuScene, MeshAndVolumeIntersectOnTheAnalyticCircle) {
 }
 
 TEST_F(CpuScene, BlendsTranslucentGingivaOverBoneAsTheShadersDo) {
-  // A closed ball around bone and a faded face through it: up to four layers per ray.
+  // A closed ball around bone and a faded face through it, with a ball inside that it hides: up to three layers per
+  // ray.
   open();
   both([](FrameRenderer& r) {
     r.setGingiva({{ballMesh({-4, 0, 0}, 9.0f, {0.7f, 0.3f, 0.3f, 0.5f})}});
-    r.setFace({{ballMesh({2, -4, 2}, 7.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
+    r.setFace(
+        {{ballMesh({2, -4, 2}, 7.0f, {0.8f, 0.6f, 0.5f, 1.0f}), ballMesh({2, -4, 2}, 5.0f, {0.2f, 0.9f, 0.9f, 1.0f})}});
   });
   Frame f = frame();
   f.layers.face_opacity = 0.4f;

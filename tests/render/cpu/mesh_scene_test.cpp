@@ -65,7 +65,9 @@ Met first(const MeshScene& scene, const RayBatch& batch) {
 MeshPoints layersOf(const MeshScene& scene, const RayBatch& batch, float limit_mm = 1e6f) {
   MeshPoints points;
   const std::vector<float> limit(RayBatch::kMaxRays, limit_mm);
-  scene.layers(batch, limit.data(), points);
+  MeshHits veil;
+  if (scene.hasVeil()) scene.veilHits(batch, veil);
+  scene.layers(batch, limit.data(), scene.hasVeil() ? &veil : nullptr, points);
   return points;
 }
 
@@ -278,6 +280,24 @@ TEST(MeshScene, TreatsAFadedFaceAsALayerAndOmitsAHiddenOne) {
   EXPECT_EQ(layersOf(scene, batch).count, 0);
   scene.place(placementsIn(Frame{}));
   EXPECT_EQ(first(scene, batch).points.count, 1);
+}
+
+TEST(MeshScene, OfAFadedFaceTheNearestSurfaceIsALayerAmongTheOthers) {
+  MeshScene scene;
+  scene.setModel(Model::face, {{sheet(-20.0f), sheet(20.0f), sheet(0.0f), sheet(30.0f, 0.5f)}});
+  scene.setModel(Model::gingiva, {{sheet(25.0f, 0.5f), sheet(10.0f, 0.5f)}});
+  const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}, {0, 1, 0}, {0, 0, -1}});
+  Frame frame;
+  frame.layers.face_opacity = 0.5f;
+  scene.place(placementsIn(frame));
+  const auto distances = [&](float limit_mm) {
+    const MeshPoints met = layersOf(scene, batch, limit_mm);
+    return std::vector<float>(met.distance_mm, met.distance_mm + met.count);
+  };
+  EXPECT_THAT(distances(1e6f), testing::ElementsAre(90, 80, 75, 70, 90, 80, 75, 70));
+  EXPECT_THAT(distances(78.0f), testing::ElementsAre(75, 70, 75, 70)) << "bone before it";
+  scene.setModel(Model::gingiva, {});
+  EXPECT_THAT(distances(1e6f), testing::ElementsAre(80, 70, 80, 70));
 }
 
 TEST(MeshScene, LooksUpOnlyVisibleHits) {
