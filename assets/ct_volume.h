@@ -29,4 +29,13 @@ inline void numberSingleTooth(CtVolume& ct, int fdi) {
                          [fdi](std::uint8_t label) { return static_cast<std::uint8_t>(isToothPart(label) ? fdi : 0); });
 }
 
+/// 1 in the voxels of tooth `fdi`, 0 elsewhere; empty where no voxel has this number.
+inline std::vector<std::uint8_t> voxelsOfTooth(const CtVolume& ct, int fdi) {
+  if (std::ranges::find(ct.tooth, static_cast<std::uint8_t>(fdi)) == ct.tooth.end()) return {};
+  std::vector<std::uint8_t> of_it(ct.tooth.size());
+  std::ranges::transform(ct.tooth, of_it.begin(),
+                         [fdi](std::uint8_t number) { return static_cast<std::uint8_t>(number == fdi ? 1 : 0); });
+  return of_it;
+}
+
 }  // namespace assets

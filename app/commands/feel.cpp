@@ -67,8 +67,8 @@ std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& 
 /// millisecond.
 std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Command& command,
                                 const std::vector<TimedPose>& poses) {
-  haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
-  haptics::Servo servo(bone);
+  haptics::Bodies bodies(volume.grid, volume.solid, volume.label);
+  haptics::Servo servo(bodies);
   std::vector<FeltRow> rows;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double span_s = i == 0 ? kTick_s : poses[i].t_s - poses[i - 1].t_s;

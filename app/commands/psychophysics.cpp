@@ -112,7 +112,7 @@ int run(const PsychophysicsOptions& options) {
     });
   } else {
     const bool shows_progress = isatty(2) != 0;
-    haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
+    haptics::Bodies live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
     experiment = runSimulated(protocol, live, bone.site, options.seed,
                               [&](const TrialRecord& record, const Experiment& running) {
                                 table.add(record);

@@ -39,14 +39,14 @@ TrialRecord Experiment::answer(bool second_harder, const ProbeMeasures& first, c
   return record;
 }
 
-Experiment runSimulated(const Protocol& protocol, haptics::CarvedBone& bone, const ProbeSite& site, std::uint64_t seed,
+Experiment runSimulated(const Protocol& protocol, haptics::Bodies& bodies, const ProbeSite& site, std::uint64_t seed,
                         const std::function<void(const TrialRecord&, const Experiment&)>& on_trial) {
   Experiment experiment(protocol, seed);
   SimulatedObserver observer(protocol.observer, seed);
   calibration::RandomGenerator hand(seed, 2);
   while (experiment.next()) {
-    const ProbeMeasures first = measuresOf(probe(bone, site, experiment.commandOf(0), protocol.probe, hand));
-    const ProbeMeasures second = measuresOf(probe(bone, site, experiment.commandOf(1), protocol.probe, hand));
+    const ProbeMeasures first = measuresOf(probe(bodies, site, experiment.commandOf(0), protocol.probe, hand));
+    const ProbeMeasures second = measuresOf(probe(bodies, site, experiment.commandOf(1), protocol.probe, hand));
     on_trial(experiment.answer(observer.secondHarder(first, second), first, second), experiment);
   }
   return experiment;

@@ -47,7 +47,7 @@ class Experiment {
 };
 
 /// Runs every trial with the protocol's simulated hand and observer; `on_trial` is called after each.
-Experiment runSimulated(const Protocol& protocol, haptics::CarvedBone& bone, const ProbeSite& site, std::uint64_t seed,
+Experiment runSimulated(const Protocol& protocol, haptics::Bodies& bodies, const ProbeSite& site, std::uint64_t seed,
                         const std::function<void(const TrialRecord&, const Experiment&)>& on_trial);
 
 }  // namespace app

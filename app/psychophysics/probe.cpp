@@ -62,7 +62,7 @@ double minimumJerkRate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); 
 
 }  // namespace
 
-std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
+std::vector<ProbeSample> probe(haptics::Bodies& bodies, const ProbeSite& site, const haptics::Command& command,
                                const ProbePlan& plan, calibration::RandomGenerator& hand) {
   const std::vector<Leg> way = legsOf(plan, hand);
   const glm::dvec3 z = site.outward_P.xyz;
@@ -72,7 +72,7 @@ std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site,
   haptics::Command still = command;
   still.drill_enabled = false;
 
-  haptics::Servo servo(bone);
+  haptics::Servo servo(bodies);
   haptics::VirtualHand flesh;
   flesh.mass_kg = kHandMass_kg;
   flesh.stiffness_N_per_mm = plan.grip_N_per_mm;

@@ -10,7 +10,7 @@
 
 #include "app/psychophysics/probe_measures.h"
 #include "calibration/random.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/servo/command.h"
 
 namespace app {
@@ -35,7 +35,7 @@ struct ProbeSite {
 };
 
 /// One interval. `bone` is borrowed and not changed.
-std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
+std::vector<ProbeSample> probe(haptics::Bodies& bodies, const ProbeSite& site, const haptics::Command& command,
                                const ProbePlan& plan, calibration::RandomGenerator& hand);
 
 }  // namespace app

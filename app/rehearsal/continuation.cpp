@@ -7,7 +7,7 @@
 #include "app/session/replay.h"
 #include "app/session/session_reader.h"
 #include "app/text/usage_error.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 
 namespace app {
 
@@ -22,7 +22,7 @@ Continuation continuationOf(const std::string& path) {
   next.setup = std::move(bone.start.setup);
   const double before_s = next.setup.former ? next.setup.former->duration_s : 0.0;
   next.setup.former = FormerSession{std::filesystem::path(path).filename().string(), before_s + bone.t_s,
-                                    haptics::CarvedBone(next.grid, next.solid, next.label).digest()};
+                                    haptics::Bodies(next.grid, next.solid, next.label, bone.start.is_tooth).digest()};
   if (const std::vector<SessionCommand> commands = SessionReader(path).commands(); !commands.empty())
     next.command = commands.back().command;
   // The serials of the former servo mean nothing to a new one.

@@ -41,7 +41,7 @@ LiveView::LiveView(RehearsalPlan& plan, const haptics::Command& in_force, const 
 void LiveView::open() {
   const auto renderer_of_current_bone = [this](render::Backend backend) {
     auto renderer = newRenderer({.backend = backend}, plan_.patient.ct.solid);
-    if (bone_ != nullptr) uploader_.uploadAllAgain(*bone_, *renderer);
+    if (bodies_ != nullptr) uploader_.uploadAllAgain(*bodies_, *renderer);
     overlay_is_new_ = true;
     return renderer;
   };
@@ -123,7 +123,7 @@ void LiveView::waitUntilShown() {
 }
 
 void LiveView::uploadBone() {
-  if (display_ && uploader_.upload(*bone_, display_->renderer()) > 0) bone_changed_ = true;
+  if (display_ && uploader_.upload(*bodies_, display_->renderer()) > 0) bone_changed_ = true;
 }
 
 std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {

@@ -35,7 +35,7 @@ class LiveView {
            ReportLine report);
 
   /// The bone to upload bricks from. Borrowed.
-  void attach(haptics::CarvedBone& bone) { bone_ = &bone; }
+  void attach(haptics::Bodies& bodies) { bodies_ = &bodies; }
 
   /// Draws the frame until the quality for this machine is found, a few seconds at most.
   void settleQuality(const render::Frame& frame) {
@@ -83,7 +83,7 @@ class LiveView {
   RehearsalPlan& plan_;
   const haptics::Command& in_force_;
   const SecondHand* second_hand_;
-  haptics::CarvedBone* bone_ = nullptr;
+  haptics::Bodies* bodies_ = nullptr;
   double servo_rate_Hz_;
   ReportLine report_;
   BrickUploader uploader_;

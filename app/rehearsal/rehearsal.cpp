@@ -56,7 +56,7 @@ class Rehearsal {
     equipment_.connect(plan_, active_command_.inForce());
     active_command_.attach(station());
     active_command_.speakTo([this](const std::string& line) { head_up_.say(line); });
-    view_.attach(station().bone());
+    view_.attach(station().bodies());
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
@@ -189,7 +189,7 @@ class Rehearsal {
     const std::vector<std::uint8_t>& before = plan_.scanned_solid.empty() ? patient.ct.solid : plan_.scanned_solid;
     const EnamelExposure exposure(patient.ct, before, *patient.site, *plan_.cut);
     if (exposure.planned_mm2() <= 0.0) return {};
-    return exposure.share(station().bone().solidInGridOrder());
+    return exposure.share(station().bodies().solidInGridOrder());
   }
 
   HeadUp::Values headUpValues() const {
@@ -216,7 +216,7 @@ class Rehearsal {
     readServo();
     if (last_)
       view_.takeSnapshot(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
-                         station().bone().solidInGridOrder());
+                         station().bodies().solidInGridOrder());
     RehearsalFigures figures = status_reporter_->figures(state());
     figures.times = head_up_.times();
     if (plan_.summary) figures.exposed_share = exposedShare();

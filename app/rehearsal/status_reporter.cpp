@@ -92,7 +92,7 @@ RehearsalFigures StatusReporter::figures(const FrameState& state) {
   figures.has_motors = equipment_.hasMotors();
   figures.last = status(state);
   figures.last.trips = equipment_.workstation().trips();
-  figures.removed_mm3 = equipment_.workstation().bone().removedByTissue_mm3();
+  figures.removed_mm3 = equipment_.workstation().bodies().removedByTissue_mm3();
   figures.frames = view_.frames();
   if (view_.latency().frames() > 0) {
     figures.latency = view_.latency().median();

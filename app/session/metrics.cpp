@@ -64,7 +64,7 @@ std::optional<double> measuredMm(const std::string& text) {
 std::optional<RemovedByTissue> removedByReplay(SessionReader& session) {
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
   if (end.divergence) return std::nullopt;
-  return removedByKey(end.bone.removedByTissue_mm3());
+  return removedByKey(end.bodies.removedByTissue_mm3());
 }
 
 }  // namespace

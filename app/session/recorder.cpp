@@ -117,12 +117,12 @@ struct Recorder::Impl {
   }
 
   /// Without a tick no file is kept.
-  void close(const haptics::CarvedBone* final_bone) noexcept {
+  void close(const haptics::Bodies* final_bodies) noexcept {
     if (!writing) return;
     if (next_index == 0) return stopRecording("no tick came");
     attempt([&] {
       if (!batch.events.empty()) writer.write(batch);
-      writer.seal(lost(), final_bone);
+      writer.seal(lost(), final_bodies);
     });
   }
 
@@ -186,7 +186,7 @@ std::optional<std::string> Recorder::trouble() const {
   return impl_->trouble.empty() ? std::nullopt : std::optional(impl_->trouble);
 }
 
-RecordingSummary Recorder::stop(const haptics::CarvedBone* final_bone) {
+RecordingSummary Recorder::stop(const haptics::Bodies* final_bodies) {
   if (impl_->summary) return *impl_->summary;
   {
     const std::scoped_lock lock(impl_->mutex);
@@ -197,7 +197,7 @@ RecordingSummary Recorder::stop(const haptics::CarvedBone* final_bone) {
     impl_->thread.join();
   else
     impl_->drain();
-  impl_->close(final_bone);
+  impl_->close(final_bodies);
   impl_->summary = RecordingSummary{impl_->writer.ticks(), impl_->lost(), trouble(), impl_->writer.file()};
   return *impl_->summary;
 }

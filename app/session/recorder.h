@@ -12,7 +12,7 @@
 #include <string>
 
 #include "app/session/session_start.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/servo/tick_log.h"
 
 namespace app {
@@ -56,7 +56,7 @@ class Recorder {
 
   /// After the servo's last tick: writes the rest and the final bone (null: not stored), seals and closes the file.
   /// Repeated calls return the same summary.
-  RecordingSummary stop(const haptics::CarvedBone* final_bone = nullptr);
+  RecordingSummary stop(const haptics::Bodies* final_bodies = nullptr);
 
  private:
   struct Impl;

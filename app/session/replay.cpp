@@ -54,9 +54,9 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
 /// The servo on the initial bone, driven by the recorded hand and commands.
 class Rerun {
  public:
-  /// Borrows bone and soft tissue.
-  Rerun(haptics::CarvedBone& bone, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands)
-      : servo_(bone, &soft_tissue), commands_(std::move(commands)) {}
+  /// Borrows bodies and soft tissue.
+  Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands)
+      : servo_(bodies, &soft_tissue), commands_(std::move(commands)) {}
 
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded) {
@@ -86,17 +86,17 @@ std::optional<std::string> blockDifference(const TickBlock& block, const haptics
 }
 
 std::optional<std::string> finalBoneDifference(SessionReader& session, const StoredStart& start,
-                                               const haptics::CarvedBone& bone) {
+                                               const haptics::Bodies& bodies) {
   const auto left = session.finalBone(start);
-  if (left && (left->digest != bone.digest() || left->solid != bone.solidInGridOrder()))
+  if (left && (left->digest != bodies.digest() || left->solid != bodies.solidInGridOrder()))
     return "the final bone differs";
   return std::nullopt;
 }
 
 void rerunAll(SessionReader& session, ReplayReport& report) {
   const StoredStart start = session.start();
-  haptics::CarvedBone bone(start.grid, start.solid, start.label);
-  Rerun rerun(bone, start.soft_tissue, session.commands());
+  haptics::Bodies bodies(start.grid, start.solid, start.label, start.is_tooth);
+  Rerun rerun(bodies, start.soft_tissue, session.commands());
   haptics::Tick again;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& recorded : block.ticks) {
@@ -116,9 +116,9 @@ void rerunAll(SessionReader& session, ReplayReport& report) {
     }
   }
   if (!report.difference && report.closed)
-    if (const auto what = finalBoneDifference(session, start, bone))
+    if (const auto what = finalBoneDifference(session, start, bodies))
       report.difference = ReplayDifference{again.index, *what};
-  report.bone_digest = bone.digest();
+  report.bone_digest = bodies.digest();
 }
 
 void readThrough(SessionReader& session, ReplayReport& report) {
@@ -208,8 +208,8 @@ ReplayReport verify(const std::string& path) {
 ReplayedState replayTo(SessionReader& session, double t_s) {
   session.rewind();
   StoredStart start = session.start();
-  haptics::CarvedBone bone(start.grid, start.solid, start.label);
-  Rerun rerun(bone, start.soft_tissue, session.commands());
+  haptics::Bodies bodies(start.grid, start.solid, start.label, start.is_tooth);
+  Rerun rerun(bodies, start.soft_tissue, session.commands());
   haptics::Tick last, last_recorded;
   std::optional<ReplayDifference> divergence;
   double recorded_mm3 = 0.0, again_mm3 = 0.0;
@@ -225,9 +225,9 @@ ReplayedState replayTo(SessionReader& session, double t_s) {
     }
   }
   // The same digest means the same bone, even if a force differed in its last bit.
-  if (divergence && last_recorded.bone_digest == bone.digest()) divergence.reset();
+  if (divergence && last_recorded.bone_digest == bodies.digest()) divergence.reset();
   const haptics::Command command = rerun.command();
-  return {std::move(start), std::move(bone), last, command, divergence, again_mm3 - recorded_mm3};
+  return {std::move(start), std::move(bodies), last, command, divergence, again_mm3 - recorded_mm3};
 }
 
 BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
@@ -251,7 +251,7 @@ BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   }
   ReplayedState state = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
   if (state.divergence) bone.remarks.push_back(divergenceText(state));
-  bone.solid = state.bone.solidInGridOrder();
+  bone.solid = state.bodies.solidInGridOrder();
   bone.t_s = state.tick.t_s + state.tick.dt_s;
   bone.start = std::move(state.start);
   return bone;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/session/session_reader.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 
 namespace app {
 
@@ -51,7 +51,7 @@ ReplayReport verify(const std::string& path);
 /// The state of a rehearsal at one time.
 struct ReplayedState {
   StoredStart start;
-  haptics::CarvedBone bone;  ///< remaining
+  haptics::Bodies bodies;    ///< what remains
   haptics::Tick tick;        ///< the last one replayed; default before the first
   haptics::Command command;  ///< current
   /// The first difference, if the bone is not the recorded one because of it: lost ticks, or another version.

@@ -211,6 +211,7 @@ struct SessionReader::Impl {
       if (start.solid.empty()) throw damagedSession("it has no bone");
       start.label = volume(session_format::kLabel, voxels);
       if (start.label.empty()) start.label.resize(voxels);
+      start.is_tooth = volume(session_format::kIsTooth, voxels);
       readSoftTissue(start.soft_tissue);
     }
     for (std::uint8_t& value : start.label) value = label[value];

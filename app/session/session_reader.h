@@ -55,7 +55,7 @@ class SessionReader {
 
   struct FinalBone {
     std::vector<std::uint8_t> solid;  ///< in the order of the grid
-    std::uint64_t digest = 0;         ///< haptics::CarvedBone::digest()
+    std::uint64_t digest = 0;         ///< haptics::Bodies::digest()
   };
   /// The bone at the close; none: killed, or schema 3 or 4. `start` is that of this session.
   std::optional<FinalBone> finalBone(const StoredStart& start);

@@ -16,7 +16,7 @@ namespace app {
 struct FormerSession {
   std::string file;               ///< name without folder
   double duration_s = 0.0;        ///< of all parts until its end
-  std::uint64_t bone_digest = 0;  ///< haptics::CarvedBone::digest of the bone taken over, as never cut
+  std::uint64_t bone_digest = 0;  ///< haptics::Bodies::digest of the bone taken over, as never cut
 };
 
 struct SessionSetup {

@@ -30,6 +30,9 @@ struct SessionStart {
   SessionSetup setup = {};
   std::string started_utc = {};                          ///< empty: not stored
   const assets::SoftTissueField* soft_tissue = nullptr;  ///< borrowed by the constructor of the recorder; null: none
+  /// Borrowed, in the order of `grid`: not 0 in the tooth to be removed (haptics/body/bodies); empty: the jaw is one
+  /// body.
+  std::span<const std::uint8_t> is_tooth = {};
 };
 
 /// The start as stored, with its voxels; labels are those of this program.
@@ -38,6 +41,7 @@ struct StoredStart {
   double dt_s = 0.0;
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
+  std::vector<std::uint8_t> is_tooth;             ///< empty: one body, or recorded before it was stored
   assets::SoftTissueField soft_tissue;            ///< empty: none, or recorded before it was stored
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was stored
   ServoBuild servo;

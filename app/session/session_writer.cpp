@@ -130,24 +130,25 @@ struct SessionWriter::Impl {
       appendVolume(session_format::kLabel, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::ranges::copy(start.label.subspan(first, part.size()), part.begin());
       });
+    if (!start.is_tooth.empty())
+      appendVolume(session_format::kIsTooth, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
+        std::ranges::copy(start.is_tooth.subspan(first, part.size()), part.begin());
+      });
     if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty()) appendSoftTissue(*start.soft_tissue);
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
   }
 
   /// Initial minus final solid fraction; the initial parts are read back one by one.
-  void appendRemoved(const haptics::CarvedBone& bone) {
+  void appendRemoved(const haptics::Bodies& bodies) {
     SQLite::Statement parts(*database, "SELECT bytes FROM bone_part WHERE volume = 'solid' ORDER BY row");
     std::vector<std::uint8_t> start;
-    const haptics::SolidField field = bone.field();
-    glm::ivec3 ijk(0);
-    appendVolume(session_format::kRemoved, grid.voxelCount(), [&](std::size_t, std::span<std::uint8_t> part) {
+    const std::vector<std::uint8_t> left = bodies.solidInGridOrder();
+    appendVolume(session_format::kRemoved, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
       if (!parts.executeStep()) throw damagedSession("a part of its bone is missing");
       start.resize(part.size());
       decompressInto(start, blobOf(parts.getColumn(0)));
       for (std::size_t n = 0; n < part.size(); ++n) {
-        part[n] = static_cast<std::uint8_t>(start[n] - field.solidAt(ijk));
-        if (++ijk.x == grid.size.x) ijk = {0, ijk.y + 1, ijk.z};
-        if (ijk.y == grid.size.y) ijk = {0, 0, ijk.z + 1};
+        part[n] = static_cast<std::uint8_t>(start[n] - left[first + n]);
       }
     });
   }
@@ -215,6 +216,7 @@ SessionWriter::SessionWriter(const std::string& path, bool overwrite, const Sess
     : impl_(std::make_unique<Impl>(path, overwrite, start.grid)) {
   assert(start.solid.size() == start.grid.voxelCount());
   assert(start.label.empty() || start.label.size() == start.grid.voxelCount());
+  assert(start.is_tooth.empty() || start.is_tooth.size() == start.grid.voxelCount());
   impl_->attempt([&] { impl_->begin(start); }, [] {});
 }
 
@@ -246,12 +248,12 @@ void SessionWriter::write(const SessionBatch& batch) {
   });
 }
 
-void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
+void SessionWriter::seal(std::uint64_t lost, const haptics::Bodies* bodies) {
   SessionEnd end{impl_->ticks, lost, {}};
   impl_->write([&] {
-    if (bone != nullptr) {
-      impl_->appendRemoved(*bone);
-      end.bone_digest = bone->digest();
+    if (bodies != nullptr) {
+      impl_->appendRemoved(*bodies);
+      end.bone_digest = bodies->digest();
     }
     impl_->append("seal", {sealText(end)});
   });

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/session/session_start.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/servo/tick.h"
 
 namespace app {
@@ -49,7 +49,7 @@ class SessionWriter {
 
   /// Stores the final bone (null: not stored) and the numbers of ticks written and lost, and leaves one closed file,
   /// synced to the disk. The last call; takes as long as storing the bone.
-  void seal(std::uint64_t lost, const haptics::CarvedBone* bone = nullptr);
+  void seal(std::uint64_t lost, const haptics::Bodies* bodies = nullptr);
 
   std::uint64_t ticks() const;
   /// The current file name, and whether the file replaces another when it is closed.

@@ -14,6 +14,11 @@ namespace {
 constexpr double kLogged_s = 10.0;  // of ticks, while their reader is held up
 constexpr double kWrittenTogether_s = 0.5;
 
+/// Of the tooth to be removed.
+std::vector<std::uint8_t> voxelsOfTooth(const assets::Patient& patient) {
+  return assets::voxelsOfTooth(patient.ct, patient.operatedTooth());
+}
+
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
                                      double rate_Hz, const haptics::Command& command, haptics::TickLog& log,
                                      Ticking ticking, const assets::SoftTissueField& soft_tissue,
@@ -26,6 +31,8 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.grid = patient.ct.grid;
   start.solid = patient.ct.solid;
   start.label = patient.ct.label;
+  const std::vector<std::uint8_t> is_tooth = voxelsOfTooth(patient);
+  start.is_tooth = is_tooth;
   start.soft_tissue = &soft_tissue;
   start.command = command;
   start.calibration = recording->calibration;
@@ -55,9 +62,9 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
                          const std::optional<Recording>& recording, Ticking ticking, bool keeps_ticks,
                          assets::SoftTissueField soft_tissue)
     : device_(std::move(device)),
-      bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
+      bodies_(patient.ct.grid, patient.ct.solid, patient.ct.label, voxelsOfTooth(patient)),
       soft_tissue_(std::move(soft_tissue)),
-      servo_(bone_, &soft_tissue_),
+      servo_(bodies_, &soft_tissue_),
       rate_Hz_(settings.rate_Hz),
       command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
       commands_(command_),
@@ -77,7 +84,7 @@ RecordingSummary Workstation::stop() {
   loop_.stop();
   emergency_exit_.reset();
   if (!recording_refusal_.empty()) return {.trouble = recording_refusal_};
-  return recorder_ ? recorder_->stop(&bone_) : RecordingSummary{};
+  return recorder_ ? recorder_->stop(&bodies_) : RecordingSummary{};
 }
 
 void Workstation::step(std::uint64_t ticks) {

@@ -14,7 +14,7 @@
 #include "app/device/pose_source.h"
 #include "app/session/recorder.h"
 #include "assets/patient.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/servo/haptic_loop.h"
 #include "haptics/servo/servo.h"
@@ -72,12 +72,12 @@ class Workstation {
   haptics::Tick newestTick() { return newest_.read(); }
   /// With keeps_ticks: every tick since the last call, oldest first; after 10 s without a call the newest are missing.
   std::vector<haptics::Tick> takeTicks();
-  haptics::CarvedBone& bone() { return bone_; }
+  haptics::Bodies& bodies() { return bodies_; }
   haptics::LoopFigures figures() const { return loop_.figures(); }
 
  private:
   std::unique_ptr<haptics::HapticDevice> device_;
-  haptics::CarvedBone bone_;
+  haptics::Bodies bodies_;
   const assets::SoftTissueField soft_tissue_;
   haptics::Servo servo_;
   double rate_Hz_;

@@ -2,14 +2,14 @@
 
 #include <array>
 
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "render/frame_renderer.h"
 
 namespace app {
 
 namespace {
 
-void uploadBrick(const haptics::CarvedBone& from, glm::ivec3 brick, render::FrameRenderer& to) {
+void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) {
   std::array<std::uint8_t, 512> solid{};
   from.copyBrick(brick, solid);
   to.updateBrick(brick, solid);
@@ -17,9 +17,9 @@ void uploadBrick(const haptics::CarvedBone& from, glm::ivec3 brick, render::Fram
 
 }  // namespace
 
-std::size_t BrickUploader::upload(haptics::CarvedBone& from, render::FrameRenderer& to) {
+std::size_t BrickUploader::upload(haptics::Bodies& from, render::FrameRenderer& to) {
   bricks_.clear();
-  from.dirtyBricks().takeInto(bricks_);
+  from.takeDirtyBricks(bricks_);
   for (const glm::ivec3 brick : bricks_) {
     uploadBrick(from, brick, to);
     uploaded_.insert(brick);
@@ -27,7 +27,7 @@ std::size_t BrickUploader::upload(haptics::CarvedBone& from, render::FrameRender
   return bricks_.size();
 }
 
-void BrickUploader::uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const {
+void BrickUploader::uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const {
   for (const glm::ivec3 brick : uploaded_) uploadBrick(from, brick, to);
 }
 

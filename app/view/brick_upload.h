@@ -1,5 +1,6 @@
 // Copies bricks that the servo has carved to the renderer: the one place where haptics meets render. Render thread,
-// once a frame, before drawing. Cost: a 512-byte copy and a small upload per dirty brick.
+// once a frame, before drawing. Pieces at rest are drawn with the jaw. Cost: a 512-byte copy and a small upload per
+// dirty brick.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 #include <glm/glm.hpp>
 
 namespace haptics {
-class CarvedBone;
+class Bodies;
 }
 namespace render {
 class FrameRenderer;
@@ -21,9 +22,9 @@ namespace app {
 class BrickUploader {
  public:
   /// Bricks changed since the last call. Returns their number.
-  std::size_t upload(haptics::CarvedBone& from, render::FrameRenderer& to);
+  std::size_t upload(haptics::Bodies& from, render::FrameRenderer& to);
   /// All bricks ever uploaded, to a new renderer of the initial bone.
-  void uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const;
+  void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const;
 
  private:
   struct InOrder {

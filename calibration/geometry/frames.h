@@ -10,6 +10,7 @@ struct Handle {};       ///< H: the stylus in the hand
 struct Tool {};         ///< T: centre of the cutting head, +z along the shaft away from the tip
 struct OtherTool {};    ///< O: the second hand's instrument, in its mesh's axes; +z along its handle
 struct Patient {};      ///< P: LPS as the scan; x to the patient's left, y posterior, z superior
+struct Piece {};        ///< Q: a tooth or a piece of it, in the patient's axes as they were before it moved
 struct Screen {};       ///< S: the physical panel
 struct ScreenImage {};  ///< I: the panel's mirror image, the virtual screen
 struct Camera {};       ///< C: a webcam

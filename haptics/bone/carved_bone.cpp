@@ -68,7 +68,8 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const bool mixed_labels = at.only_label[block] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
-  if (strokes != nullptr && strokes->needsSaving(block)) strokes->save(block, stateOf(block));
+  if (strokes != nullptr && strokes->needsSaving(first_block_ + block))
+    strokes->save(first_block_ + block, stateOf(block));
 
   alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
   alignas(64) std::array<std::uint8_t, kBlockVoxels> after;

@@ -57,6 +57,9 @@ class CarvedBone {
   CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label);
 
   const assets::VolumeGrid& grid() const { return grid_; }
+  std::size_t blocks() const { return history_of_.size(); }
+  /// The number of block 0 in a StrokeHistory of several bones. Before the first cut.
+  void setFirstBlock(std::size_t number) { first_block_ = number; }
   SolidField field() const { return cubelets_.field(); }
 
   /// Cuts a block. A voxel with dose D, covered by the fraction g: D <- min(D + exposure loss, max g so far), of its
@@ -102,6 +105,7 @@ class CarvedBone {
   assets::VolumeGrid grid_;
   Cubelets cubelets_;
   std::vector<std::uint32_t> history_of_;
+  std::size_t first_block_ = 0;  ///< its number in a StrokeHistory
   std::size_t histories_most_ = 0, histories_used_ = 0;
   std::vector<History> histories_;
   std::array<std::int64_t, assets::kTissueCount> removed_steps_{};

@@ -11,9 +11,9 @@ constexpr std::size_t kMaxStrokeShare = 4;
 
 }  // namespace
 
-StrokeHistory::StrokeHistory(const CarvedBone& bone, std::size_t max_blocks) {
-  const glm::ivec3 blocks = bone.field().blocks;
-  const std::size_t all = bone.field().blockAt({0, 0, blocks.z});
+StrokeHistory::StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_blocks) {
+  std::size_t all = 0;
+  for (const CarvedBone& bone : bones) all += bone.blocks();
   saved_in_.assign(all, 0);
   saved_.resize(std::max(kMaxStrokeShare, std::min(kMaxStrokeShare * all, max_blocks)));
 }
@@ -62,31 +62,34 @@ void StrokeHistory::dropUndone() noexcept {
   if (stroke.blocks == 0) --count_;
 }
 
-std::int64_t StrokeHistory::exchange(CarvedBone& bone, std::size_t entry) noexcept {
+std::int64_t StrokeHistory::exchange(std::span<CarvedBone> bones, std::size_t entry) noexcept {
   Saved& saved = saved_[entry % saved_.size()];
-  const BlockState now = bone.stateOf(saved.block);
-  const std::int64_t steps = bone.restoreBlock(saved.block, saved.state);
+  // The bone of this block, and its number there.
+  std::size_t at = 0, block = saved.block;
+  for (; block >= bones[at].blocks(); ++at) block -= bones[at].blocks();
+  const BlockState now = bones[at].stateOf(block);
+  const std::int64_t steps = bones[at].restoreBlock(block, saved.state);
   saved.state = now;
   return steps;
 }
 
-StrokeHistory::Restored StrokeHistory::undo(CarvedBone& bone, std::size_t max_blocks) noexcept {
+StrokeHistory::Restored StrokeHistory::undo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept {
   endStroke();
   Restored restored;
   if (count_ == 0) return restored;
   Stroke& stroke = newest();
   std::int64_t steps = 0;
   for (; restored.blocks < max_blocks && stroke.undone < stroke.blocks; ++restored.blocks)
-    steps += exchange(bone, stroke.first + stroke.blocks - ++stroke.undone);
+    steps += exchange(bones, stroke.first + stroke.blocks - ++stroke.undone);
   if (stroke.undone == stroke.blocks) {
     --count_;
     ++undone_;
   }
-  restored.volume_mm3 = static_cast<double>(steps) * bone.grid().voxelVolume_mm3() / 255.0;
+  restored.volume_mm3 = static_cast<double>(steps) * bones.front().grid().voxelVolume_mm3() / 255.0;
   return restored;
 }
 
-StrokeHistory::Restored StrokeHistory::redo(CarvedBone& bone, std::size_t max_blocks) noexcept {
+StrokeHistory::Restored StrokeHistory::redo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept {
   endStroke();
   Restored restored;
   if (!isBetweenStrokes()) {
@@ -97,8 +100,8 @@ StrokeHistory::Restored StrokeHistory::redo(CarvedBone& bone, std::size_t max_bl
   Stroke& stroke = newest();
   std::int64_t steps = 0;
   for (; restored.blocks < max_blocks && stroke.undone > 0; ++restored.blocks)
-    steps += exchange(bone, stroke.first + stroke.blocks - stroke.undone--);
-  restored.volume_mm3 = static_cast<double>(steps) * bone.grid().voxelVolume_mm3() / 255.0;
+    steps += exchange(bones, stroke.first + stroke.blocks - stroke.undone--);
+  restored.volume_mm3 = static_cast<double>(steps) * bones.front().grid().voxelVolume_mm3() / 255.0;
   return restored;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "haptics/bone/carved_bone.h"
@@ -19,7 +20,7 @@ namespace haptics {
 ///
 ///   saved_     ring of 260-byte entries, at 260 n: solid u8 [64] | reach u8 [64] | dose u16 [64] | block u32
 ///   strokes_   ring of 200 (first entry, number of entries, of them undone) in saved_, the oldest at oldest_
-///   saved_in_  u32 per block: number of the stroke that saved it last
+///   saved_in_  u32 per block of all bones: number of the stroke that saved it last
 ///
 ///   saved_   | .. free .. | oldest stroke | ... | newest | undone stroke | ... | .. free .. |   contiguous, modulo
 ///   size
@@ -30,8 +31,11 @@ class StrokeHistory {
   static constexpr std::size_t kMaxStrokes = 200;
   static constexpr std::size_t kMaxBlocks = 60'000;
 
-  /// Capacity for four times the whole bone, at most `max_blocks` (at least 4).
-  explicit StrokeHistory(const CarvedBone& bone, std::size_t max_blocks = kMaxBlocks);
+  /// Capacity for four times all bones, at most `max_blocks` (at least 4). A block's number counts on from bone to bone
+  /// (CarvedBone::setFirstBlock).
+  explicit StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_blocks = kMaxBlocks);
+  explicit StrokeHistory(const CarvedBone& bone, std::size_t max_blocks = kMaxBlocks)
+      : StrokeHistory(std::span(&bone, 1), max_blocks) {}
 
   /// Whether a block must be saved before it is written.
   bool needsSaving(std::size_t block) const { return saved_in_[block] != stroke_; }
@@ -52,11 +56,13 @@ class StrokeHistory {
     std::size_t blocks = 0;
   };
   /// Undoes up to `max_blocks` of the newest stroke, last saved first; ends the open stroke. The stroke is undone when
-  /// strokes() has fallen by one. `bone` is the one of the constructor.
-  Restored undo(CarvedBone& bone, std::size_t max_blocks) noexcept;
+  /// strokes() has fallen by one. `bones` are those of the constructor.
+  Restored undo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept;
+  Restored undo(CarvedBone& bone, std::size_t max_blocks) noexcept { return undo(std::span(&bone, 1), max_blocks); }
   /// Redoes up to `max_blocks` of the stroke undone in part, or else of the one undone last. It is redone when
   /// isBetweenStrokes() is false.
-  Restored redo(CarvedBone& bone, std::size_t max_blocks) noexcept;
+  Restored redo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept;
+  Restored redo(CarvedBone& bone, std::size_t max_blocks) noexcept { return redo(std::span(&bone, 1), max_blocks); }
 
   std::size_t bytes() const { return saved_.size() * sizeof(Saved) + saved_in_.size() * sizeof(std::uint32_t); }
 
@@ -71,7 +77,7 @@ class StrokeHistory {
   const Stroke& newest() const { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   Stroke& newest() { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   /// Exchanges an entry with the block as it is. Returns the solid steps restored.
-  std::int64_t exchange(CarvedBone& bone, std::size_t entry) noexcept;
+  std::int64_t exchange(std::span<CarvedBone> bones, std::size_t entry) noexcept;
   void dropOldest() noexcept;
   void dropUndone() noexcept;
   void beginStroke() noexcept;

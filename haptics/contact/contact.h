@@ -7,7 +7,7 @@
 #include "assets/tissue.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
-#include "haptics/bone/solid_field.h"
+#include "haptics/body/solid_bodies.h"
 #include "haptics/tool/bur_shape.h"
 
 namespace haptics {
@@ -30,9 +30,9 @@ struct ToolMotion {
   double vibration_phase_rad = 0.0;  ///< phase of the vibration (tool/spindle)
 };
 
-/// Tool, pose and motion in a field.
+/// Tool, pose and motion among solid bodies.
 struct ToolInBone {
-  const SolidField& field;
+  SolidBodies bodies;
   BurShape head;
   calibration::Pose<calibration::Patient, calibration::Tool> X_PT;
   const TissueStiffness& tissue;

@@ -35,7 +35,7 @@ std::size_t stepFrom(int index, std::size_t within, std::size_t block) {
   return (index & 3) != 3 ? within : block - 3 * within;
 }
 
-FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
+[[gnu::always_inline]] inline FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
   const glm::ivec3 size = field.grid.size;
   // Also false for NaN.
   const bool near =
@@ -64,14 +64,33 @@ FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
 
 }  // namespace
 
-ToolSampler::ToolSampler(const SolidField& field,
-                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept
-    : field_(field),
-      to_index_(glm::mat3_cast(X_PT.rotation) / field.grid.spacing_mm),
-      origin_(field.grid.indexFromPoint(X_PT.translation_mm)) {}
+ToolSampler::ToolSampler(const SolidBodies& bodies,
+                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept {
+  for (const SolidBody& body : bodies.bodies()) {
+    const calibration::Pose<calibration::Patient, calibration::Tool> tool = body.inBody(X_PT);
+    bodies_[count_++] = {body.field, glm::mat3_cast(tool.rotation) / body.field.grid.spacing_mm,
+                         body.field.grid.indexFromPoint(tool.translation_mm)};
+  }
+}
 
 FieldSample ToolSampler::at(const glm::dvec3& position_T_mm) const noexcept {
-  return sampleAt(field_, to_index_ * position_T_mm + origin_);
+  if (count_ > 1) return sumAt(position_T_mm);
+  return sampleAt(bodies_[0].field, bodies_[0].to_index * position_T_mm + bodies_[0].origin);
+}
+
+FieldSample ToolSampler::sumAt(const glm::dvec3& position_T_mm) const noexcept {
+  FieldSample sum;
+  double largest = 0.0;
+  for (std::size_t n = 0; n < count_; ++n) {
+    const FieldSample part = sampleAt(bodies_[n].field, bodies_[n].to_index * position_T_mm + bodies_[n].origin);
+    sum.solid += part.solid;
+    if (part.solid <= largest) continue;
+    largest = part.solid;
+    sum.label = part.label;
+  }
+  // Pieces that press into one another count once.
+  sum.solid = sum.solid > 1.0 ? 1.0 : sum.solid;
+  return sum;
 }
 
 }  // namespace haptics

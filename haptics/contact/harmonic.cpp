@@ -37,13 +37,23 @@ struct Reach {
   VoxelBox box;
 };
 
-Reach reachOf(const ToolInBone& at) {
+Reach reachOf(const ToolInBone& at, const SolidBody& body) {
+  const assets::VolumeGrid& grid = body.field.grid;
   Reach reach;
-  reach.centre = at.field.grid.indexFromPoint(at.X_PT.translation_mm);
-  reach.radius = at.head.radius_mm / at.field.grid.spacing_mm;
+  reach.centre = grid.indexFromPoint(body.inBody(calibration::Point<calibration::Patient>{at.X_PT.translation_mm}).mm);
+  reach.radius = at.head.radius_mm / grid.spacing_mm;
   const double outer = reach.radius + kVoxelChargeRadius;
-  reach.box = {at.field.grid, reach.centre - outer, reach.centre + outer};
+  reach.box = {grid, reach.centre - outer, reach.centre + outer};
   return reach;
+}
+
+/// Sum of `force_of` (field, reach) over the bodies, mm.
+template <class Force>
+calibration::Vector<calibration::Patient> sumOverBodies_mm(const ToolInBone& at, const Force& force_of) {
+  calibration::Vector<calibration::Patient> sum;
+  for (const SolidBody& body : at.bodies.bodies())
+    sum = sum + body.fromBody({body.field.grid.spacing_mm * force_of(body.field, reachOf(at, body))});
+  return sum;
 }
 
 /// Force of one voxel's ball over its distance: the factor of the vector from bur to voxel.
@@ -115,8 +125,8 @@ void pullOfBlockPortable(const VoxelCharge& charge, const glm::vec3& low, BlockW
 
 class HarmonicSum {
  public:
-  HarmonicSum(const ToolInBone& at, const Reach& reach)
-      : at_(at), field_(at.field), reach_(reach), charge_(reach.radius) {}
+  HarmonicSum(const TissueStiffness& tissue, const SolidField& field, const Reach& reach)
+      : tissue_(tissue), field_(field), reach_(reach), charge_(reach.radius) {}
 
   glm::dvec3 sum() {
     const double outer = reach_.radius + kVoxelChargeRadius, inner = reach_.radius - kVoxelChargeRadius;
@@ -148,19 +158,19 @@ class HarmonicSum {
     const glm::dvec3 from =
         low + glm::dvec3(field_.weight_x[block], field_.weight_y[block], field_.weight_z[block]) / weight;
     const double d2 = glm::dot(from, from);
-    force_ += weight * at_.tissue.of(field_.only_label[block]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
+    force_ += weight * tissue_.of(field_.only_label[block]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
   }
 
   void addVoxels(const glm::dvec3& low, std::size_t block) {
     const std::uint8_t* solid = field_.solid + kBlockVoxels * block;
     alignas(64) BlockWeights weight;
     if (field_.only_label[block] != kMixedLabels) {
-      const auto factor = static_cast<float>(at_.tissue.of(field_.only_label[block]));
+      const auto factor = static_cast<float>(tissue_.of(field_.only_label[block]));
       for (std::size_t n = 0; n < kBlockVoxels; ++n) weight[n] = factor * static_cast<float>(solid[n]);
     } else {
       const std::uint8_t* label = field_.label + kBlockVoxels * block;
       for (std::size_t n = 0; n < kBlockVoxels; ++n)
-        weight[n] = static_cast<float>(at_.tissue.of(label[n])) * static_cast<float>(solid[n]);
+        weight[n] = static_cast<float>(tissue_.of(label[n])) * static_cast<float>(solid[n]);
     }
     std::array<float, 3> pull;
     // Direct calls, so that tests/architecture/servo_symbols.cmake can follow them.
@@ -175,7 +185,7 @@ class HarmonicSum {
     force_ += glm::dvec3(pull[0], pull[1], pull[2]);
   }
 
-  const ToolInBone& at_;
+  const TissueStiffness& tissue_;
   const SolidField& field_;
   const Reach& reach_;
   VoxelCharge charge_;
@@ -195,25 +205,26 @@ double harmonicForceOfBall(double R, double B, double d) noexcept {
 }
 
 calibration::Vector<calibration::Patient> harmonicForce_mm(const ToolInBone& at) noexcept {
-  const Reach reach = reachOf(at);
-  if (reach.radius <= 2.0 * kVoxelChargeRadius) return harmonicForceVoxelByVoxel_mm(at);
-  return {at.field.grid.spacing_mm * HarmonicSum(at, reach).sum()};
+  if (at.head.radius_mm <= 2.0 * kVoxelChargeRadius * at.bodies.spacing_mm()) return harmonicForceVoxelByVoxel_mm(at);
+  return sumOverBodies_mm(
+      at, [&](const SolidField& field, const Reach& reach) { return HarmonicSum(at.tissue, field, reach).sum(); });
 }
 
 calibration::Vector<calibration::Patient> harmonicForceVoxelByVoxel_mm(const ToolInBone& at) noexcept {
   constexpr double kB = kVoxelChargeRadius;
-  const Reach reach = reachOf(at);
-  glm::dvec3 force(0.0);
-  for (int k = reach.box.first.z; k <= reach.box.last.z; ++k)
-    for (int j = reach.box.first.y; j <= reach.box.last.y; ++j)
-      for (int i = reach.box.first.x; i <= reach.box.last.x; ++i) {
-        const glm::dvec3 from = glm::dvec3(i, j, k) - reach.centre;
-        const double d = glm::length(from);
-        if (d <= 0.0) continue;
-        const double weight = at.field.solidAt({i, j, k}) / 255.0 * at.tissue.of(at.field.labelAt({i, j, k}));
-        force -= weight * 3.0 / (4.0 * kPi * kB * kB * kB) * harmonicForceOfBall(reach.radius, kB, d) / d * from;
-      }
-  return {at.field.grid.spacing_mm * force};
+  return sumOverBodies_mm(at, [&](const SolidField& field, const Reach& reach) {
+    glm::dvec3 force(0.0);
+    for (int k = reach.box.first.z; k <= reach.box.last.z; ++k)
+      for (int j = reach.box.first.y; j <= reach.box.last.y; ++j)
+        for (int i = reach.box.first.x; i <= reach.box.last.x; ++i) {
+          const glm::dvec3 from = glm::dvec3(i, j, k) - reach.centre;
+          const double d = glm::length(from);
+          if (d <= 0.0) continue;
+          const double weight = field.solidAt({i, j, k}) / 255.0 * at.tissue.of(field.labelAt({i, j, k}));
+          force -= weight * 3.0 / (4.0 * kPi * kB * kB * kB) * harmonicForceOfBall(reach.radius, kB, d) / d * from;
+        }
+    return force;
+  });
 }
 
 Contact harmonicContact(const HarmonicParameters& parameters, const ToolInBone& at) noexcept {

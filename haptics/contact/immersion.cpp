@@ -30,12 +30,12 @@ double axisCosine(const ToolInBone& at, const glm::dvec3& normal_P) noexcept {
   return length > 0.0 ? glm::dot(at.X_PT.rotation * glm::dvec3(0.0, 0.0, 1.0), normal_P) / length : 0.0;
 }
 
-Immersion sphereImmersion(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+Immersion sphereImmersion(const SolidBodies& bodies, const calibration::Point<calibration::Patient>& centre_P,
                           double radius_mm, const TissueStiffness* tissue) noexcept {
-  const SphereOverlap overlap = sphereOverlap(field, centre_P, radius_mm, tissue);
+  const SphereOverlap overlap = sphereOverlap(bodies, centre_P, radius_mm, tissue);
   Immersion immersion;
   immersion.volume_mm3 = overlap.volume_mm3;
-  immersion.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, overlap.grey_mm3, field.grid.spacing_mm);
+  immersion.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, overlap.grey_mm3, bodies.spacing_mm());
   if (immersion.depth_mm <= 0.0) return immersion;
   const glm::dvec3& moment_mm4 = overlap.first_moment_P_mm4.xyz;
   const double found_mm4 = glm::length(moment_mm4), flat_mm4 = capMoment_mm4(radius_mm, immersion.depth_mm);
@@ -47,13 +47,13 @@ Immersion sphereImmersion(const SolidField& field, const calibration::Point<cali
 }
 
 Immersion shapeImmersion(const ToolInBone& at) noexcept {
-  const ShapeOverlap overlap = shapeOverlap(at.field, at.head, at.X_PT, at.tissue);
+  const ShapeOverlap overlap = shapeOverlap(at.bodies, at.head, at.X_PT, at.tissue);
   Immersion immersion;
   immersion.volume_mm3 = overlap.volume_mm3;
   if (!(overlap.volume_mm3 > 0.0)) return immersion;
 
   // The direction first: the depth of a volume depends on the angle of the axis to the face.
-  const double s = at.field.grid.spacing_mm, found_mm2 = glm::length(overlap.area_P_mm2.xyz);
+  const double s = at.bodies.spacing_mm(), found_mm2 = glm::length(overlap.area_P_mm2.xyz);
   const double cos_axis = axisCosine(at, overlap.area_P_mm2.xyz);
   // V/A is half the depth of a round head.
   const double layers = found_mm2 > 0.0 ? 2.0 * overlap.volume_mm3 / (found_mm2 * s) : 0.0;
@@ -78,10 +78,10 @@ Immersion shapeImmersion(const ToolInBone& at) noexcept {
 
 Immersion immersionOf(const ToolInBone& at) noexcept {
   Immersion immersion = at.head.kind == ShapeKind::sphere
-                            ? sphereImmersion(at.field, {at.X_PT.translation_mm}, at.head.radius_mm, &at.tissue)
+                            ? sphereImmersion(at.bodies, {at.X_PT.translation_mm}, at.head.radius_mm, &at.tissue)
                             : shapeImmersion(at);
   // An unlabelled volume has one tissue.
-  if (at.field.label == nullptr) immersion.tissue_factor = at.tissue.factor[0];
+  if (!at.bodies.isLabelled()) immersion.tissue_factor = at.tissue.factor[0];
   return immersion;
 }
 

@@ -25,7 +25,7 @@ struct Immersion {
 Immersion immersionOf(const ToolInBone& at) noexcept;
 
 /// Of a sphere; without `tissue` every factor is 1, which is cheaper.
-Immersion sphereImmersion(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+Immersion sphereImmersion(const SolidBodies& bodies, const calibration::Point<calibration::Patient>& centre_P,
                           double radius_mm, const TissueStiffness* tissue = nullptr) noexcept;
 /// Of any head by the bone's surface inside it.
 Immersion shapeImmersion(const ToolInBone& at) noexcept;

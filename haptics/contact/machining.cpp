@@ -27,13 +27,13 @@ struct Engagement {
 Engagement engagement(const ToolInBone& at, const glm::dvec3& normal_P, double depth_mm) {
   const double length = glm::length(normal_P);
   if (length < 1e-6) return {{0.0, 0.0, -1.0}, at.head.radius_mm};
-  return {glm::conjugate(at.X_PT.rotation) * (-normal_P / length), depth_mm + 1.5 * at.field.grid.spacing_mm};
+  return {glm::conjugate(at.X_PT.rotation) * (-normal_P / length), depth_mm + 1.5 * at.bodies.spacing_mm()};
 }
 
 /// Calls visit(patch, solid, label) for every patch of the head that is in bone.
 template <class Visit>
 void visitEngaged(const ToolInBone& at, const Engagement& where, Visit&& visit) {
-  const ToolSampler sampler(at.field, at.X_PT);
+  const ToolSampler sampler(at.bodies, at.X_PT);
   visitHeadSurface(at.head, where.towards_T, where.reach_mm, [&](const Patch& patch) {
     const FieldSample sample = sampler.at(patch.position_T);
     if (sample.solid > 0.0) visit(patch, sample.solid, sample.label < assets::kTissueCount ? sample.label : 0);
@@ -113,7 +113,7 @@ double rimStiffness_N_per_mm(const MachiningParameters& parameters, const ToolIn
 Contact overlapContact(const ToolInBone& at) {
   const bool ball = at.head.kind == ShapeKind::sphere;
   const Immersion immersion =
-      ball ? sphereImmersion(at.field, {at.X_PT.translation_mm}, at.head.radius_mm) : shapeImmersion(at);
+      ball ? sphereImmersion(at.bodies, {at.X_PT.translation_mm}, at.head.radius_mm) : shapeImmersion(at);
   Contact contact;
   contact.normal_P = immersion.normal_P;
   contact.depth_mm = immersion.depth_mm;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "haptics/bone/lens_curve.h"
 #include "haptics/bone/voxel_sphere.h"
@@ -121,20 +122,37 @@ SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field, const Point<Pat
   return scaled(volume, moment, grey, stiff, field.grid.spacing_mm);
 }
 
-std::uint8_t dominantLabel(const SolidField& field, const Point<Patient>& centre_P, double radius_mm) noexcept {
-  if (field.label == nullptr || !(radius_mm > 0.0)) return 0;
-  const glm::dvec3 centre = field.grid.indexFromPoint(centre_P.mm);
-  const double radius = radius_mm / field.grid.spacing_mm;
-  if (boxOf(field, centre, radius).empty()) return 0;
-  // Four concentric balls, closer together towards the surface.
+SphereOverlap sphereOverlap(const SolidBodies& bodies, const Point<Patient>& centre_P, double radius_mm,
+                            const TissueStiffness* tissue) noexcept {
+  const std::span<const SolidBody> all = bodies.bodies();
+  SphereOverlap sum = sphereOverlap(all.front().field, centre_P, radius_mm, tissue);
+  for (const SolidBody& body : all.subspan(1)) {
+    const SphereOverlap part = sphereOverlap(body.field, body.inBody(centre_P), radius_mm, tissue);
+    sum.volume_mm3 += part.volume_mm3;
+    sum.first_moment_P_mm4 = sum.first_moment_P_mm4 + body.fromBody(part.first_moment_P_mm4);
+    sum.grey_mm3 += part.grey_mm3;
+    sum.stiff_mm3 += part.stiff_mm3;
+  }
+  return sum;
+}
+
+std::uint8_t dominantLabel(const SolidBodies& bodies, const Point<Patient>& centre_P, double radius_mm) noexcept {
+  if (!bodies.isLabelled() || !(radius_mm > 0.0)) return 0;
   std::array<std::uint32_t, 256> weight{};
-  for (const glm::dvec3& direction : kSpiral)
-    for (const double part : {0.98, 0.88, 0.7, 0.4}) {
-      const glm::ivec3 ijk(glm::floor(centre + part * radius * direction + 0.5));
-      if (!field.grid.contains(ijk)) continue;
-      const std::size_t offset = field.offsetOf(ijk);
-      weight[field.label[offset]] += static_cast<std::uint32_t>(field.solid[offset]);
-    }
+  for (const SolidBody& body : bodies.bodies()) {
+    const SolidField& field = body.field;
+    const glm::dvec3 centre = field.grid.indexFromPoint(body.inBody(centre_P).mm);
+    const double radius = radius_mm / field.grid.spacing_mm;
+    if (boxOf(field, centre, radius).empty()) continue;
+    // Four concentric balls, closer together towards the surface.
+    for (const glm::dvec3& direction : kSpiral)
+      for (const double part : {0.98, 0.88, 0.7, 0.4}) {
+        const glm::ivec3 ijk(glm::floor(centre + part * radius * direction + 0.5));
+        if (!field.grid.contains(ijk)) continue;
+        const std::size_t offset = field.offsetOf(ijk);
+        weight[field.label[offset]] += static_cast<std::uint32_t>(field.solid[offset]);
+      }
+  }
   const auto most = std::max_element(weight.begin(), weight.end());
   return *most == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(most - weight.begin());
 }

@@ -10,7 +10,7 @@
 #include "assets/instruction_set.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
-#include "haptics/bone/solid_field.h"
+#include "haptics/body/solid_bodies.h"
 #include "haptics/contact/contact.h"
 
 namespace haptics {
@@ -27,13 +27,17 @@ SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<ca
                             double radius_mm, const TissueStiffness* tissue = nullptr,
                             assets::InstructionSet set = assets::chosenInstructionSet()) noexcept;
 
+/// The sum over several bodies.
+SphereOverlap sphereOverlap(const SolidBodies& bodies, const calibration::Point<calibration::Patient>& centre_P,
+                            double radius_mm, const TissueStiffness* tissue = nullptr) noexcept;
+
 /// The same sum voxel by voxel in double: for burs of less than three voxels' radius, tests and benchmarks.
 SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field,
                                         const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
                                         const TissueStiffness* tissue = nullptr) noexcept;
 
 /// The label with the largest part of the bur, from 192 samples; 0 without bone.
-std::uint8_t dominantLabel(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+std::uint8_t dominantLabel(const SolidBodies& bodies, const calibration::Point<calibration::Patient>& centre_P,
                            double radius_mm) noexcept;
 
 }  // namespace haptics

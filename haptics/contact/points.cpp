@@ -50,7 +50,7 @@ void visitSamplePoints(const BurShape& head, Visit&& visit) {
 Cloud cloudIn(const ToolInBone& at) {
   Cloud cloud;
   const double half = 0.5 * at.head.length_mm;
-  const ToolSampler sampler(at.field, at.X_PT);
+  const ToolSampler sampler(at.bodies, at.X_PT);
   visitSamplePoints(at.head, [&](const glm::dvec3& position_T) {
     cloud.all += 1.0;
     const FieldSample sample = sampler.at(position_T);
@@ -166,7 +166,7 @@ Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, 
   if (cloud.count <= 0.0) return contact;
   const double share = cloud.count / cloud.all;
   contact.volume_mm3 = share * volume_mm3(at.head);
-  const Reading reading = readCloud(at.head, cloud, contact.volume_mm3, at.field.grid.spacing_mm);
+  const Reading reading = readCloud(at.head, cloud, contact.volume_mm3, at.bodies.spacing_mm());
   contact.depth_mm = reading.depth_mm;
   contact.normal_P.xyz = at.X_PT.rotation * reading.out_T;
   // No direction wholly inside bone.

@@ -25,7 +25,7 @@ double lyingDepth_mm(double moment_mm4, double area_mm2, double radius_mm, doubl
 
 }  // namespace
 
-Contact shaftContact(const SolidField& field, const Tool& tool,
+Contact shaftContact(const SolidBodies& bodies, const Tool& tool,
                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                      const TissueStiffness& tissue, double stiffness_N_per_mm) noexcept {
   // The rod with its round ends reaches from the head's top to the shaft's end.
@@ -34,7 +34,7 @@ Contact shaftContact(const SolidField& field, const Tool& tool,
   if (!(r > 0.0) || !(core >= 0.0)) return {};
   const double middle = top + r + 0.5 * core;
   const glm::dvec3 axis_P = X_PT.rotation * glm::dvec3(0.0, 0.0, 1.0);
-  const ShapeOverlap overlap = shapeOverlap(field, {ShapeKind::capsule, r, core},
+  const ShapeOverlap overlap = shapeOverlap(bodies, {ShapeKind::capsule, r, core},
                                             {X_PT.rotation, X_PT.translation_mm + middle * axis_P}, tissue);
   Contact contact;
   contact.volume_mm3 = overlap.volume_mm3;
@@ -42,7 +42,7 @@ Contact shaftContact(const SolidField& field, const Tool& tool,
   const glm::dvec3 centroid = overlap.first_moment_P_mm4.xyz / overlap.volume_mm3;
   const double off_axis_mm = glm::length(centroid - glm::dot(centroid, axis_P) * axis_P);
   const double area_mm2 = glm::length(overlap.area_P_mm2.xyz);
-  contact.depth_mm = lyingDepth_mm(off_axis_mm * overlap.volume_mm3, area_mm2, r, field.grid.spacing_mm);
+  contact.depth_mm = lyingDepth_mm(off_axis_mm * overlap.volume_mm3, area_mm2, r, bodies.spacing_mm());
   if (contact.depth_mm <= 0.0) return contact;
 
   contact.one_sided = std::min(1.0, off_axis_mm / (r - 0.4 * contact.depth_mm));

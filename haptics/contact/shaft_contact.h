@@ -14,7 +14,7 @@
 namespace haptics {
 
 /// Zero without a shaft, or if the head covers it.
-Contact shaftContact(const SolidField& field, const Tool& tool,
+Contact shaftContact(const SolidBodies& bodies, const Tool& tool,
                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                      const TissueStiffness& tissue, double stiffness_N_per_mm) noexcept;
 

@@ -297,4 +297,20 @@ ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
   return scaled(blocks.sums(), bur, field.grid.spacing_mm);
 }
 
+ShapeOverlap shapeOverlap(const SolidBodies& bodies, const BurShape& shape,
+                          const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+                          const TissueStiffness& tissue) noexcept {
+  const std::span<const SolidBody> all = bodies.bodies();
+  ShapeOverlap sum = shapeOverlap(all.front().field, shape, X_PT, tissue);
+  for (const SolidBody& body : all.subspan(1)) {
+    const ShapeOverlap part = shapeOverlap(body.field, shape, body.inBody(X_PT), tissue);
+    sum.volume_mm3 += part.volume_mm3;
+    sum.first_moment_P_mm4 = sum.first_moment_P_mm4 + body.fromBody(part.first_moment_P_mm4);
+    sum.area_P_mm2 = sum.area_P_mm2 + body.fromBody(part.area_P_mm2);
+    sum.stiff_mm3 += part.stiff_mm3;
+    sum.grey_mm3 += part.grey_mm3;
+  }
+  return sum;
+}
+
 }  // namespace haptics

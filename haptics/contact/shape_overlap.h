@@ -6,7 +6,7 @@
 // has no area.
 #pragma once
 
-#include "haptics/bone/solid_field.h"
+#include "haptics/body/solid_bodies.h"
 #include "haptics/contact/contact.h"
 #include "haptics/tool/bur_shape.h"
 
@@ -24,6 +24,11 @@ struct ShapeOverlap {
 
 /// Zero for an invalid shape or pose.
 ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
+                          const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+                          const TissueStiffness& tissue) noexcept;
+
+/// The sum over several bodies.
+ShapeOverlap shapeOverlap(const SolidBodies& bodies, const BurShape& shape,
                           const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                           const TissueStiffness& tissue) noexcept;
 

@@ -16,7 +16,7 @@ double slope_N_per_mm(const ShellParameters& parameters, const ToolInBone& at, c
   if (at.head.kind == ShapeKind::sphere)
     return std::max(0.0,
                     2.0 * calibration::kPi * parameters.shell_N_per_mm3 * (at.head.radius_mm - immersion.depth_mm));
-  return force_N / std::max(immersion.depth_mm, at.field.grid.spacing_mm);
+  return force_N / std::max(immersion.depth_mm, at.bodies.spacing_mm());
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ Contact shellContact(const ShellParameters& parameters, const ToolInBone& at) no
 
   // The pressure on each point's patch, in T.
   const HeadProfile profile(at.head);
-  const ToolSampler sampler(at.field, at.X_PT);
+  const ToolSampler sampler(at.bodies, at.X_PT);
   glm::dvec3 force(0.0), torque(0.0);
   double pressed = 0.0, bare = 0.0;
   visitSurfacePoints(profile, kShellPoints, [&](const glm::dvec3& position_T, const glm::dvec3& normal_T) {

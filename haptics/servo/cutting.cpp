@@ -15,10 +15,10 @@ ToolMotion Cutting::motion(const calibration::Vector<calibration::Patient>& velo
   return {velocity_P_mm_per_s, spindle_.rad_per_s, dt_s, spindle_.vibration_phase_rad};
 }
 
-CarveResult Cutting::cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
+CarveResult Cutting::cut(Bodies& bodies, StrokeHistory& strokes, const ErosionSettings& erosion,
                          const SpindleSettings& spindle, const LawSettings& law, const Engagement& engaged,
                          bool allowed, double dt_s, std::uint64_t tick) noexcept {
-  const calibration::Point<calibration::Patient> here_P{engaged.X_PQ.translation_mm};
+  const calibration::Point<calibration::Patient> here_P{engaged.X_PT.translation_mm};
   if (!(engaged.contact.volume_mm3 > 0.0)) {
     erosion_state_ = {};
     load_Nmm_ = 0.0;
@@ -27,13 +27,12 @@ CarveResult Cutting::cut(CarvedBone& bone, StrokeHistory& strokes, const Erosion
   }
 
   // The feed of the proxy, not of the hand: a bur held by the bone sweeps nothing.
-  const SolidField field = bone.field();
   ToolMotion feed = motion({}, dt_s);
   if (was_in_bone_) feed.velocity_P_mm_per_s = (1.0 / dt_s) * (here_P - last_P_);
   last_P_ = here_P;
   was_in_bone_ = true;
 
-  const ToolInBone at{field, engaged.head, engaged.X_PQ, law.tissue, feed};
+  const ToolInBone at{bodies.view(), engaged.head, engaged.X_PT, law.tissue, feed};
   const double length = glm::length(engaged.contact.normal_P.xyz);
   const double pressing_N = length > 0.0 ? glm::dot(engaged.force_P_N.xyz, engaged.contact.normal_P.xyz) / length : 0.0;
   const CutConditions conditions = cutConditions(erosion, spindle, at, engaged.contact, pressing_N);
@@ -44,8 +43,8 @@ CarveResult Cutting::cut(CarvedBone& bone, StrokeHistory& strokes, const Erosion
   const ErosionStep step = erosionStep(erosion, conditions, erosion_state_);
   CarveResult removed;
   if (!step.isZero())
-    removed =
-        carveTool(bone, engaged.head, engaged.X_PQ, step, tick, carveInterleave(bone, engaged.head, step), &strokes);
+    removed = carveTool(bodies, engaged.head, engaged.X_PT, step, tick,
+                        carveInterleave(bodies.jaw(), engaged.head, step), &strokes);
   erosion_state_ = updatedErosion(erosion, conditions, erosion_state_, removed.removed_mm3_by_label);
   return removed;
 }

@@ -3,7 +3,7 @@
 // contact and one cut() after it. Cost: bone/carve and contact/cut_conditions. No allocation, no throw.
 #pragma once
 
-#include "haptics/bone/carve.h"
+#include "haptics/body/bodies.h"
 #include "haptics/contact/cut_conditions.h"
 #include "haptics/contact/law_settings.h"
 #include "haptics/tool/spindle.h"
@@ -14,7 +14,7 @@ class Cutting {
  public:
   /// The head at the proxy this tick.
   struct Engagement {
-    calibration::Pose<calibration::Patient, calibration::Tool> X_PQ;
+    calibration::Pose<calibration::Patient, calibration::Tool> X_PT;
     BurShape head;
     Contact contact;
     calibration::Vector<calibration::Patient> force_P_N;  ///< of head, shaft and spring
@@ -27,7 +27,7 @@ class Cutting {
   ToolMotion motion(const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s, double dt_s) const noexcept;
 
   /// Removes bone by the erosion law; nothing with `allowed` false. Changed blocks are saved to `strokes`.
-  CarveResult cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
+  CarveResult cut(Bodies& bodies, StrokeHistory& strokes, const ErosionSettings& erosion,
                   const SpindleSettings& spindle, const LawSettings& law, const Engagement& engaged, bool allowed,
                   double dt_s, std::uint64_t tick) noexcept;
 

@@ -111,7 +111,7 @@ double Proxy::State::maxStored_Nmm() const {
   return stored_Nmm + (spring_N_per_mm * pull_mm + all_N) * pull_mm;
 }
 
-Proxy::State Proxy::update(const SolidField& field, const LawSettings& law, const Tool& tool,
+Proxy::State Proxy::update(const SolidBodies& bodies, const LawSettings& law, const Tool& tool,
                            const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
                            double max_stiffness_N_per_mm) noexcept {
   // Steps are so short that no plate fits between two evaluations; a micrometre is not worth another.
@@ -120,8 +120,7 @@ Proxy::State Proxy::update(const SolidField& field, const LawSettings& law, cons
   if (with_shaft) longest_mm = std::min(longest_mm, 0.5 * tool.shaft.radius_mm);
   const double enough_mm = 1e-3;
   // Fewer evaluations where they are expensive: the proxy continues in the next tick.
-  const int max_evaluations =
-      tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMaxEvaluations / 2 : kMaxEvaluations;
+  const int max_evaluations = tool.head.radius_mm > 25.0 * bodies.spacing_mm() ? kMaxEvaluations / 2 : kMaxEvaluations;
   const double deepest_mm = maxLawDepth_mm(tool.head);
   const double shaft_deepest_mm = with_shaft ? kShaftDepth * tool.shaft.radius_mm : 1.0;
 
@@ -142,7 +141,7 @@ Proxy::State Proxy::update(const SolidField& field, const LawSettings& law, cons
   State now;
   Contact bare;
   glm::dvec3 last_move(0.0);
-  const auto at = [&] { return ToolInBone{field, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion}; };
+  const auto at = [&] { return ToolInBone{bodies, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion}; };
   while (now.evaluations < max_evaluations) {
     const glm::dvec3 to_hand = hand_mm - proxy_P_.mm;
     glm::dvec3 move = allowed(to_hand, constraintOf(head_, deepest_mm), constraintOf(shaft_, shaft_deepest_mm));
@@ -165,7 +164,7 @@ Proxy::State Proxy::update(const SolidField& field, const LawSettings& law, cons
     // The shaft is a wall with Agus's stiffness under every law.
     if (with_shaft)
       shaft_ =
-          softened(shaftContact(field, tool, {X_PT.rotation, proxy_P_.mm}, law.tissue, law.agus.stiffness_N_per_mm),
+          softened(shaftContact(bodies, tool, {X_PT.rotation, proxy_P_.mm}, law.tissue, law.agus.stiffness_N_per_mm),
                    max_stiffness_N_per_mm);
     ++now.evaluations;
   }
@@ -187,13 +186,13 @@ Proxy::State Proxy::update(const SolidField& field, const LawSettings& law, cons
   return now;
 }
 
-Proxy::State Proxy::passThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
+Proxy::State Proxy::passThrough(const SolidBodies& bodies, const LawSettings& law, const Tool& tool,
                                 const calibration::Pose<Patient, calibration::Tool>& X_PT,
                                 const ToolMotion& motion) noexcept {
   release();
   law_state_ = {};
-  const Contact head = contactOf(law, {field, tool.head, X_PT, law.tissue, motion}, law_state_);
-  const Contact shaft = shaftContact(field, tool, X_PT, law.tissue, 0.0);
+  const Contact head = contactOf(law, {bodies, tool.head, X_PT, law.tissue, motion}, law_state_);
+  const Contact shaft = shaftContact(bodies, tool, X_PT, law.tissue, 0.0);
   State now;
   now.evaluations = 1;
   now.proxy_P.mm = X_PT.translation_mm;

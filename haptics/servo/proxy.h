@@ -42,12 +42,12 @@ class Proxy {
   };
 
   /// Moves the proxy towards the hand as far as the bone allows. A law steeper than the limit is scaled down.
-  State update(const SolidField& field, const LawSettings& law, const Tool& tool,
+  State update(const SolidBodies& bodies, const LawSettings& law, const Tool& tool,
                const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
                double max_stiffness_N_per_mm) noexcept;
 
   /// Follows the hand through bone without force: one evaluation there for depth and volume. Afterwards as release().
-  State passThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
+  State passThrough(const SolidBodies& bodies, const LawSettings& law, const Tool& tool,
                     const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                     const ToolMotion& motion) noexcept;
 

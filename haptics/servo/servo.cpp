@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/bone/carve.h"
 #include "haptics/contact/law_parameters.h"
 #include "haptics/contact/overlap.h"
 
@@ -40,7 +39,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.state = admitted.state;
 
   // Undo before the bone is evaluated.
-  const double restored_mm3 = undo_.restore(bone_, {command.undo_serial, command.redo_serial}, command.tool, X_PQ_);
+  const double restored_mm3 =
+      undo_.restore(bodies_, {command.undo_serial, command.redo_serial}, command.tool, at_proxy_X_PT_);
   const bool embedded = undo_.isToolEmbedded();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
@@ -57,17 +57,17 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
-  const Proxy::State proxy = embedded ? proxy_.passThrough(bone_.field(), command.law, command.tool, soft.X_PT, motion)
-                                      : proxy_.update(bone_.field(), command.law, command.tool, soft.X_PT, motion,
+  const SolidBodies bodies = bodies_.view();
+  const Proxy::State proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)
+                                      : proxy_.update(bodies, command.law, command.tool, soft.X_PT, motion,
                                                       command.safety.max_stiffness_N_per_mm);
   if (embedded && !proxy.touches()) undo_.release();
-  X_PQ_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
+  at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
   tick.proxy_P = proxy.proxy_P;
   tick.overlap_mm3 = proxy.head.volume_mm3;
   tick.depth_mm = proxy.head.depth_mm;
-  tick.contact_tissue = proxy.head.depth_mm > 0.0
-                            ? dominantLabel(bone_.field(), proxy.proxy_P, command.tool.head.radius_mm)
-                            : std::uint8_t{0};
+  tick.contact_tissue =
+      proxy.head.depth_mm > 0.0 ? dominantLabel(bodies, proxy.proxy_P, command.tool.head.radius_mm) : std::uint8_t{0};
 
   // The law's wrench, then the commanded one.
   tick.law_force_P_N = proxy.force_P_N() + dampingForce_N(command.law, proxy.touching(), valid.velocity_P_mm_per_s);
@@ -88,16 +88,16 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.faults = tick.faults | delivered.faults;
 
   // The bur cuts at the proxy.
-  const Cutting::Engagement at{X_PQ_, command.tool.head, embedded ? Contact{} : proxy.head, proxy.force_P_N()};
-  const CarveResult removed = cutting_.cut(bone_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
+  const Cutting::Engagement at{at_proxy_X_PT_, command.tool.head, embedded ? Contact{} : proxy.head, proxy.force_P_N()};
+  const CarveResult removed = cutting_.cut(bodies_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
                                            tick.drilling, tick.dt_s, tick.index);
   undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, proxy.proxy_P, removed.removed_mm3, tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
   tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());
   tick.undone_strokes = static_cast<std::uint8_t>(undo_.strokes().undoneStrokes());
   tick.restored_total_mm3 = undo_.restoredTotal_mm3();
-  tick.bone_digest = bone_.digest();
-  tick.removed_total_mm3 = bone_.removedByTissue_mm3();
+  tick.bone_digest = bodies_.digest();
+  tick.removed_total_mm3 = bodies_.removedByTissue_mm3();
   return tick;
 }
 

@@ -1,9 +1,9 @@
-// The servo step: bone, hand and command in, force out, bone carved. A pure function of its state: no clock, I/O,
-// allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only. Per step: undo, proxy
-// and law (at most 6 evaluations), delivery, carving; costs in haptics/README.
+// The servo step: bodies, hand and command in, force out, jaw and tooth carved. A pure function of its state: no clock,
+// I/O, allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only. Per step: undo,
+// proxy and law (at most 6 evaluations), delivery, carving; costs in haptics/README.
 #pragma once
 
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/safety/safety_layer.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/cutting.h"
@@ -20,16 +20,16 @@ Command sanitised(const Command& command);
 
 class Servo {
  public:
-  /// Borrows bone and soft tissue (null: none), which must outlive this; becomes the only writer of the bone. Allocates
-  /// the undo history.
-  explicit Servo(CarvedBone& bone, const assets::SoftTissueField* soft_tissue = nullptr)
-      : bone_(bone), soft_tissue_(soft_tissue), undo_(bone) {}
+  /// Borrows bodies and soft tissue (null: none), which must outlive this; becomes the only writer of the bodies.
+  /// Allocates the undo history.
+  explicit Servo(Bodies& bodies, const assets::SoftTissueField* soft_tissue = nullptr)
+      : bodies_(bodies), soft_tissue_(soft_tissue), undo_(bodies) {}
 
   /// One tick of length `dt_s`. Invalid input is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
 
  private:
-  CarvedBone& bone_;
+  Bodies& bodies_;
   const assets::SoftTissueField* soft_tissue_;
   SafetyLayer safety_;
   SoftHold soft_hold_;
@@ -37,7 +37,7 @@ class Servo {
   Cutting cutting_;
   Delivery delivery_;
   StrokeUndo undo_;
-  calibration::Pose<calibration::Patient, calibration::Tool> X_PQ_;  ///< the tool at the last proxy
+  calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false;
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;

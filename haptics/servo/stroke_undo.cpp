@@ -9,20 +9,20 @@
 namespace haptics {
 namespace {
 
-/// Overlap of head and shaft with the bone.
-double shared_mm3(const SolidField& field, const Tool& tool,
-                  const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) {
+/// Overlap of head and shaft with the bodies.
+double shared_mm3(const SolidBodies& bodies, const Tool& tool,
+                  const calibration::Pose<calibration::Patient, calibration::Tool>& at_X_PT) {
   const TissueStiffness tissue;
   const double by_head_mm3 = tool.head.kind == ShapeKind::sphere
-                                 ? sphereOverlap(field, {X_PQ.translation_mm}, tool.head.radius_mm).volume_mm3
-                                 : shapeOverlap(field, tool.head, X_PQ, tissue).volume_mm3;
-  return by_head_mm3 + shaftContact(field, tool, X_PQ, tissue, 1.0).volume_mm3;
+                                 ? sphereOverlap(bodies, {at_X_PT.translation_mm}, tool.head.radius_mm).volume_mm3
+                                 : shapeOverlap(bodies, tool.head, at_X_PT, tissue).volume_mm3;
+  return by_head_mm3 + shaftContact(bodies, tool, at_X_PT, tissue, 1.0).volume_mm3;
 }
 
 }  // namespace
 
-double StrokeUndo::restore(CarvedBone& bone, const Serials& serials, const Tool& tool,
-                           const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept {
+double StrokeUndo::restore(Bodies& bodies, const Serials& serials, const Tool& tool,
+                           const calibration::Pose<calibration::Patient, calibration::Tool>& at_X_PT) noexcept {
   // Limited to the strokes there are: surplus requests are dropped.
   constexpr std::uint64_t kMost = StrokeHistory::kMaxStrokes;
   const std::uint64_t undos = serials.undo > last_.undo ? std::min(serials.undo - last_.undo, kMost) : 0;
@@ -33,15 +33,16 @@ double StrokeUndo::restore(CarvedBone& bone, const Serials& serials, const Tool&
   if (!isRunning()) return 0.0;
 
   pedal_must_be_released_ = true;
-  const double shared_before_mm3 = shared_mm3(bone.field(), tool, X_PQ);
+  const double shared_before_mm3 = shared_mm3(bodies.view(), tool, at_X_PT);
   double volume_mm3 = 0.0;
   for (std::size_t left = kBlocksPerTick; left > 0 && isRunning();) {
     const bool undoes = target_ < strokes_.strokes();
-    const StrokeHistory::Restored restored = undoes ? strokes_.undo(bone, left) : strokes_.redo(bone, left);
+    const StrokeHistory::Restored restored =
+        undoes ? strokes_.undo(bodies.bones(), left) : strokes_.redo(bodies.bones(), left);
     volume_mm3 += restored.volume_mm3;
     left -= restored.blocks;
   }
-  embedded_ = embedded_ || shared_mm3(bone.field(), tool, X_PQ) > shared_before_mm3;
+  embedded_ = embedded_ || shared_mm3(bodies.view(), tool, at_X_PT) > shared_before_mm3;
   restored_total_mm3_ += volume_mm3;
   return volume_mm3;
 }

@@ -9,6 +9,7 @@
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/body/bodies.h"
 #include "haptics/bone/stroke_history.h"
 #include "haptics/servo/drill_inhibit.h"
 #include "haptics/servo/stroke_extent.h"
@@ -20,16 +21,17 @@ class StrokeUndo {
  public:
   static constexpr std::size_t kBlocksPerTick = 64;
 
-  explicit StrokeUndo(const CarvedBone& bone) : strokes_(bone) {}
+  explicit StrokeUndo(const Bodies& bodies) : strokes_(bodies.bones()) {}
 
   /// Each rise of a serial by one requests a stroke to undo or redo; a fall is ignored. Requests of both kinds in one
   /// tick cancel out.
   struct Serials {
     std::uint64_t undo = 0, redo = 0;
   };
-  /// First in a tick. Returns the mm3 restored, below 0 when redoing. `X_PQ`: the tool at the proxy of the last tick.
-  double restore(CarvedBone& bone, const Serials& serials, const Tool& tool,
-                 const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept;
+  /// First in a tick. Returns the mm3 restored, below 0 when redoing. `at_X_PT`: the tool at the proxy of the last
+  /// tick.
+  double restore(Bodies& bodies, const Serials& serials, const Tool& tool,
+                 const calibration::Pose<calibration::Patient, calibration::Tool>& at_X_PT) noexcept;
 
   bool isToolEmbedded() const { return embedded_; }
   /// The tool is out of the bone.

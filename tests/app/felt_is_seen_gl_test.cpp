@@ -7,6 +7,7 @@
 
 #include "app/view/brick_upload.h"
 #include "assets/synthetic/jaw.h"
+#include "haptics/body/bodies.h"
 #include "haptics/bone/carve.h"
 #include "haptics/contact/law.h"
 #include "render/display/camera.h"
@@ -95,9 +96,9 @@ struct Agreement {
 };
 
 /// Presses the bur into every visible point and compares the depth.
-Agreement agreementOf(const SeenPlaces& seen, const haptics::CarvedBone& bone) {
+Agreement agreementOf(const SeenPlaces& seen, const haptics::Bodies& bodies) {
   Agreement found;
-  const haptics::SolidField field = bone.field();
+  const haptics::SolidBodies field = bodies.view();
   const haptics::LawSettings law;
   for (int y = 0; y < kPx.y; y += 2)
     for (int x = 0; x < kPx.x; x += 2) {
@@ -121,7 +122,8 @@ class FeltIsSeen : public testing::TestWithParam<render::Backend> {};
 TEST_P(FeltIsSeen, WithinATwentiethOfAMillimetreBeforeAndAfterCarving) {
   const render::OffscreenContext context;
   const assets::CtVolume& ct = patient().ct;
-  haptics::CarvedBone bone(ct.grid, ct.solid, ct.label);
+  haptics::Bodies bone(ct.grid, ct.solid, ct.label, assets::voxelsOfTooth(ct, patient().operatedTooth()));
+  ASSERT_EQ(bone.pieces(), 1u);
   render::FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = GetParam()});
   const render::Frame frame = fromTheCheek();
   const auto look = [&] {

@@ -11,7 +11,7 @@ namespace {
 TEST(ServoRealTime, NeitherAllocatesNorBlocksInTenThousandTicksOfCarving) {
   if (ForbidBlocking::countsNothing()) GTEST_SKIP() << "a sanitizer owns malloc: nothing can be counted";
   const app::test::BoneBlock block;
-  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Bodies bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
   haptics::TickLog log(1000);
   haptics::Latest<haptics::Command> commands(block.start().command);

@@ -175,7 +175,7 @@ void ticks() {
   volatile double sink = 0.0;
   for (double s : {0.2, 0.1})
     for (double R : {1.0, 2.0, 4.0}) {
-      CarvedBone bone = halfSpace(R + 6.0, s).bone(1);
+      Bodies bone = halfSpace(R + 6.0, s).bodies(1);
       Servo servo(bone);
       Command command;
       command.tool.head.radius_mm = R;

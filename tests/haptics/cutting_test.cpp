@@ -26,7 +26,7 @@ constexpr std::uint8_t kCortical = 1, kTrabecular = 2, kEnamel = 4;
 
 /// A hand that holds a bur somewhere and presses with a force of its choosing.
 struct Bench {
-  CarvedBone bone;
+  Bodies bone;
   StrokeHistory strokes;
   ErosionSettings erosion;
   SpindleSettings spindle;
@@ -36,7 +36,8 @@ struct Bench {
   double pressing_N = 1.5, removed_mm3 = 0.0, granted_mm3 = 0.0;
   std::uint64_t tick = 0;
 
-  Bench(const Phantom& phantom, std::uint8_t label, ErosionKind kind) : bone(phantom.bone(label)), strokes(bone) {
+  Bench(const Phantom& phantom, std::uint8_t label, ErosionKind kind)
+      : bone(phantom.bodies(label)), strokes(bone.bones()) {
     erosion.kind = kind;
     spindle.bearing_torque_Nmm = 0.0;
     for (int n = 0; n < 1000; ++n) cutting.turn(spindle, true, 1e-3);
@@ -45,7 +46,7 @@ struct Bench {
   void step(const glm::dvec3& place, double dt_s, bool pedal = true) {
     cutting.turn(spindle, pedal, dt_s);
     const calibration::Pose<Patient, Tool> X_PT{glm::rotation(glm::dvec3(0, 0, 1), axis_P), place};
-    const SolidField field = bone.field();
+    const SolidBodies field = bone.view();
     const BurShape head{ShapeKind::sphere, kRadius_mm, 0.0};
     const ToolInBone at{field, head, X_PT, law.tissue, cutting.motion({}, dt_s)};
     const Contact contact = contactOf(law, at);

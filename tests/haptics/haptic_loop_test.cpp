@@ -81,7 +81,7 @@ class HangingDevice final : public PressedDevice {
 };
 
 struct Bench {
-  CarvedBone bone = halfSpace(4.0, 0.25).bone(1);
+  Bodies bone = halfSpace(4.0, 0.25).bodies(1);
   Servo servo{bone};
   Latest<Command> commands;
   TickLog log;

@@ -11,7 +11,7 @@ namespace haptics {
 
 class HeldPhantom {
  public:
-  HeldPhantom(const PhantomMechanics& mechanics, const HandScript& script, const Grip& grip, CarvedBone bone,
+  HeldPhantom(const PhantomMechanics& mechanics, const HandScript& script, const Grip& grip, Bodies bone,
               const Command& command)
       : bone_(std::move(bone)), servo_(bone_), device_(mechanics, script, grip), command_(command) {}
 
@@ -34,7 +34,7 @@ class HeldPhantom {
   glm::dvec3 velocity_mm_per_s() const { return device_.velocity_D_mm_per_s().xyz; }
 
  private:
-  CarvedBone bone_;
+  Bodies bone_;
   Servo servo_;
   SimulatedPhantom device_;
   Command command_;

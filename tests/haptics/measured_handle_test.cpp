@@ -129,7 +129,7 @@ TEST(HapticLoop, WithAMeasuredArmFeelsTheBoneWhereAndAsItIsSeen) {
     Pose<World, Device> X_WD = crooked();
     X_WD.translation_mm = wanted_W_mm - X_WD.rotation * (held_DH * Point<Handle>{arm.truth.tip_H_mm}).mm;
 
-    CarvedBone bone = halfSpace(4.0, 0.25).bone(1);
+    Bodies bone = halfSpace(4.0, 0.25).bodies(1);
     Servo servo(bone);
     Latest<Command> commands;
     TickLog log;

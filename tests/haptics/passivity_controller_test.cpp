@@ -129,7 +129,7 @@ struct Account {
 };
 
 Account held(
-    CarvedBone& bone, const Command& command, double rate_Hz, double seconds,
+    Bodies& bone, const Command& command, double rate_Hz, double seconds,
     const std::function<glm::dvec3(double)>& place_at,
     const std::function<void(int, Command&)>& change = [](int, Command&) {}) {
   Servo servo(bone);
@@ -159,7 +159,7 @@ Account held(
 TEST(ServoPassivity, LeavesFlatBoneAlone) {
   const Phantom phantom = halfSpace(5.0, 0.2, glm::normalize(glm::dvec3(0.2, -0.1, 1.0)));
   for (double rate_Hz : {1000.0, 4000.0, 10'000.0}) {
-    CarvedBone bone = phantom.bone();
+    Bodies bone = phantom.bodies();
     // In and out four times, up to 100 mm/s, 1.5 mm deep.
     const Account account = held(bone, {}, rate_Hz, 0.8, [](double t) {
       return glm::dvec3(0.4 * std::sin(7.0 * t), 0.2, 2.3 - 1.8 * (0.5 - 0.5 * std::cos(31.4 * t)));
@@ -177,7 +177,7 @@ TEST(ServoPassivity, NeverFeedsTheHandAroundAnEdge) {
   // Twenty times round a loop at the edge, both ways: Agus's law alone gives 1 to 1.8 % of the work of the path.
   const Phantom phantom = edge(4.5, 0.2);
   for (double direction : {-1.0, 1.0}) {
-    CarvedBone bone = phantom.bone();
+    Bodies bone = phantom.bodies();
     const Account account = held(bone, {}, 1000.0, 5.0, [&](double t) {
       const double angle = direction * 26.0 * t;
       return glm::dvec3(0.9 + 0.55 * std::cos(angle), 0.1, 0.9 + 0.55 * std::sin(angle));
@@ -225,7 +225,7 @@ Phantom randomBone(unsigned seed, double half_mm, double spacing_mm) {
 TEST(ServoPassivity, NeverFeedsAnyHandAnywhereUnderAnyLaw) {
   for (unsigned seed = 0; seed < 2; ++seed)
     for (const LawName& law : kLaws) {
-      CarvedBone bone = randomBone(seed, 5.0, 0.25).bone(1);
+      Bodies bone = randomBone(seed, 5.0, 0.25).bodies(1);
       WanderingHand hand(seed + 40, 1000.0, {0.3, -0.2, 0.1});
       Command command;
       command.law.kind = law.kind;
@@ -240,7 +240,7 @@ TEST(ServoPassivity, NeverFeedsAnyHandAnywhereUnderAnyLaw) {
 
 TEST(ServoPassivity, NeverFeedsTheHandWhenLawAndToolAreSwitchedUnderLoad) {
   for (unsigned seed = 0; seed < 4; ++seed) {
-    CarvedBone bone = randomBone(seed, 5.0, 0.25).bone(1);
+    Bodies bone = randomBone(seed, 5.0, 0.25).bodies(1);
     WanderingHand hand(seed + 70, 1000.0, {0.3, -0.2, 0.1});
     std::mt19937 random(seed);
     const Account account = held(
@@ -259,7 +259,7 @@ TEST(ServoPassivity, NeverFeedsTheHandWhenLawAndToolAreSwitchedUnderLoad) {
 
 TEST(ServoPassivity, CountsTheWorkOfTurningALongToolWithItsShaft) {
   for (unsigned seed = 0; seed < 2; ++seed) {
-    CarvedBone bone = randomBone(seed, 6.0, 0.25).bone(1);
+    Bodies bone = randomBone(seed, 6.0, 0.25).bodies(1);
     Servo servo(bone);
     Command command;
     command.tool = {{ShapeKind::capsule, 0.8, 1.5}, {0.6, 9.0}};

@@ -12,6 +12,7 @@
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/body/bodies.h"
 #include "haptics/bone/carved_bone.h"
 #include "haptics/bone/cubelets.h"
 
@@ -33,6 +34,7 @@ struct Phantom {
     const std::vector<std::uint8_t> labels(solid.size(), label);
     return CarvedBone(grid, solid, labels);
   }
+  Bodies bodies(std::uint8_t label = 0) const { return Bodies(bone(label)); }
   mutable std::optional<Cubelets> cubelets{};
 };
 

@@ -14,7 +14,7 @@ using namespace phantom;
 /// A hand that presses, slides, drills and lets go, while law, tool and stiffness are switched in its hand: the force
 /// it gets, every millisecond.
 std::vector<glm::dvec3> course(double rate_Hz, double& roughest_N) {
-  CarvedBone bone = filled(6.0, 0.2, [](const glm::dvec3& p) { return p.z + 0.2 * std::sin(p.x); }).bone(1);
+  Bodies bone = filled(6.0, 0.2, [](const glm::dvec3& p) { return p.z + 0.2 * std::sin(p.x); }).bodies(1);
   Servo servo(bone);
   Command command;
   const double dt_s = 1.0 / rate_Hz;
@@ -60,7 +60,7 @@ TEST(ServoRate, SwitchesAndCutsWithoutAKnockAtAnyRate) {
   std::mt19937 random(5);
   const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   for (double rate_Hz : {1000.0, 4000.0, 10'000.0}) {
-    CarvedBone bone = filled(5.0, 0.25, [](const glm::dvec3& p) { return p.z + 0.4 * std::sin(2.0 * p.y); }).bone(1);
+    Bodies bone = filled(5.0, 0.25, [](const glm::dvec3& p) { return p.z + 0.4 * std::sin(2.0 * p.y); }).bodies(1);
     Servo servo(bone);
     Command command;
     glm::dvec3 last(0.0);

@@ -25,7 +25,7 @@ HandSample handAt(const glm::dvec3& p, bool pedal = false) {
 
 /// A session of the scripted hand on flat bone; every tick through a log.
 std::vector<Tick> session(double seconds) {
-  CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
+  Bodies bone = halfSpace(12.0, 0.25).bodies(1);
   Servo servo(bone);
   assets::StraightCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
@@ -55,7 +55,7 @@ std::vector<Tick> session(double seconds) {
 TEST(Servo, ReplaysBitForBit) {
   const std::vector<Tick> recorded = session(1.5);
   ASSERT_EQ(recorded.size(), 1500u);
-  CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
+  Bodies bone = halfSpace(12.0, 0.25).bodies(1);
   Servo servo(bone);
   Command command;
   command.tool.head.radius_mm = 1.5;
@@ -92,9 +92,9 @@ TEST(Servo, CutsATroughUnderTheScriptedHand) {
 }
 
 TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
-  CarvedBone bone = filled(5.0, 0.25, [](const glm::dvec3& p) {
-                      return std::sin(1.3 * p.x) + std::sin(1.7 * p.y) + std::sin(1.1 * p.z) + 0.5;
-                    }).bone(1);
+  Bodies bone = filled(5.0, 0.25, [](const glm::dvec3& p) {
+                  return std::sin(1.3 * p.x) + std::sin(1.7 * p.y) + std::sin(1.1 * p.z) + 0.5;
+                }).bodies(1);
   Servo servo(bone);
   Command command;
   command.tool.head.radius_mm = 1.0;
@@ -123,7 +123,7 @@ TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
 }
 
 TEST(Servo, HoldsAndLetsGoWhenThePoseIsAbsurd) {
-  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Bodies bone = halfSpace(4.0, 0.2).bodies();
   Servo servo(bone);
   Tick tick;
   for (int i = 0; i < 50; ++i) tick = servo.step(handAt({0.0, 0.0, 1.0}), {}, 1e-3);
@@ -144,7 +144,7 @@ TEST(Servo, HoldsAndLetsGoWhenThePoseIsAbsurd) {
 }
 
 TEST(Servo, AcceptsADeviceThatStaysFarAway) {
-  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Bodies bone = halfSpace(4.0, 0.2).bodies();
   Servo servo(bone);
   servo.step(handAt({0.0, 0.0, 50.0}), {}, 1e-3);
   Tick tick;
@@ -154,7 +154,7 @@ TEST(Servo, AcceptsADeviceThatStaysFarAway) {
 }
 
 TEST(Servo, LetsGoWhenTheDeviceIsUnwell) {
-  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Bodies bone = halfSpace(4.0, 0.2).bodies();
   Servo servo(bone);
   HandSample hand = handAt({0.0, 0.0, 1.0});
   for (int i = 0; i < 50; ++i) servo.step(hand, {}, 1e-3);
@@ -167,7 +167,7 @@ TEST(Servo, LetsGoWhenTheDeviceIsUnwell) {
 
 TEST(Servo, ArmsWhereTheHandIsAndNotWhereItOnceCouldNotGo) {
   // Through a plate while docked: there is no force that could have stopped it.
-  CarvedBone bone = filled(4.0, 0.2, [](const glm::dvec3& p) { return std::abs(p.z) - 0.6; }).bone();
+  Bodies bone = filled(4.0, 0.2, [](const glm::dvec3& p) { return std::abs(p.z) - 0.6; }).bodies();
   Servo servo(bone);
   Command command;
   command.tool.head.radius_mm = 0.6;
@@ -188,7 +188,7 @@ TEST(Servo, ArmsWhereTheHandIsAndNotWhereItOnceCouldNotGo) {
 }
 
 TEST(Servo, CutsOnlyWithPedalAndPermission) {
-  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Bodies bone = halfSpace(4.0, 0.2).bodies();
   Servo servo(bone);
   Command off;
   off.drill_enabled = false;
@@ -211,7 +211,7 @@ TEST(Servo, AppliesOnlyValidPartsOfACommand) {
   EXPECT_EQ(safe.tool.head.radius_mm, Command{}.tool.head.radius_mm);
   EXPECT_EQ(safe.law.damping_Ns_per_mm, 0.0);
   EXPECT_EQ(safe.erosion.time.removal_rate_per_s, Command{}.erosion.time.removal_rate_per_s);
-  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Bodies bone = halfSpace(4.0, 0.2).bodies();
   Servo servo(bone);
   for (int i = 0; i < 10; ++i) {
     const Tick tick = servo.step(handAt({0.0, 0.0, 0.0}, true), command, nan);
@@ -222,7 +222,7 @@ TEST(Servo, AppliesOnlyValidPartsOfACommand) {
 }
 
 TEST(Servo, AllocatesNothingInTenThousandTicks) {
-  CarvedBone bone = halfSpace(4.0, 0.25).bone(1);
+  Bodies bone = halfSpace(4.0, 0.25).bodies(1);
   Servo servo(bone);
   TickLog log(10'000);
   Command command;

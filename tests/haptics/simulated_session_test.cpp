@@ -29,7 +29,7 @@ TEST(SimulatedSession, ArmsOnItsWayCarvesAndEndsWithoutForce) {
     const WorkCycle round = shortRound(mechanics);
     const HandScript script = [&](double t_s) { return round.at(t_s); };
     const Command command = limitedTo(SimulatedPhantom(mechanics, script).capabilities(), 1000.0, {});
-    HeldPhantom session(mechanics, script, {}, halfSpace(7.0, 0.25).bone(1), command);
+    HeldPhantom session(mechanics, script, {}, halfSpace(7.0, 0.25).bodies(1), command);
 
     double removed_mm3 = 0.0, most_N = 0.0, contact_s = 0.0;
     bool was_active = false, felt_early = false;

@@ -201,7 +201,7 @@ TEST(SoftHold, HandGetsNoEnergyFromPressingAlongAnyPathOfAFlatWall) {
 
 /// Every tick of a servo with soft tissue under a wandering hand.
 std::vector<Tick> wandered(const SoftTissueField& field, std::uint32_t seed, bool pedal) {
-  CarvedBone bone = phantom::halfSpace(12.0, 0.5).bone(1);
+  Bodies bone = phantom::halfSpace(12.0, 0.5).bodies(1);
   Servo servo(bone, &field);
   Command command;
   command.tool = roundBur();
@@ -248,7 +248,7 @@ TEST(ServoWithSoftTissue, CommandedForceStaysFiniteAndWithinLimitsForAnyField) {
 }
 
 TEST(ServoWithSoftTissue, AllocatesNothing) {
-  CarvedBone bone = phantom::halfSpace(12.0, 0.5).bone(1);
+  Bodies bone = phantom::halfSpace(12.0, 0.5).bodies(1);
   Servo servo(bone, &lipRing());
   Command command;
   command.tool = roundBur();

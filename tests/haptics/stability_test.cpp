@@ -71,7 +71,7 @@ Pressing press(PhantomMechanics mechanics, std::uint8_t tissue, const Grip& grip
   const HandScript script = pressing(slide_mm_per_s);
   Command command = asServed(mechanics, script, grip);
   if (change) change(command);
-  HeldPhantom pressed(mechanics, script, grip, halfSpace(6.0, 0.25).bone(tissue), command);
+  HeldPhantom pressed(mechanics, script, grip, halfSpace(6.0, 0.25).bodies(tissue), command);
   Pressing found;
   BuzzCount buzz;
   for (int tick = 0; tick < 1200; ++tick) {
@@ -148,7 +148,7 @@ struct Shaking {
 };
 
 Shaking shaken(const PhantomMechanics& mechanics, double stiffness_N_per_mm, double rate_Hz, double knock_N = 0.05) {
-  HeldPhantom pressed(mechanics, leaning(knock_N), kLoose, halfSpace(3.5, 0.2).bone(1), bare(stiffness_N_per_mm));
+  HeldPhantom pressed(mechanics, leaning(knock_N), kLoose, halfSpace(3.5, 0.2).bodies(1), bare(stiffness_N_per_mm));
   double early = 0.0, late = 0.0, withheld_N = 0.0;
   for (int tick = 0; tick < static_cast<int>(4.8 * rate_Hz); ++tick) {
     const Tick felt = pressed.step(1.0 / rate_Hz);
@@ -235,7 +235,7 @@ int timesTurnedBack(const PhantomMechanics& model, double share_of_edge) {
     target.position_mm.x = glm::mix(2.0, wanted_mm, std::min(t_s, 1.0));
     return target;
   };
-  HeldPhantom pressed(mechanics, lean, kLoose, halfSpace(3.5, 0.2, {1.0, 0.0, 0.0}).bone(1), bare(stiffness));
+  HeldPhantom pressed(mechanics, lean, kLoose, halfSpace(3.5, 0.2, {1.0, 0.0, 0.0}).bodies(1), bare(stiffness));
   double last_mm = 0.0, way = 0.0;
   int turned = 0;
   for (int tick = 0; tick < 4500; ++tick) {

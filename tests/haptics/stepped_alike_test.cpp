@@ -59,7 +59,7 @@ struct Hand {
 };
 const std::vector<Hand> kHands = {{"scripted", scripted}, {"simulated:touch", simulatedTouch}, {"poses", posed}};
 
-CarvedBone bone() { return halfSpace(7.0, 0.25).bone(1); }
+Bodies bone() { return halfSpace(7.0, 0.25).bodies(1); }
 
 LoopSettings ordinary() {
   LoopSettings settings;
@@ -68,7 +68,7 @@ LoopSettings ordinary() {
 }
 
 std::vector<Tick> stepped(SimulatedDevice& device, std::uint64_t ticks, std::uint64_t at_once) {
-  CarvedBone block = bone();
+  Bodies block = bone();
   Servo servo(block);
   Latest<Command> commands(limitedTo(device.capabilities(), 1000.0, {}));
   TickLog log(ticks);
@@ -83,7 +83,7 @@ std::vector<Tick> stepped(SimulatedDevice& device, std::uint64_t ticks, std::uin
 }
 
 std::vector<Tick> ticking(SimulatedDevice& device, std::uint64_t ticks) {
-  CarvedBone block = bone();
+  Bodies block = bone();
   Servo servo(block);
   Latest<Command> commands(limitedTo(device.capabilities(), 1000.0, {}));
   TickLog log(20 * ticks);
@@ -169,7 +169,7 @@ TEST(SteppedDevice, GetsTheSameAnswersSteppedAndOnItsOwnThread) {
     const std::vector<Tick> real = ticking(*by_itself, 600);
     ASSERT_GE(real.size(), 600u);
     // Late or not: the tick is a function of what went in.
-    CarvedBone block = bone();
+    Bodies block = bone();
     Servo servo(block);
     const auto same = hand.make();
     const Command command = limitedTo(same->capabilities(), 1000.0, {});

@@ -18,7 +18,7 @@ using calibration::Tool;
 
 /// A servo on flat bone and a hand with a commanded position.
 struct Room {
-  CarvedBone bone = halfSpace(5.0, 0.2).bone(1);
+  Bodies bone = halfSpace(5.0, 0.2).bodies(1);
   Servo servo{bone};
   Command command;
   HandSample hand;
@@ -69,7 +69,8 @@ struct Room {
   }
 };
 
-std::vector<BlockState> statesOf(const CarvedBone& bone) {
+std::vector<BlockState> statesOf(const Bodies& bodies) {
+  const CarvedBone& bone = bodies.jaw();
   std::vector<BlockState> states;
   for (std::size_t n = 0; n < bone.field().blockAt({0, 0, bone.field().blocks.z}); ++n)
     states.push_back(bone.stateOf(n));

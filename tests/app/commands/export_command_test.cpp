@@ -21,7 +21,7 @@ class ExportCommand : public ProgramTest {
   /// A recorded rehearsal that carves a block of bone, enamel below z = -2.
   std::string session() const {
     const test::BoneBlock block;
-    haptics::CarvedBone bone(block.grid, block.solid, block.label);
+    haptics::Bodies bone(block.grid, block.solid, block.label);
     SessionWriter writer(at("s.molar"), true, block.start());
     writer.write({{}, test::rehearse(bone, block.start().command, 400, 400), {}});
     writer.seal(0, &bone);

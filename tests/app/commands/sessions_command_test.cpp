@@ -8,7 +8,7 @@
 #include "app/session/session_reader.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/jaw.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "tests/app/commands/program.h"
 
 namespace app {
@@ -94,7 +94,8 @@ TEST_F(SessionsCommand, GoesOnWhereItEnded) {
   ASSERT_TRUE(start.setup.former);
   EXPECT_EQ(start.setup.former->file, std::filesystem::path(former).filename().string());
   EXPECT_NEAR(start.setup.former->duration_s, 6.0, 1e-6);
-  const haptics::CarvedBone bone(start.grid, start.solid, start.label);
+  const haptics::Bodies bone(start.grid, start.solid, start.label, start.is_tooth);
+  EXPECT_EQ(bone.pieces(), 1u);
   EXPECT_EQ(start.setup.former->bone_digest, bone.digest());
   EXPECT_EQ(next.nextBlock().ticks.front().bone_digest, bone.digest());
   ASSERT_EQ(start.setup.tray.size(), 2u) << "the same tools";

@@ -111,7 +111,7 @@ TEST(Probe, FeelsTheStiffnessOfTheLawOnFlatBone) {
     protocol.probe.motion = motion;
     protocol.probe.duration_s = 0.3;
     const ProbedBone bone = probedBone(protocol);
-    haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
+    haptics::Bodies live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
     const std::uint64_t before = live.digest();
     haptics::Command command;
     command.tool = protocol.tool;
@@ -160,7 +160,7 @@ TEST(Experiment, FindsTheWeberFractionOfItsObserver) {
   protocol.observer.lapse_rate = 0.0;
   protocol.probe.wander_mm = 0.0;
   const ProbedBone bone = probedBone(protocol);
-  haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
+  haptics::Bodies live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
   std::vector<TrialRecord> trials;
   const Experiment experiment = runSimulated(protocol, live, bone.site, 21,
                                              [&](const TrialRecord& t, const Experiment&) { trials.push_back(t); });
@@ -186,7 +186,7 @@ TEST(Experiment, FindsTheWeberFractionByStaircases) {
   protocol.observer.lapse_rate = 0.0;
   protocol.probe.wander_mm = 0.0;
   const ProbedBone bone = probedBone(protocol);
-  haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
+  haptics::Bodies live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
   std::vector<TrialRecord> trials;
   const Experiment experiment =
       runSimulated(protocol, live, bone.site, 4, [&](const TrialRecord& t, const Experiment&) { trials.push_back(t); });

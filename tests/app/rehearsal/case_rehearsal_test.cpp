@@ -16,7 +16,7 @@
 #include "app/view/patient_renderer.h"
 #include "assets/cut_field.h"
 #include "assets/scenery/soft_tissue_distance.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/device/simulated/scripted_device.h"
 #include "haptics/servo/servo.h"
 #include "render/display/eye_projection.h"
@@ -114,7 +114,7 @@ TEST_P(EveryCase, IsExposedByTheScriptedHand) {
   ASSERT_GT(exposure.planned_mm2(), 10.0);
   EXPECT_EQ(exposure.share(ct.solid), 0.0);
 
-  haptics::CarvedBone bone(ct.grid, ct.solid, ct.label);
+  haptics::Bodies bone(ct.grid, ct.solid, ct.label);
   haptics::Servo servo(bone, &scene.soft);
   haptics::ScriptedDevice device(scene.cut, cuttingMotion(scene.cut, scene.rig));
   haptics::Command command;

@@ -9,7 +9,7 @@
 #include "app/session/recorder.h"
 #include "app/session/replay.h"
 #include "app/text/version.h"
-#include "haptics/bone/carved_bone.h"
+#include "haptics/body/bodies.h"
 #include "haptics/servo/servo.h"
 #include "tests/app/session/small_session.h"
 
@@ -56,7 +56,7 @@ inline haptics::Command largerBur(const haptics::Command& first) {
 }
 
 /// Ticks of the rehearsal, the larger bur from tick `change` on; the bone is carved on the way.
-inline std::vector<haptics::Tick> rehearse(haptics::CarvedBone& bone, const haptics::Command& first, std::size_t ticks,
+inline std::vector<haptics::Tick> rehearse(haptics::Bodies& bone, const haptics::Command& first, std::size_t ticks,
                                            std::size_t change) {
   haptics::Servo servo(bone);
   std::vector<haptics::Tick> made;

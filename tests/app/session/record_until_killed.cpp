@@ -16,7 +16,7 @@ int main(int, char** argv) {
   auto* progress = static_cast<std::atomic<std::uint64_t>*>(memory);
 
   const app::test::BoneBlock block;
-  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Bodies bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
   haptics::TickLog log;
   app::Recorder recorder(argv[1], false, block.start(), log, app::DrainMode::by_hand);

@@ -28,7 +28,7 @@ struct Recorded {
   tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::BoneBlock block;
-  haptics::CarvedBone bone{block.grid, block.solid, block.label};
+  haptics::Bodies bone{block.grid, block.solid, block.label};
   std::vector<haptics::Tick> ticks = test::rehearse(bone, block.start().command, kTicks, kChange);
 
   ServoBuild servo = thisServo();
@@ -57,11 +57,36 @@ TEST(Replay, FindsARehearsalIdentical) {
   EXPECT_EQ(report.bone_digest, session.bone.digest());
 }
 
+TEST(Replay, RebuildsTheToothAsABodyOfItsOwn) {
+  const test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.solid.size());
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) { is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0; });
+  haptics::Bodies bodies(block.grid, block.solid, block.label, is_tooth);
+  ASSERT_EQ(bodies.pieces(), 1u);
+  SessionStart start = block.start();
+  start.is_tooth = is_tooth;
+  const std::vector<haptics::Tick> ticks = test::rehearse(bodies, start.command, kTicks, kTicks);
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  {
+    SessionWriter writer(path, false, start);
+    writer.write({{}, ticks, {}});
+    writer.seal(0, &bodies);
+  }
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.bone_digest, bodies.digest());
+  SessionReader session(path);
+  EXPECT_EQ(session.start().is_tooth, is_tooth);
+  EXPECT_EQ(boneAtTime(path, {}).solid, bodies.solidInGridOrder());
+  EXPECT_EQ(momentOf(path, 0.4).bodies.pieces(), 1u);
+}
+
 TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
   // Law, head, shaft and stiffness change every 80 ticks while the tool is in the bone.
   constexpr std::size_t kEach = 80;
   const test::BoneBlock block;
-  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Bodies bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
   const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
@@ -100,7 +125,7 @@ struct RecordedUndo {
   tests::ScratchFolder folder;
   std::string path = folder.file("s.molar");
   test::BoneBlock block;
-  haptics::CarvedBone bone{block.grid, block.solid, block.label};
+  haptics::Bodies bone{block.grid, block.solid, block.label};
   double dry_s = 0.0, cut_mm3 = 0.0, returned_mm3 = 0.0;
   std::uint64_t digest_after_first = 0;
 
@@ -159,7 +184,7 @@ TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {
 
 TEST(Replay, TripsAsTheRehearsalDid) {
   const test::BoneBlock block;
-  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Bodies bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
   const tests::ScratchFolder folder;
   const std::string path = folder.file("s.molar");
@@ -333,17 +358,17 @@ TEST(Replay, RefusesWhatNeverWasASession) {
 TEST(Replay, BringsBackTheBoneOfAnyMoment) {
   Recorded session;
   session.write();
-  EXPECT_TRUE(std::ranges::equal(momentOf(session.path, 0.0).bone.solidInGridOrder(), session.block.solid));
+  EXPECT_TRUE(std::ranges::equal(momentOf(session.path, 0.0).bodies.solidInGridOrder(), session.block.solid));
   for (const std::size_t ticks : {1u, 50u, 437u, 500u, 501u}) {
-    haptics::CarvedBone bone(session.block.grid, session.block.solid, session.block.label);
+    haptics::Bodies bone(session.block.grid, session.block.solid, session.block.label);
     test::rehearse(bone, session.block.start().command, ticks, kChange);
     const ReplayedState moment = momentOf(session.path, (static_cast<double>(ticks) - 0.5) * 0.001);
-    EXPECT_TRUE(std::ranges::equal(moment.bone.solidInGridOrder(), bone.solidInGridOrder())) << ticks;
+    EXPECT_TRUE(std::ranges::equal(moment.bodies.solidInGridOrder(), bone.solidInGridOrder())) << ticks;
     EXPECT_EQ(moment.tick.index, ticks - 1);
     EXPECT_EQ(moment.command.serial, ticks <= kChange ? 1u : 2u);
   }
   const ReplayedState end = momentOf(session.path, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(end.bone.digest(), session.bone.digest());
+  EXPECT_EQ(end.bodies.digest(), session.bone.digest());
 }
 
 TEST(Replay, ReadsTheNumbersOfAnotherVersionAndComparesNothing) {
@@ -468,7 +493,7 @@ TEST(BoneAtTime, IsTheRecordedOneWhereForcesAloneDiffer) {
 
 TEST(Replay, ComparesTheBoneThatWasLeftAndWhatWasRemovedByTissue) {
   Recorded session;
-  const haptics::CarvedBone untouched(session.block.grid, session.block.solid, session.block.label);
+  const haptics::Bodies untouched(session.block.grid, session.block.solid, session.block.label);
   {
     SessionWriter writer(session.path, true, session.block.start());
     writer.write({{}, {session.ticks.begin(), session.ticks.begin() + 400}, {}});

@@ -227,10 +227,10 @@ TEST(SessionFile, SplitsABoneLargerThanARowMayHold) {
   std::vector<std::uint8_t> solid(start.grid.voxelCount());
   for (std::size_t v = 0; v < solid.size(); ++v) solid[v] = static_cast<std::uint8_t>(v / 90'000);
   start.solid = solid, start.label = {};
-  haptics::CarvedBone bone(start.grid, start.solid, start.label);
+  haptics::Bodies bone(start.grid, start.solid, start.label);
   haptics::ErosionStep step;
   step.loss.fill(1.0);
-  haptics::carveSphere(bone, {{30.0, 30.0, 39.0}}, 1.5, step, 1);
+  haptics::carveSphere(bone.bones().front(), {{30.0, 30.0, 39.0}}, 1.5, step, 1);
   ASSERT_GT(bone.removedByTissue_mm3()[0], 1.0);
   {
     SessionWriter writer(path, false, start);

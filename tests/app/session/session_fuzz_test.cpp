@@ -24,7 +24,7 @@ constexpr std::uint64_t kUsual = 700;
 
 void record(const std::string& path, bool closed) {
   const test::SmallBone bone;
-  haptics::CarvedBone left(bone.grid, bone.solid, bone.label);
+  haptics::Bodies left(bone.grid, bone.solid, bone.label);
   SessionWriter writer(path, false, bone.start());
   haptics::Command louder;
   louder.serial = 2;

@@ -31,7 +31,7 @@ render::Frame frameAbove() {
 TEST(BrickUploader, ShowsTheCutOfOneTickToBothEyesInTheNextFrame) {
   const render::OffscreenContext context;
   const std::vector<std::uint8_t> solid = block();
-  haptics::CarvedBone bone(kGrid, solid, {});
+  haptics::Bodies bone(kGrid, solid, {});
   render::FrameRenderer shown(kGrid, solid, {});
   const render::Frame frame = frameAbove();
 

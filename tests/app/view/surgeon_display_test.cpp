@@ -90,7 +90,7 @@ TEST(SurgeonDisplay, ShowsTheCutBoneAfterAResetDuringShow) {
   for (int k = 8; k < 24; ++k)
     for (int j = 8; j < 24; ++j)
       for (int i = 8; i < 24; ++i) solid[kGrid.index({i, j, k})] = 255;
-  haptics::CarvedBone bone(kGrid, solid, {});
+  haptics::Bodies bone(kGrid, solid, {});
   BrickUploader uploader;
   int renderers = 0;
   SurgeonDisplay display(

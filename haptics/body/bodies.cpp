@@ -1,0 +1,135 @@
+#include "haptics/body/bodies.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "assets/scan/tooth_division.h"
+#include "calibration/random.h"
+
+namespace haptics {
+namespace {
+
+bool isIdentity(const Bodies::PiecePose& X_PQ) {
+  return X_PQ.rotation == glm::dquat(1.0, 0.0, 0.0, 0.0) && X_PQ.translation_mm == glm::dvec3(0.0);
+}
+
+}  // namespace
+
+Bodies::Bodies(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
+               std::span<const std::uint8_t> is_tooth) {
+  bones_.reserve(kMaxBodies);
+  if (is_tooth.empty()) {
+    bones_.emplace_back(grid, solid, label);
+  } else {
+    const assets::ToothDivision divided = assets::divideByTooth(grid, solid, label, is_tooth);
+    bones_.emplace_back(grid, divided.jaw.solid, divided.jaw.label);
+    if (!divided.tooth.solid.empty()) bones_.emplace_back(divided.tooth.grid, divided.tooth.solid, divided.tooth.label);
+    first_brick_[0] = divided.first_brick;
+  }
+  at_rest_.fill(true);
+  numberBlocks();
+}
+
+Bodies::Bodies(CarvedBone jaw) {
+  bones_.reserve(kMaxBodies);
+  bones_.push_back(std::move(jaw));
+  at_rest_.fill(true);
+  numberBlocks();
+}
+
+/// One numbering for the stroke history.
+void Bodies::numberBlocks() {
+  std::size_t first = 0;
+  for (CarvedBone& bone : bones_) {
+    bone.setFirstBlock(first);
+    first += bone.blocks();
+  }
+}
+
+void Bodies::place(std::size_t piece, const PiecePose& X_PQ) {
+  assert(piece < pieces());
+  assert(calibration::isFinite(X_PQ.translation_mm) && glm::length(X_PQ.rotation) > 0.5);
+  X_PQ_[piece] = {glm::normalize(X_PQ.rotation), X_PQ.translation_mm};
+  at_rest_[piece] = isIdentity(X_PQ_[piece]);
+}
+
+SolidBodies Bodies::view() const {
+  SolidBodies view(jaw().field());
+  for (std::size_t n = 0; n < pieces(); ++n) view.add({bones_[n + 1].field(), at_rest_[n], X_PQ_[n]});
+  return view;
+}
+
+std::uint64_t Bodies::digest() const {
+  std::uint64_t digest = jaw().digest();
+  const auto mix = [&](std::uint64_t bits) { digest = calibration::mixedBits(digest ^ bits); };
+  for (std::size_t n = 0; n < pieces(); ++n) {
+    const glm::dquat& r = X_PQ_[n].rotation;
+    const glm::dvec3& t = X_PQ_[n].translation_mm;
+    mix(bones_[n + 1].digest());
+    for (const double number : {r.w, r.x, r.y, r.z, t.x, t.y, t.z}) mix(std::bit_cast<std::uint64_t>(number));
+  }
+  return digest;
+}
+
+std::array<double, assets::kTissueCount> Bodies::removedByTissue_mm3() const noexcept {
+  std::array<double, assets::kTissueCount> removed_mm3 = jaw().removedByTissue_mm3();
+  for (const CarvedBone& piece : bones().subspan(1)) {
+    const auto part_mm3 = piece.removedByTissue_mm3();
+    for (std::size_t tissue = 0; tissue < removed_mm3.size(); ++tissue) removed_mm3[tissue] += part_mm3[tissue];
+  }
+  return removed_mm3;
+}
+
+void Bodies::takeDirtyBricks(std::vector<glm::ivec3>& out) {
+  bones_.front().dirtyBricks().takeInto(out);
+  for (std::size_t n = 0; n < pieces(); ++n) {
+    const std::size_t first = out.size();
+    bones_[n + 1].dirtyBricks().takeInto(out);
+    for (std::size_t at = first; at < out.size(); ++at) out[at] += first_brick_[n];
+  }
+}
+
+void Bodies::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
+  jaw().copyBrick(brick, solid_out);
+  for (std::size_t n = 0; n < pieces(); ++n) {
+    const glm::ivec3 own = brick - first_brick_[n], bricks = bones_[n + 1].grid().bricks();
+    if (!at_rest_[n] || glm::any(glm::lessThan(own, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(own, bricks)))
+      continue;
+    std::array<std::uint8_t, 512> part{};
+    bones_[n + 1].copyBrick(own, part);
+    for (std::size_t v = 0; v < part.size(); ++v)
+      solid_out[v] = static_cast<std::uint8_t>(std::min(255, solid_out[v] + part[v]));
+  }
+}
+
+std::vector<std::uint8_t> Bodies::solidInGridOrder() const {
+  std::vector<std::uint8_t> solid = jaw().solidInGridOrder();
+  for (std::size_t n = 0; n < pieces(); ++n) {
+    if (!at_rest_[n]) continue;
+    const SolidField piece = bones_[n + 1].field();
+    const glm::ivec3 first = first_brick_[n] * assets::kBrickVoxels;
+    assets::forVoxels(first, glm::min(first + piece.grid.size, grid().size), [&](glm::ivec3 ijk) {
+      std::uint8_t& at = solid[grid().index(ijk)];
+      at = static_cast<std::uint8_t>(std::min(255, at + piece.solidAt(ijk - first)));
+    });
+  }
+  return solid;
+}
+
+CarveResult carveTool(Bodies& bodies, const BurShape& head,
+                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
+                      std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
+  CarveResult removed = carveTool(bodies.bones().front(), head, X_PT, step, tick, interleave, strokes);
+  for (std::size_t n = 0; n < bodies.pieces(); ++n) {
+    const SolidBody body{{}, bodies.isAtRest(n), bodies.pose(n)};
+    ErosionStep turned = step;
+    if (!body.at_rest) turned.axis_P.xyz = glm::conjugate(body.X_PQ.rotation) * step.axis_P.xyz;
+    removed += carveTool(bodies.bones()[n + 1], head, body.inBody(X_PT), turned, tick, interleave, strokes);
+  }
+  return removed;
+}
+
+}  // namespace haptics

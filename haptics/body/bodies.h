@@ -1,0 +1,77 @@
+// The live volumes of a rehearsal: the jaw, and the tooth to be removed as a body of its own from the start, later in
+// up to kMaxPieces pieces. Frame P, mm; a piece lies in its frame Q, which is P until it moves. One writer, the servo;
+// other threads copy dirty bricks. Poses change while the servo is stopped.
+// While a piece is at rest, forces, cuts and pictures are those of one undivided volume. Construction divides the
+// volume (assets/scan/tooth_division) and allocates; every other call but solidInGridOrder() is bounded and never
+// allocates, locks or throws.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "haptics/body/solid_bodies.h"
+#include "haptics/bone/carve.h"
+#include "haptics/bone/carved_bone.h"
+
+namespace haptics {
+
+class Bodies {
+ public:
+  using PiecePose = calibration::Pose<calibration::Patient, calibration::Piece>;
+
+  /// `solid` and `label` in the order of `grid`; label may be empty. `is_tooth`: not 0 in the voxels of the tooth to be
+  /// removed; empty or all 0: the jaw alone. Copies all. Spans must fit the grid (assert).
+  Bodies(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
+         std::span<const std::uint8_t> is_tooth = {});
+  /// The jaw alone.
+  explicit Bodies(CarvedBone jaw);
+
+  /// The jaw first, then the pieces.
+  std::span<CarvedBone> bones() { return bones_; }
+  std::span<const CarvedBone> bones() const { return bones_; }
+  const CarvedBone& jaw() const { return bones_.front(); }
+  std::size_t pieces() const { return bones_.size() - 1; }
+
+  /// Of piece n, from 0. A rotation that is not of unit length is normalised. Writer only, with the servo stopped.
+  void place(std::size_t piece, const PiecePose& X_PQ);
+  const PiecePose& pose(std::size_t piece) const { return X_PQ_[piece]; }
+  bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
+
+  SolidBodies view() const;
+
+  /// The jaw's grid, on which a piece at rest lies too.
+  const assets::VolumeGrid& grid() const { return jaw().grid(); }
+
+  /// The jaw's digest d alone, or with the pieces, in order:
+  ///   d <- mixedBits(d xor piece's digest); then for each number x of its pose (rotation w, x, y, z, translation x, y,
+  ///   z) d <- mixedBits(d xor bits of x)        mixedBits: calibration/random
+  std::uint64_t digest() const;
+
+  /// Sum over the bodies, see CarvedBone.
+  std::array<double, assets::kTissueCount> removedByTissue_mm3() const noexcept;
+
+  /// Bricks of the jaw's grid in which the jaw or a piece at rest has changed; may name a brick twice. One reading
+  /// thread.
+  void takeDirtyBricks(std::vector<glm::ivec3>& out);
+  /// Solid fraction of jaw and pieces at rest in a brick of the jaw's grid. One reading thread.
+  void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
+  /// The same for the whole grid. O(voxels), allocates; writing thread, or without a writer.
+  std::vector<std::uint8_t> solidInGridOrder() const;
+
+ private:
+  void numberBlocks();
+
+  std::vector<CarvedBone> bones_;
+  std::array<PiecePose, kMaxPieces> X_PQ_{};
+  std::array<bool, kMaxPieces> at_rest_{};
+  std::array<glm::ivec3, kMaxPieces> first_brick_{};
+};
+
+/// bone/carve over all bodies: a step with a head of any shape at rest at X_PT.
+CarveResult carveTool(Bodies& bodies, const BurShape& head,
+                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
+                      std::uint64_t tick, int interleave = 1, StrokeHistory* strokes = nullptr) noexcept;
+
+}  // namespace haptics
