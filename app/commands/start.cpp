@@ -9,6 +9,7 @@
 
 #include "app/commands/command.h"
 #include "app/rehearsal/rehearsal.h"
+#include "app/session/metrics.h"
 #include "app/start_screen/show_start_screen.h"
 #include "app/start_screen/start_lists.h"
 #include "app/text/command_line.h"
@@ -39,6 +40,15 @@ std::string troubleOf(const std::vector<std::string>& arguments) {
   }
 }
 
+/// Of the recording that was just closed.
+std::string inShort(const std::string& session) {
+  try {
+    return metricsInShort(metricsOf(session));
+  } catch (const std::exception& error) {
+    return calibration::withoutTemporaryNames(error.what());
+  }
+}
+
 int start() {
   StartMenu menu(startListsHere());
   while (showStartScreen(menu, printMessage)) {
@@ -51,7 +61,7 @@ int start() {
     if (!trouble.empty())
       next.say(trouble, true);
     else if (next.newestSession() != menu.newestSession())
-      next.say("The rehearsal is recorded: it is first in the list to go on with.", false);
+      next.say("Recorded, first in the list to go on with: " + inShort(next.newestSession()), false);
     menu = std::move(next);
   }
   return 0;

@@ -74,6 +74,12 @@ void ControlRouter::readWindow(render::Frame& frame) {
     mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
 }
 
+void ControlRouter::placeHandAt(const glm::dvec3& position_W_mm) {
+  input_.moveTo(position_W_mm);
+  if (haptics::MouseDevice* const mouse = equipment_.mouse())
+    mouse->placeAt({{input_.X_WT().rotation, input_.X_WT().translation_mm}, false});
+}
+
 /// Requests due at the next tick; after the last tick, those due until then.
 void ControlRouter::executeScript(const haptics::Tick& newest, render::Frame& frame) {
   const std::uint64_t made = newest.dt_s > 0.0 ? newest.index + 1 : 0;

@@ -32,7 +32,8 @@ class ControlRouter {
   std::string question() const { return end_question_.isOpen() ? EndQuestion::kText : std::string(); }
   /// Of the tool of a mouse, W.
   const glm::dvec3& handPosition_W_mm() const { return input_.X_WT().translation_mm; }
-  void moveHandTo(const glm::dvec3& position_W_mm) { input_.moveTo(position_W_mm); }
+  /// Of a mouse, before it is started: the hand is there at once, and touches nothing on a way there.
+  void placeHandAt(const glm::dvec3& position_W_mm);
 
   /// Executes all requests since the last call except the instructor's, and moves the mouse device. `newest` has a dt
   /// of 0 before the first tick. Layers are switched in `frame`, and snapshots are taken of it.

@@ -125,7 +125,7 @@ class Rehearsal {
     const auto start_W_mm =
         startBeforeBone(held, goal_P_mm, [this](const render::Frame& frame) { return view_.gapOf(frame); });
     if (!start_W_mm) return;
-    router_.moveHandTo(*start_W_mm);
+    router_.placeHandAt(*start_W_mm);
     head_up_.say(fmt::format("{:.0f} mm off the bone: wheel away from you goes in", kStartGap_mm));
   }
 

@@ -174,6 +174,17 @@ std::string metricsText(const SessionMetrics& metrics) {
   return words;
 }
 
+std::string metricsInShort(const SessionMetrics& metrics) {
+  std::string words = fmt::format("{} min, {:.1f} mm³ removed", clockText(metrics.duration_s), metrics.removed_mm3);
+  if (metrics.dry_drilling_s > 0.0) words += fmt::format("; {:.1f} s without water", metrics.dry_drilling_s);
+  if (metrics.touched && !metrics.touched->empty()) words += "; touched: " + touchesText(*metrics.touched);
+  const std::string cut = softTouchesText(metrics.soft_touches.cut);
+  const std::string pressed = softTouchesText(metrics.soft_touches.touched);
+  if (!cut.empty()) words += "; bur turned on: " + cut;
+  if (cut.empty() && !pressed.empty()) words += "; soft tissue touched: " + pressed;
+  return words + ".";
+}
+
 namespace {
 
 nlohmann::ordered_json calibrationMetrics(const SessionCalibration& c) {

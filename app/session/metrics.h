@@ -76,6 +76,9 @@ std::string measuresHelp();
 /// For people: a summary in a few short lines, then kMeasures with units, then the volume by tissue.
 std::string metricsText(const SessionMetrics& metrics);
 
+/// In one sentence for the surgeon: time, removed volume, irrigation, what was touched and what the turning bur was on.
+std::string metricsInShort(const SessionMetrics& metrics);
+
 /// One JSON object: the state of the recording, kMeasures by key, volumes by the key of the tissue.
 std::string metricsJson(const SessionMetrics& metrics);
 

@@ -29,7 +29,7 @@ constexpr std::array<ListPlace, kStartLists> kLists{{
     {{5.0, 60.0}, 80.0, 4},
 }};
 constexpr glm::dvec2 kButton{127.0, 88.5}, kButtonSize{28.0, 7.0};
-constexpr double kAboutTop = 85.5, kAboutWidth = 116.0;
+constexpr double kAboutTop = 84.0, kAboutWidth = 78.0;
 
 /// The page in a window of that size.
 struct Scale {

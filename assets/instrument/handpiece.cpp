@@ -169,9 +169,11 @@ MeshPart bur(const HandpieceParameters& parameters) {
                          {start + 4.0, neck * 0.95},
                          {start + 9.0, kShankRadius_mm, false},
                          {26.0, kShankRadius_mm},
-                         {27.0, kShankRadius_mm, true},
-                         {27.0, 0.0, true}},
+                         {26.6, kShankRadius_mm, true}},
                         glm::vec4(0.95f, 0.95f, 0.95f, 1.0f)));
+  // Bevelled, and dark, so that a bur without handpiece ends without a flash of the lamp.
+  append(part, revolved({{26.6, kShankRadius_mm, true}, {27.0, 0.75 * kShankRadius_mm, true}, {27.0, 0.0, true}},
+                        glm::vec4(0.2f, 0.2f, 0.21f, 1.0f)));
   part.name = "Bur";
   part.material = {{0.56f, 0.57f, 0.58f, 1.0f}, 0.28f, 1.0f};
   part.normal = vertexNormals(part.position_mm, part.triangles);

@@ -56,6 +56,18 @@ TEST(MouseDevice, MovesSmoothlyToItsTargetAndYieldsToForce) {
   EXPECT_TRUE(state.pedal);
 }
 
+TEST(MouseDevice, BeginsWhereItIsPlaced) {
+  MouseDevice device({{glm::dquat(1.0, 0.0, 0.0, 0.0), {-20.0, 0.0, 0.0}}, false});
+  MouseTarget place;
+  place.X_DH = {glm::normalize(glm::dquat(1.0, 0.0, 1.0, 0.0)), {3.0, 4.0, 5.0}};
+  device.placeAt(place);
+  for (int n = 0; n < 3; ++n) {
+    const HandleState state = device.exchange({}, 1e-3);
+    EXPECT_EQ(state.X_DH.translation_mm, place.X_DH.translation_mm);
+    EXPECT_NEAR(std::abs(glm::dot(state.X_DH.rotation, place.X_DH.rotation)), 1.0, 1e-12);
+  }
+}
+
 TEST(MouseDevice, IgnoresAnInvalidTarget) {
   MouseDevice device;
   MouseTarget target;

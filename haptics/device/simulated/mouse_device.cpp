@@ -4,6 +4,14 @@
 #include <cmath>
 
 namespace haptics {
+namespace {
+
+bool isUsable(const MouseTarget& target) {
+  const double norm = glm::dot(target.X_DH.rotation, target.X_DH.rotation);
+  return std::isfinite(glm::length(target.X_DH.translation_mm)) && norm > 0.25 && norm < 4.0;
+}
+
+}  // namespace
 
 MouseDevice::MouseDevice(const MouseTarget& start) : target_(start), rotation_(start.X_DH.rotation) {
   hand_.position_mm = start.X_DH.translation_mm;
@@ -11,10 +19,15 @@ MouseDevice::MouseDevice(const MouseTarget& start) : target_(start), rotation_(s
   capabilities_.damping_Ns_per_mm = hand_.totalDamping_Ns_per_mm();
 }
 
-void MouseDevice::setTarget(const MouseTarget& target) {
-  const double norm = glm::dot(target.X_DH.rotation, target.X_DH.rotation);
-  if (!std::isfinite(glm::length(target.X_DH.translation_mm)) || !(norm > 0.25 && norm < 4.0)) return;
+void MouseDevice::placeAt(const MouseTarget& target) {
+  if (!isUsable(target)) return;
+  hand_.position_mm = target.X_DH.translation_mm;
+  rotation_ = glm::normalize(target.X_DH.rotation);
   target_.publish(target);
+}
+
+void MouseDevice::setTarget(const MouseTarget& target) {
+  if (isUsable(target)) target_.publish(target);
 }
 
 HandleState MouseDevice::exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept {

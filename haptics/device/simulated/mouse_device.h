@@ -19,6 +19,9 @@ class MouseDevice final : public SimulatedDevice {
   explicit MouseDevice(const MouseTarget& start = {});
   ~MouseDevice() override { stop(); }
 
+  /// Before the first exchange: the hand is there at once. A target that is not finite is ignored.
+  void placeAt(const MouseTarget& target);
+
   /// UI thread. A target that is not finite is ignored.
   void setTarget(const MouseTarget& target);
 

@@ -180,6 +180,10 @@ TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {
   EXPECT_NE(json.find("\"dry_drilling_s\": 0."), std::string::npos) << json;
   EXPECT_NE(words.find("without irrigation"), std::string::npos) << words;
   EXPECT_NE(words.find("mm³ undone"), std::string::npos) << words;
+  const std::string brief = metricsInShort(metrics);
+  EXPECT_EQ(brief.find("0:02 min, "), 0u) << brief;
+  EXPECT_NE(brief.find(" mm³ removed; 0."), std::string::npos) << brief;
+  EXPECT_NE(brief.find(" s without water."), std::string::npos) << brief;
 }
 
 TEST(Replay, TripsAsTheRehearsalDid) {
