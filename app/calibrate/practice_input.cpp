@@ -12,6 +12,8 @@ constexpr double kNotch_mm = 1.0, kTilt_rad = calibration::radFromDegrees(3.0),
                  kTiltPerPixel_rad = calibration::radFromDegrees(0.3);
 /// A target within this distance attracts the tip.
 constexpr double kAttraction_mm = 3.5;
+/// Frames in which a press is shown at least.
+constexpr int kSeenPoses = 3;
 
 glm::dvec3 errorOf(calibration::TouchPrecision precision, std::mt19937& rng) {
   return calibration::gaussianVector(rng, 1.0) *
@@ -34,7 +36,7 @@ void PracticeInput::take(const render::WindowEvent& event, const glm::dvec3& acr
       tilt(glm::cross(up_W_, towards_W_), kTiltPerPixel_rad * moved->by_px.y);
     }
   } else if (const auto* button = std::get_if<render::ButtonPressed>(&event)) {
-    if (button->button == render::MouseButton::right) pose_.button = button->down;
+    if (button->button == render::MouseButton::right) press(button->down);
     if (button->button == render::MouseButton::middle) {
       if (!button->down && !middle_moved_) pose_.in_inkwell = !pose_.in_inkwell;
       middle_moved_ = false;
@@ -42,7 +44,7 @@ void PracticeInput::take(const render::WindowEvent& event, const glm::dvec3& acr
   } else if (const auto* wheel = std::get_if<render::WheelTurned>(&event)) {
     pose_.tip_W.mm -= kNotch_mm * wheel->notches * towards_W_;
   } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
-    if (key->key == Key::space) pose_.button = key->down;
+    if (key->key == Key::space && !key->repeated) press(key->down);
     if (!key->down) return;
     const glm::dvec3 right_W = glm::cross(up_W_, towards_W_);
     if (key->key == Key::left) tilt(up_W_, -kTilt_rad);
@@ -57,7 +59,19 @@ void PracticeInput::tilt(const glm::dvec3& axis_W, double angle_rad) {
   pose_.along_W.xyz = glm::normalize(glm::angleAxis(angle_rad, axis_W) * pose_.along_W.xyz);
 }
 
+/// The tap of a touchpad goes down and up between two frames: it counts all the same.
+void PracticeInput::press(bool down) {
+  if (down) {
+    pose_.button = true;
+    poses_pressed_ = 0;
+  }
+  release_due_ = !down && poses_pressed_ < kSeenPoses;
+  if (!down && !release_due_) pose_.button = false;
+}
+
 PracticePose PracticeInput::pose(const WizardView& view) {
+  if (release_due_ && poses_pressed_ >= kSeenPoses) release_due_ = pose_.button = false;
+  ++poses_pressed_;
   PracticePose held = pose_;
   const bool was_held = is_held_;
   is_held_ = false;

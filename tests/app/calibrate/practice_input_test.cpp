@@ -146,7 +146,28 @@ TEST(PracticeInput, AMiddleDragTiltsAndAMiddleClickDocks) {
   send(render::ButtonPressed{render::MouseButton::right, true});
   EXPECT_TRUE(input.pose({}).button);
   send(render::ButtonPressed{render::MouseButton::right, false});
+  for (int n = 0; n < 3; ++n) input.pose({});
   EXPECT_FALSE(input.pose({}).button);
+}
+
+TEST(PracticeInput, ATapBetweenTwoFramesIsAPress) {
+  for (const bool by_key : {false, true}) {
+    PracticeInput input({}, 1);
+    const auto event = [&](bool down) {
+      render::WindowEvent happened = render::ButtonPressed{render::MouseButton::right, down};
+      if (by_key) happened = render::KeyPressed{.key = render::Key::space, .down = down};
+      input.take(happened, kAcross_W, kUp_W);
+    };
+    event(true), event(false);
+    int pressed = 0;
+    while (pressed < 100 && input.pose({}).button) ++pressed;
+    EXPECT_EQ(pressed, 3);
+    // A long press ends with its release.
+    event(true);
+    for (int n = 0; n < 50; ++n) EXPECT_TRUE(input.pose({}).button);
+    event(false);
+    EXPECT_FALSE(input.pose({}).button);
+  }
 }
 
 }  // namespace

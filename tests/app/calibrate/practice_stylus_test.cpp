@@ -114,6 +114,7 @@ TEST(PracticeInput, KeysTiltItPressItsButtonAndPutItIntoTheInkwell) {
   press(render::Key::space, true);
   EXPECT_TRUE(hand.pose({}).button);
   press(render::Key::space, false);
+  for (int n = 0; n < 3; ++n) hand.pose({});
   EXPECT_FALSE(hand.pose({}).button);
   press(render::keyOf('H'), true);
   EXPECT_TRUE(hand.pose({}).in_inkwell);
