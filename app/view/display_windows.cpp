@@ -1,5 +1,7 @@
 #include "app/view/display_windows.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "render/display/stereo_layout.h"
@@ -8,6 +10,17 @@
 namespace app {
 
 using render::DisplayMode;
+
+namespace {
+
+/// A window of the same shape that fits on a smaller monitor with its frame.
+glm::ivec2 withinMonitor(glm::ivec2 size_px, glm::ivec2 monitor_px) {
+  const glm::dvec2 room = glm::dvec2(monitor_px) / glm::dvec2(size_px);
+  const double scale = std::min(room.x, room.y);
+  return scale < 1.0 && scale > 0.0 ? glm::ivec2(0.92 * scale * glm::dvec2(size_px)) : size_px;
+}
+
+}  // namespace
 
 DisplayWindows::DisplayWindows(const Options& options, const ReportLine& report) : mode_(options.mode) {
   const auto here = render::monitors();
@@ -29,6 +42,8 @@ DisplayWindows::DisplayWindows(const Options& options, const ReportLine& report)
   first.monitor = options.monitor;
   first.quad_buffer = mode_ == DisplayMode::quad_buffer;
   first.size_px = render::outputSize(mode_, options.screen_px);
+  if (mode_ == DisplayMode::mono && !options.full_screen && wanted < here.size())
+    first.size_px = withinMonitor(first.size_px, here[wanted].px);
   try {
     first_ = std::make_unique<render::Window>(first);
   } catch (const render::GpuError& error) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/view/brick_upload.h"
+#include "app/view/display_windows.h"
 #include "haptics/servo/servo.h"
 #include "render/display/camera.h"
 #include "render/gpu/gpu_error.h"
@@ -29,6 +30,14 @@ render::Frame frameAbove() {
   frame.rig = render::cameraRig({.eye_P_mm = {0, -40, 60}, .fov_y_rad = 0.25}, {64, 48});
   frame.tool_visible = false;
   return frame;
+}
+
+TEST(DisplayWindows, AWindowKeepsItsShapeOnASmallerMonitor) {
+  const glm::ivec2 monitor_px = render::monitors().at(0).px;
+  DisplayWindows windows({.screen_px = 3 * monitor_px}, [](const std::string&) {});
+  const glm::ivec2 px = windows.first().framebufferSize_px();
+  EXPECT_TRUE(glm::all(glm::lessThan(px, monitor_px))) << px.x << " x " << px.y;
+  EXPECT_NEAR(static_cast<double>(px.x) / px.y, static_cast<double>(monitor_px.x) / monitor_px.y, 0.01);
 }
 
 TEST(SurgeonDisplay, ShowsTheSameImageAfterRecreation) {
