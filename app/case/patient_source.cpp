@@ -1,12 +1,12 @@
 #include "app/case/patient_source.h"
 
 #include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <future>
 
 #include <fmt/core.h>
 
+#include "app/case/cache_folder.h"
 #include "app/case/gutter_plan.h"
 #include "app/text/message.h"
 #include "assets/load_error.h"
@@ -20,13 +20,6 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path cacheFolder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  if (cache && *cache) return fs::path(cache) / "molar";
-  return home && *home ? fs::path(home) / ".cache" / "molar" : fs::temp_directory_path() / "molar-cache";
-}
 
 std::string cacheName(const assets::JawParameters& p) {
   return fmt::format("built-in-{}-{}-{:g}-{:g}-{:g}-{:g}-{}", assets::kSyntheticPatientRevision,

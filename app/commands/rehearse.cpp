@@ -11,6 +11,7 @@
 #include "app/case/handpiece_direction.h"
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
+#include "app/case/soft_tissue_source.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/commands/rehearse_options.h"
@@ -35,7 +36,6 @@
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
 #include "assets/patient/patient_folder.h"
-#include "assets/scenery/soft_tissue_distance.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
@@ -132,8 +132,7 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
   auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
   const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
-  one.soft_tissue =
-      assets::softTissueField(assets::softTissueSurfaces(one.patient.gingiva, one.patient.face, region), region);
+  one.soft_tissue = softTissueAround(one.patient.gingiva, one.patient.face, region);
   one.cut = cut.get();
   if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);
   return one;

@@ -5,12 +5,17 @@
 // 350,000 triangles at 1.5 mm.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "assets/scenery/soft_tissue_surface.h"
 #include "assets/soft_tissue_field.h"
 
 namespace assets {
+
+/// Names what softTissueSurfaces and softTissueField make of the same meshes: raised with any change of it, so that
+/// fields on disk are made again.
+inline constexpr std::uint64_t kSoftTissueRevision = 1;
 
 /// Distance to one body, with the tissue of the nearest triangle; the slow and obvious twin of the field.
 struct SoftTissueNearest {
