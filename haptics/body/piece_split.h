@@ -1,0 +1,26 @@
+// A piece's volume divided in two: the bytes that come off; what stays is the difference, so no solid is lost or made.
+// Frame and mm of the grid. Any thread; O(voxels of the grid), 10-50 ms for a tooth; allocates. The same bytes of solid
+// give the same bytes here, so that a replay can prove a split by its digest.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "haptics/body/bridge.h"
+#include "haptics/body/components.h"
+
+namespace haptics {
+
+/// In the order of the grid: a connected piece with what is partly solid next to it. A voxel that is less than half
+/// solid goes with the most solid of its six neighbours, else of its 26.
+std::vector<std::uint8_t> bytesOfPiece(const Components& components, std::size_t piece);
+
+/// The first side of a bridge that breaks. Voxels at the break are shared by its plane, so that it is flat.
+std::vector<std::uint8_t> bytesBeforeBreak(const Components& components, const BridgeSearch& search,
+                                           std::size_t bridge);
+
+/// Of all bytes and their places.
+std::uint64_t splitDigest(std::span<const std::uint8_t> bytes);
+
+}  // namespace haptics

@@ -1,0 +1,152 @@
+#include "haptics/body/tooth_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace haptics {
+namespace {
+
+/// The axes of a symmetric matrix, as columns of a rotation (Jacobi 1846).
+glm::dmat3 principalAxes(glm::dmat3 matrix) {
+  glm::dmat3 axes(1.0);
+  for (int sweep = 0; sweep < 12; ++sweep)
+    for (const auto& [p, q] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
+      if (std::abs(matrix[p][q]) < 1e-12 * (std::abs(matrix[p][p]) + std::abs(matrix[q][q]))) continue;
+      const double ratio = (matrix[q][q] - matrix[p][p]) / (2.0 * matrix[p][q]);
+      const double tangent = std::copysign(1.0, ratio) / (std::abs(ratio) + std::sqrt(1.0 + ratio * ratio));
+      const double c = 1.0 / std::sqrt(1.0 + tangent * tangent), s = tangent * c;
+      glm::dmat3 turn(1.0);
+      turn[p][p] = turn[q][q] = c;
+      turn[q][p] = s;
+      turn[p][q] = -s;
+      matrix = glm::transpose(turn) * matrix * turn;
+      axes = axes * turn;
+    }
+  return axes;
+}
+
+using Counts = std::function<bool(std::size_t brick, std::size_t part)>;
+
+/// The box along the principal axes of the places that count, kRegionMargin_mm wider on every side.
+CutRegion regionAround(const Components& components, std::span<const std::vector<BrickPart>> lost,
+                       const Counts& counts) {
+  const assets::VolumeGrid& grid = components.grid();
+  const auto forCounted = [&](const auto& visit) {
+    forBricks(components.bricks(), [&](std::size_t brick, glm::ivec3 corner) {
+      for (std::size_t n = 0; n < lost[brick].size(); ++n)
+        if (counts(brick, n)) visit(lost[brick][n], corner);
+    });
+  };
+  VoxelMoments moments;
+  forCounted([&](const BrickPart& part, glm::ivec3) { moments += part.moments; });
+  const ToothPiece mass = massOf(moments, grid);
+  const glm::dmat3 axes = principalAxes(mass.inertia_mm5), into = glm::transpose(axes);
+
+  glm::dvec3 low_mm(0.0), high_mm(0.0);
+  forCounted([&](const BrickPart& part, glm::ivec3 corner) {
+    assets::forVoxels(glm::ivec3(0), glm::ivec3(assets::kBrickVoxels), [&](glm::ivec3 within) {
+      if (!holds(part.mask, within)) return;
+      const glm::dvec3 at_mm = into * (grid.centre_P_mm(corner + within) - mass.centroid_mm);
+      low_mm = glm::min(low_mm, at_mm);
+      high_mm = glm::max(high_mm, at_mm);
+    });
+  });
+  const double margin_mm = kRegionMargin_mm + 0.5 * grid.spacing_mm;
+  low_mm -= margin_mm;
+  high_mm += margin_mm;
+
+  // The voxels of the upright box around it that lie in it.
+  glm::dvec3 first(1e9), last(-1e9);
+  for (int n = 0; n < 8; ++n) {
+    const glm::dvec3 corner_mm = glm::mix(low_mm, high_mm, glm::dvec3(assets::cornerOffset(n)));
+    const glm::dvec3 index = grid.indexFromPoint(mass.centroid_mm + axes * corner_mm);
+    first = glm::min(first, index);
+    last = glm::max(last, index);
+  }
+  CutRegion region{VoxelBox(grid, first, last), {}};
+  assets::forVoxels(region.box.first, region.box.last + 1, [&](glm::ivec3 ijk) {
+    const glm::dvec3 at_mm = into * (grid.centre_P_mm(ijk) - mass.centroid_mm);
+    const bool inside = glm::all(glm::lessThanEqual(low_mm, at_mm)) && glm::all(glm::lessThanEqual(at_mm, high_mm));
+    region.zone.push_back(inside ? 1 : 0);
+  });
+  return region;
+}
+
+}  // namespace
+
+ToothSurvey::ToothSurvey(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid)
+    : components_(grid, solid), uncut_(assets::countIn(components_.bricks())) {
+  for (std::size_t brick = 0; brick < uncut_.size(); ++brick) uncut_[brick] = components_.maskOf(brick);
+}
+
+ToothFindings ToothSurvey::pieces() {
+  components_.join();
+  ToothFindings found;
+  for (const ToothPiece& piece : components_.pieces()) {
+    if (piece.volume_mm3 < kLeastPiece_mm3) {
+      ++found.chips;
+      found.chips_mm3 += piece.volume_mm3;
+    } else if (found.pieces++ < kMostPieces) {
+      found.piece[found.pieces - 1] = piece;
+    }
+  }
+  return found;
+}
+
+/// Around the largest connected place that was cut, then around all of them.
+std::vector<CutRegion> ToothSurvey::cutRegions(double& cut_mm3) const {
+  std::vector<std::vector<BrickPart>> lost(uncut_.size());
+  forBricks(components_.bricks(), [&](std::size_t brick, glm::ivec3 corner) {
+    BrickMask gone = components_.maskOf(brick);
+    for (std::size_t k = 0; k < gone.size(); ++k) gone[k] = uncut_[brick][k] & ~gone[k];
+    if (!isEmpty(gone)) findParts(gone, corner, lost[brick]);
+  });
+  PartJoin places;
+  places.unite(components_.bricks(), lost);
+  std::vector<std::int64_t> voxels(places.count(), 0);
+  std::int64_t all = 0;
+  for (std::size_t brick = 0; brick < lost.size(); ++brick)
+    for (std::size_t n = 0; n < lost[brick].size(); ++n) {
+      voxels[places.rootOf(brick, n)] += lost[brick][n].moments.count;
+      all += lost[brick][n].moments.count;
+    }
+  cut_mm3 = static_cast<double>(all) * components_.grid().voxelVolume_mm3();
+  if (all == 0) return {};
+
+  const auto largest = static_cast<std::size_t>(std::ranges::max_element(voxels) - voxels.begin());
+  std::vector<CutRegion> regions{regionAround(
+      components_, lost, [&](std::size_t brick, std::size_t part) { return places.rootOf(brick, part) == largest; })};
+  if (voxels[largest] != all)
+    regions.push_back(regionAround(components_, lost, [](std::size_t, std::size_t) { return true; }));
+  return regions;
+}
+
+std::optional<BridgeSearch> ToothSurvey::searchOf(std::size_t piece, double cell_mm) const {
+  double cut_mm3 = 0.0;
+  std::optional<BridgeSearch> search;
+  for (const CutRegion& region : cutRegions(cut_mm3)) {
+    search.emplace(components_, piece, region, cell_mm);
+    if (search->parts().size() >= 2) break;
+  }
+  return search;
+}
+
+void ToothSurvey::findBridges(ToothFindings& findings, double cell_mm) const {
+  const std::vector<CutRegion> regions = cutRegions(findings.cut_mm3);
+  for (std::size_t piece = 0; piece < std::min(findings.pieces, kMostPieces); ++piece) {
+    ToothFindings::Held& held = findings.held[piece];
+    for (const CutRegion& region : regions) {
+      const BridgeSearch search(components_, piece, region, cell_mm);
+      held = {};
+      held.parts = search.parts().size();
+      std::ranges::copy(search.parts(), held.part.begin());
+      held.bridges = search.bridges().size();
+      std::ranges::copy(search.bridges(), held.bridge.begin());
+      if (held.parts >= 2) break;
+    }
+  }
+}
+
+}  // namespace haptics
