@@ -23,6 +23,7 @@ void addReplay(CommandLine& molar);
 void addMetrics(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
+void addPieces(CommandLine& molar);
 void addLaws(CommandLine& molar);
 void addPsychophysics(CommandLine& molar);
 void addHelp(CommandLine& molar);
@@ -30,9 +31,9 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse, addStart,         addImport,  addInspect,   addFeel,
-                                   addCarve,    addSee,           addDisplay, addCalibrate, addDevices,
-                                   addDoctor,   addReplay,        addMetrics, addSessions,  addExport,
-                                   addLaws,     addPsychophysics, addHelp,    addManual,    addCompletion};
+inline constexpr auto kCommands = {addRehearse, addStart,    addImport,    addInspect, addFeel,   addCarve,
+                                   addSee,      addDisplay,  addCalibrate, addDevices, addDoctor, addReplay,
+                                   addMetrics,  addSessions, addExport,    addPieces,  addLaws,   addPsychophysics,
+                                   addHelp,     addManual,   addCompletion};
 
 }  // namespace app

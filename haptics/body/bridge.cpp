@@ -178,26 +178,49 @@ BridgeSearch::Terminals BridgeSearch::terminals() const {
   return found;
 }
 
+std::vector<BridgeSearch::Group> BridgeSearch::groups() const {
+  if (region_.normal != glm::dvec3(0.0)) {
+    Group beyond(parts_.size());
+    std::array<double, 2> mm3{};
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      beyond[part] = glm::dot(parts_[part].centroid_mm - region_.centre_mm, region_.normal) > 0.0;
+      mm3[beyond[part] ? 1 : 0] += parts_[part].volume_mm3;
+    }
+    // The smaller side comes off.
+    if (mm3[1] > mm3[0]) beyond.flip();
+    if (mm3[0] > 0.0 && mm3[1] > 0.0) return {beyond};
+  }
+  std::vector<Group> single;
+  for (std::size_t part = 1; part < parts_.size(); ++part) {
+    single.emplace_back(parts_.size(), false);
+    single.back()[part] = true;
+  }
+  return single;
+}
+
 void BridgeSearch::separate() {
   GridMinCut graph(cells_);
   linkCells(graph);
   const Terminals ends = terminals();
-  for (std::size_t part = 1; part < parts_.size(); ++part) {
-    std::vector<glm::ivec3> others;
-    for (std::size_t other = 0; other < parts_.size(); ++other)
-      if (other != part) others.insert(others.end(), ends.of_part[other].begin(), ends.of_part[other].end());
-    if (ends.of_part[part].empty() || others.empty()) continue;
-    graph.cut(ends.of_part[part], others);
-    Side side = sideOf(graph, ends, part);
+  for (const Group& group : groups()) {
+    std::array<std::vector<glm::ivec3>, 2> cells;
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      auto& of_side = cells[group[part] ? 0 : 1];
+      of_side.insert(of_side.end(), ends.of_part[part].begin(), ends.of_part[part].end());
+    }
+    if (cells[0].empty() || cells[1].empty()) continue;
+    graph.cut(cells[0], cells[1]);
+    Side side = sideOf(graph, ends, group);
     if (side.faces.empty()) continue;
     Bridge bridge = measured(side);
-    bridge.between = {part, partBeyond(side, part)};
+    const auto largest = static_cast<std::size_t>(std::ranges::find(group, true) - group.begin());
+    bridge.between = {largest, partBeyond(side, group)};
     bridges_.push_back(bridge);
     sides_.push_back(std::move(side));
   }
 }
 
-BridgeSearch::Side BridgeSearch::sideOf(const GridMinCut& graph, const Terminals& ends, std::size_t part) const {
+BridgeSearch::Side BridgeSearch::sideOf(const GridMinCut& graph, const Terminals& ends, const Group& group) const {
   Side side;
   side.cell.reserve(assets::countIn(cells_));
   assets::forVoxels(glm::ivec3(0), cells_, [&](glm::ivec3 cell) { side.cell.push_back(graph.isOnSourceSide(cell)); });
@@ -205,7 +228,7 @@ BridgeSearch::Side BridgeSearch::sideOf(const GridMinCut& graph, const Terminals
   for (std::size_t root = 0; root < part_of_root_.size(); ++root) {
     const bool is_part = part_of_root_[root] < parts_.size();
     side.outside[root] =
-        is_part ? part_of_root_[root] == part : ends.of_root[root] && graph.isOnSourceSide(*ends.of_root[root]);
+        is_part ? group[part_of_root_[root]] : ends.of_root[root] && graph.isOnSourceSide(*ends.of_root[root]);
   }
   forLinkedFaces([&](glm::ivec3 before, glm::ivec3 after, int) {
     const bool first = isFirst(side, before);
@@ -276,8 +299,9 @@ Bridge BridgeSearch::measured(const Side& side) const {
 }
 
 /// The part that is reached first from the far side of the cut, voxel by voxel.
-std::size_t BridgeSearch::partBeyond(const Side& side, std::size_t part) const {
-  if (parts_.size() == 2) return 1 - part;
+std::size_t BridgeSearch::partBeyond(const Side& side, const Group& group) const {
+  const auto largest = static_cast<std::size_t>(std::ranges::find(group, false) - group.begin());
+  if (parts_.size() == 2) return largest;
   std::vector<bool> seen(mine_.size(), false);
   std::vector<glm::ivec3> queue;
   const auto visit = [&](glm::ivec3 ijk) {
@@ -290,11 +314,11 @@ std::size_t BridgeSearch::partBeyond(const Side& side, std::size_t part) const {
     const glm::ivec3 ijk = queue[head];
     for (const glm::ivec3 way : kNeighbours) {
       const std::size_t beyond = isInRegion(ijk + way) ? parts_.size() : outsidePart(ijk + way);
-      if (beyond != parts_.size() && beyond != part) return beyond;
+      if (beyond != parts_.size() && !group[beyond]) return beyond;
       visit(ijk + way);
     }
   }
-  return part == 0 ? 1 : 0;
+  return largest;
 }
 
 bool BridgeSearch::isOnFirstSide(std::size_t bridge, glm::ivec3 ijk) const {

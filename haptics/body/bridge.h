@@ -4,7 +4,8 @@
 // Area: length of the vector area |sum n s^2|, true for a plane cut in any direction, where the number of faces is up
 // to 1.73 times too large. Faces count by the smaller solid fraction of their two voxels, those along the rim too.
 // width = sqrt(12 I_v / A), thickness = sqrt(12 I_u / A), exact for a rectangle. Source: reference/extraction 2.4.
-// Several parts: each but the largest against all others (isolating cuts, Dahlhaus et al., SIAM J. Comput. 23, 1994).
+// More than two parts: those on one side of a flat cut against those on the other; else each but the largest against
+// all others (isolating cuts, Dahlhaus et al., SIAM J. Comput. 23, 1994).
 #pragma once
 
 #include <array>
@@ -42,6 +43,8 @@ struct CutRegion {
   VoxelBox box;  ///< within the grid
   /// Not 0: belongs to it; voxels of the box, i fastest. Empty: all do.
   std::vector<std::uint8_t> zone;
+  /// Across a flat cut, through its centre: parts beyond either side are held together by one bridge. 0: not flat.
+  glm::dvec3 normal{0.0}, centre_mm{0.0};
 };
 
 class BridgeSearch {
@@ -77,10 +80,12 @@ class BridgeSearch {
   void fillRegion();
   void linkCells(GridMinCut& graph) const;
   Terminals terminals() const;
+  using Group = std::vector<bool>;  ///< by part: comes off
+  std::vector<Group> groups() const;
   void separate();
-  Side sideOf(const GridMinCut& graph, const Terminals& terminals, std::size_t part) const;
+  Side sideOf(const GridMinCut& graph, const Terminals& terminals, const Group& group) const;
   Bridge measured(const Side& side) const;
-  std::size_t partBeyond(const Side& side, std::size_t part) const;
+  std::size_t partBeyond(const Side& side, const Group& group) const;
 
   bool isInRegion(glm::ivec3 ijk) const {
     return glm::all(glm::greaterThanEqual(ijk, box().first)) && glm::all(glm::lessThanEqual(ijk, box().last)) &&

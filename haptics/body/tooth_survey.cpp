@@ -27,9 +27,12 @@ glm::dmat3 principalAxes(glm::dmat3 matrix) {
   return axes;
 }
 
+constexpr double kBeyondAnyTooth_mm = 100.0;
+
 using Counts = std::function<bool(std::size_t brick, std::size_t part)>;
 
-/// The box along the principal axes of the places that count, kRegionMargin_mm wider on every side.
+/// The box along the principal axes of the places that count, kRegionMargin_mm wider on every side. A flat cut goes on
+/// through the whole tooth: below its floor stands what is to be measured.
 CutRegion regionAround(const Components& components, std::span<const std::vector<BrickPart>> lost,
                        const Counts& counts) {
   const assets::VolumeGrid& grid = components.grid();
@@ -53,9 +56,17 @@ CutRegion regionAround(const Components& components, std::span<const std::vector
       high_mm = glm::max(high_mm, at_mm);
     });
   });
-  const double margin_mm = kRegionMargin_mm + 0.5 * grid.spacing_mm;
-  low_mm -= margin_mm;
-  high_mm += margin_mm;
+  // Flat: one side less than half of the next.
+  const glm::dvec3 extent_mm = high_mm - low_mm;
+  const int thin =
+      extent_mm.x < extent_mm.y ? (extent_mm.x < extent_mm.z ? 0 : 2) : (extent_mm.y < extent_mm.z ? 1 : 2);
+  const double next_mm = std::min(extent_mm[(thin + 1) % 3], extent_mm[(thin + 2) % 3]);
+  const bool is_flat = extent_mm[thin] < 0.5 * next_mm;
+  const glm::dvec3 centre_mm = mass.centroid_mm + axes * (0.5 * (low_mm + high_mm));
+  glm::dvec3 margin_mm(is_flat ? kBeyondAnyTooth_mm : kRegionMargin_mm);
+  margin_mm[thin] = kRegionMargin_mm;
+  low_mm -= margin_mm + 0.5 * grid.spacing_mm;
+  high_mm += margin_mm + 0.5 * grid.spacing_mm;
 
   // The voxels of the upright box around it that lie in it.
   glm::dvec3 first(1e9), last(-1e9);
@@ -65,7 +76,7 @@ CutRegion regionAround(const Components& components, std::span<const std::vector
     first = glm::min(first, index);
     last = glm::max(last, index);
   }
-  CutRegion region{VoxelBox(grid, first, last), {}};
+  CutRegion region{VoxelBox(grid, first, last), {}, is_flat ? axes[thin] : glm::dvec3(0.0), centre_mm};
   assets::forVoxels(region.box.first, region.box.last + 1, [&](glm::ivec3 ijk) {
     const glm::dvec3 at_mm = into * (grid.centre_P_mm(ijk) - mass.centroid_mm);
     const bool inside = glm::all(glm::lessThanEqual(low_mm, at_mm)) && glm::all(glm::lessThanEqual(at_mm, high_mm));

@@ -3,7 +3,7 @@
 // allocates. The findings depend on the bytes alone, not on when or in which order they came.
 // The cut is where the tooth was solid at first and is not any more: first its largest connected place, then all of it,
 // each in a box along its principal axes with kRegionMargin_mm around it: beyond an upright box an oblique slot's
-// blocks stand out as corners.
+// blocks stand out as corners. A flat cut's box, at least twice as deep as thick, goes on through the tooth.
 #pragma once
 
 #include <array>

@@ -92,7 +92,7 @@ TEST(Bridge, ATCutHasABridgeForEachPartThatHangsOnTheLargest) {
   ToothSurvey survey = surveyOf(whole, now);
   survey.pieces();
   const Components& tooth = survey.components();
-  const BridgeSearch search(tooth, 0, {VoxelBox(tooth.grid(), {4, 4, 30}, {76, 36, 50}), {}}, 0.2);
+  const BridgeSearch search(tooth, 0, {VoxelBox(tooth.grid(), {4, 4, 30}, {76, 36, 50}), {}, {}, {}}, 0.2);
   ASSERT_EQ(search.parts().size(), 3u);
   ASSERT_EQ(search.bridges().size(), 2u);
   std::vector<double> areas;
@@ -104,6 +104,23 @@ TEST(Bridge, ATCutHasABridgeForEachPartThatHangsOnTheLargest) {
   std::ranges::sort(areas);
   EXPECT_NEAR(areas[0], 4.0, 1e-6);
   EXPECT_NEAR(areas[1], 6.0, 1e-6);
+}
+
+TEST(Bridge, AFlatSlotAboveTwoRootsHasOneBridgeToBothOfThem) {
+  ToothPhantom whole({80, 40, 80}, 0.2);
+  fill(whole, {4, 4, 30}, {76, 36, 76});
+  fill(whole, {4, 4, 4}, {36, 36, 30});
+  fill(whole, {44, 4, 4}, {76, 36, 30});
+  ToothPhantom now = whole;
+  fill(now, {4, 4, 34}, {76, 36, 42}, 0);
+  fill(now, {30, 4, 34}, {50, 14, 42});
+  ToothSurvey survey = surveyOf(whole, now);
+  const ToothFindings found = findingsOf(survey, 0.2);
+  ASSERT_EQ(found.held[0].parts, 3u);
+  ASSERT_EQ(found.held[0].bridges, 1u);
+  EXPECT_NEAR(found.held[0].bridge[0].area_mm2, 20 * 10 * 0.04, 1e-6);
+  EXPECT_NEAR(found.held[0].bridge[0].width_mm, 4.0, 1e-6);
+  EXPECT_NEAR(found.held[0].bridge[0].thickness_mm, 2.0, 1e-6);
 }
 
 TEST(Bridge, NothingCutHasNone) {

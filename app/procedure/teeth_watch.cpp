@@ -1,0 +1,77 @@
+#include "app/procedure/teeth_watch.h"
+
+#include <chrono>
+#include <utility>
+
+namespace app {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenLooks{50};
+constexpr int kLooksPerBridge = 4;
+
+}  // namespace
+
+TeethWatch::TeethWatch(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid)
+    : survey_(grid, solid), bricks_(grid.bricks()), thread_([this] { run(); }) {}
+
+TeethWatch::~TeethWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void TeethWatch::give(glm::ivec3 brick, const Brick& solid, std::uint64_t digest) {
+  {
+    const std::lock_guard lock(mutex_);
+    given_.insert_or_assign(assets::indexIn(bricks_, brick), std::pair{brick, solid});
+    digest_ = digest;
+  }
+  wake_.notify_all();
+}
+
+void TeethWatch::settle() {
+  std::unique_lock lock(mutex_);
+  hurry_ = true;
+  wake_.notify_all();
+  settled_.wait(lock, [this] { return given_.empty() && !is_looking_ && !owes_bridges_; });
+  hurry_ = false;
+}
+
+void TeethWatch::run() {
+  Report report;
+  int looks_without = 0;
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return stopping_ || !given_.empty() || owes_bridges_; });
+    if (stopping_) return;
+    const auto bricks = std::exchange(given_, {});
+    report.digest = digest_;
+    is_looking_ = true;
+    lock.unlock();
+
+    for (const auto& [number, brick] : bricks) survey_.update(brick.first, brick.second);
+    report.findings = survey_.pieces();
+    report.has_bridges = false;
+    ++report.serial;
+    lock.lock();
+    const bool with_bridges = given_.empty() || ++looks_without >= kLooksPerBridge;
+    lock.unlock();
+    if (with_bridges) {
+      survey_.findBridges(report.findings, haptics::kBridgeCell_mm);
+      report.has_bridges = true;
+      looks_without = 0;
+    }
+    newest_.publish(report);
+
+    lock.lock();
+    is_looking_ = false;
+    owes_bridges_ = !with_bridges;
+    settled_.notify_all();
+    wake_.wait_for(lock, kBetweenLooks, [this] { return stopping_ || hurry_; });
+  }
+}
+
+}  // namespace app

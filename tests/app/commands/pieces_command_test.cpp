@@ -1,0 +1,91 @@
+#include <nlohmann/json.hpp>
+
+#include "assets/scan/image_file.h"
+#include "tests/app/commands/program.h"
+#include "tests/haptics/tooth_phantom.h"
+
+namespace app {
+namespace {
+
+using haptics::phantom::bridged;
+using haptics::phantom::fill;
+using haptics::phantom::ToothPhantom;
+
+class PiecesCommand : public ProgramTest {
+ protected:
+  /// Options for a volume of this solid in which `is_tooth` has label 5.
+  std::string volume(const ToothPhantom& solid, const ToothPhantom& is_tooth) const {
+    std::vector<std::uint8_t> label(is_tooth.solid.size());
+    std::ranges::transform(is_tooth.solid, label.begin(),
+                           [](std::uint8_t byte) { return static_cast<std::uint8_t>(byte >= 128 ? 5 : 0); });
+    const auto store = [&](const std::string& name, const std::vector<std::uint8_t>& values) {
+      calibration::OutputFile out = assets::nrrdOutput(at(name), true);
+      assets::writeSolid(solid.grid, values, out);
+    };
+    store("s.nrrd", solid.solid);
+    store("l.nrrd", label);
+    return "pieces --volume " + at("s.nrrd") + " --field solid --labels " + at("l.nrrd") + " ";
+  }
+  nlohmann::json answer(const std::string& arguments) const {
+    const ProgramOutput said = molar(arguments + "--json");
+    EXPECT_EQ(said.status, 0) << said.err;
+    return nlohmann::json::parse(said.out);
+  }
+};
+
+TEST_F(PiecesCommand, ABridgeHasItsAreaWidthThicknessAndNormal) {
+  const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false), now = bridged(0.3, 0.0, 1.5, 6.0, true);
+  for (const ToothPhantom& labelled : {whole, now}) {  // labels of the tooth as scanned, and of what is left
+    const nlohmann::json said = answer(volume(now, labelled));
+    ASSERT_EQ(said.at("pieces").size(), 1u);
+    ASSERT_EQ(said.at("bridges").size(), 1u);
+    const nlohmann::json& bridge = said.at("bridges")[0];
+    EXPECT_NEAR(bridge.at("area_mm2").get<double>(), 9.0, 0.45);
+    EXPECT_NEAR(bridge.at("width_mm").get<double>(), 6.0, 0.3);
+    EXPECT_NEAR(bridge.at("thickness_mm").get<double>(), 1.5, 0.3);
+    EXPECT_NEAR(std::abs(bridge.at("normal_P")[2].get<double>()), 1.0, 1e-3);
+    EXPECT_NE(bridge.at("between")[0], bridge.at("between")[1]);
+  }
+}
+
+TEST_F(PiecesCommand, FivePartsAreFivePiecesByVolume) {
+  ToothPhantom whole({120, 20, 20}, 0.2);
+  fill(whole, {1, 1, 1}, {119, 19, 19});
+  ToothPhantom now = whole;
+  for (int n = 1; n < 5; ++n) fill(now, {n * 22, 0, 0}, {n * 22 + 4, 20, 20}, 0);
+  const nlohmann::json said = answer(volume(now, whole));
+  ASSERT_EQ(said.at("pieces").size(), 5u);
+  EXPECT_EQ(said.at("bridges").size(), 0u);
+  EXPECT_NEAR(said.at("pieces")[0].at("volume_mm3").get<double>(), 27 * 18 * 18 * 0.008, 1e-6);
+  const ProgramOutput words = molar(volume(now, whole));
+  EXPECT_EQ(words.status, 0);
+  EXPECT_NE(words.out.find("volume mm³"), std::string::npos) << words.out;
+}
+
+TEST_F(PiecesCommand, RefusesWhatHoldsNoTooth) {
+  ToothPhantom block({20, 20, 20}, 0.2), none({20, 20, 20}, 0.2), one({20, 20, 20}, 0.2);
+  fill(block, {2, 2, 2}, {18, 18, 18});
+  fill(one, {9, 9, 9}, {10, 10, 10});
+  expectRefusal(volume(block, none), "no third molar is labelled");
+  expectRefusal(volume(block, block) + "--tooth 48", "--tooth 48");
+  expectRefusal("pieces --volume " + at("s.nrrd") + " --field solid", "--labels");
+  expectRefusal("pieces", "exactly one");
+  expectRefusal("pieces " + at("nothing.molar"), "nothing.molar");
+  const ProgramOutput tiny = molar(volume(block, one));
+  EXPECT_EQ(tiny.status, 2);
+  EXPECT_NE(tiny.err.find("0.008 mm³"), std::string::npos) << tiny.err;
+}
+
+TEST_F(PiecesCommand, TheUncutToothOfASessionIsOnePiece) {
+  const std::string session = at("s.molar");
+  const ProgramOutput ran = molar(
+      "rehearse --headless --pace fast --device scripted --voxel 0.6 --size 96x64 --seconds 0.2 --record " + session);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const nlohmann::json said = answer("pieces " + session + " ");
+  ASSERT_EQ(said.at("pieces").size(), 1u);
+  EXPECT_EQ(said.at("bridges").size(), 0u);
+  EXPECT_GT(said.at("pieces")[0].at("volume_mm3").get<double>() + said.at("cut_mm3").get<double>(), 300.0);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,58 @@
+#include "app/procedure/teeth_watch.h"
+
+#include "tests/haptics/tooth_phantom.h"
+
+namespace app {
+namespace {
+
+using haptics::phantom::brickOf;
+using haptics::phantom::bridged;
+using haptics::phantom::ToothPhantom;
+
+void giveAll(TeethWatch& watch, const ToothPhantom& tooth, std::uint64_t digest) {
+  assets::forVoxels(glm::ivec3(0), tooth.grid.bricks(),
+                    [&](glm::ivec3 brick) { watch.give(brick, brickOf(tooth, brick), digest); });
+}
+
+TEST(TeethWatch, FindsTheBridgeAndThenTwoPieces) {
+  const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false);
+  TeethWatch watch(whole.grid, whole.solid);
+  EXPECT_EQ(watch.newest().serial, 0u);
+  giveAll(watch, bridged(0.3, 0.0, 1.5, 6.0, true), 7);
+  watch.settle();
+  const TeethWatch::Report& held = watch.newest();
+  EXPECT_EQ(held.digest, 7u);
+  EXPECT_TRUE(held.has_bridges);
+  EXPECT_EQ(held.findings.pieces, 1u);
+  ASSERT_EQ(held.findings.held[0].bridges, 1u);
+  EXPECT_NEAR(held.findings.held[0].bridge[0].area_mm2, 9.0, 0.5);
+
+  giveAll(watch, bridged(0.3, 0.0, 0.0, 0.0, true), 8);
+  watch.settle();
+  EXPECT_EQ(watch.newest().digest, 8u);
+  EXPECT_EQ(watch.newest().findings.pieces, 2u);
+}
+
+TEST(TeethWatch, WhateverTheOrderOfBricksTheFindingsAreThoseOfTheLastBytes) {
+  const ToothPhantom whole = bridged(0.3, 0.3, 1.5, 6.0, false), now = bridged(0.3, 0.3, 1.5, 6.0, true);
+  TeethWatch once(whole.grid, whole.solid), often(whole.grid, whole.solid);
+  giveAll(once, now, 1);
+  for (const double thickness_mm : {5.0, 4.0, 3.0, 2.0}) giveAll(often, bridged(0.3, 0.3, thickness_mm, 6.0, true), 0);
+  giveAll(often, now, 1);
+  once.settle();
+  often.settle();
+  const haptics::ToothFindings &a = once.newest().findings, &b = often.newest().findings;
+  EXPECT_EQ(a.piece[0].volume_mm3, b.piece[0].volume_mm3);
+  ASSERT_EQ(a.held[0].bridges, b.held[0].bridges);
+  EXPECT_EQ(a.held[0].bridge[0].area_mm2, b.held[0].bridge[0].area_mm2);
+  EXPECT_EQ(a.held[0].bridge[0].centre_mm, b.held[0].bridge[0].centre_mm);
+}
+
+TEST(TeethWatch, EndsWithBricksNotYetLookedAt) {
+  const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false);
+  TeethWatch watch(whole.grid, whole.solid);
+  giveAll(watch, whole, 1);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,20 @@
+// Work of the rest of the operation, each beside a slow and obvious twin in one run: nothing to compare by hand.
+//   haptics_extraction_bench            all parts
+//   haptics_extraction_bench pieces     pieces of a tooth and the bridge between them
+// CPU time of this thread; only ratios are comparable between machines.
+#include <cstdio>
+#include <string_view>
+
+#include "tests/bench/extraction_parts.h"
+
+int main(int argc, char** argv) {
+  const std::string_view wanted = argc > 1 ? argv[1] : "";
+  bool found = false;
+  for (const auto& part : bench::kExtractionParts) {
+    if (!wanted.empty() && wanted != part.name) continue;
+    part.run();
+    found = true;
+  }
+  if (!found) std::fprintf(stderr, "haptics_extraction_bench: no part of this name\n");
+  return found ? 0 : 2;
+}
