@@ -59,10 +59,13 @@ std::vector<int> labelsOf(const Components& components) {
 }
 
 TEST(Components, TwoBoxesJoinedByAnEdgeAreTwoPieces) {
-  ToothPhantom tooth({24, 24, 24}, 0.2);
-  fill(tooth, {2, 2, 2}, {8, 8, 20});
-  fill(tooth, {8, 8, 2}, {14, 14, 20});
-  EXPECT_EQ(Components(tooth.grid, tooth.solid).pieces().size(), 2u);
+  // The edge inside a brick, and between bricks.
+  for (int edge = 4; edge <= 12; ++edge) {
+    ToothPhantom tooth({24, 24, 24}, 0.2);
+    fill(tooth, {2, 2, 2}, {edge, edge, 20});
+    fill(tooth, {edge, edge, 2}, {14, 14, 20});
+    EXPECT_EQ(Components(tooth.grid, tooth.solid).pieces().size(), 2u) << edge;
+  }
 }
 
 TEST(Components, TwoBoxesJoinedByAFaceAreOnePiece) {
@@ -138,6 +141,10 @@ TEST(Components, CarvedStepByStepTheLabelsAreThoseOfAFloodFill) {
       end[a] = std::min(tooth.grid.size[a], first[a] + (a == axis ? 40 : 4));
     }
     fill(tooth, first, end, step % 7 == 6 ? 200 : static_cast<std::uint8_t>(random() % 140));
+    // Grains, which touch by edges and corners too.
+    assets::forVoxels(first, glm::min(first + 6, end), [&](glm::ivec3 ijk) {
+      tooth.solid[tooth.grid.index(ijk)] = random() % 2 == 0 ? std::uint8_t{0} : std::uint8_t{255};
+    });
     assets::forVoxels(first / 8, (end - 1) / 8 + 1,
                       [&](glm::ivec3 brick) { components.update(brick, phantom::brickOf(tooth, brick)); });
     components.join();
