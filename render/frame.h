@@ -9,6 +9,7 @@
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
 #include "render/display/display_mode.h"
+#include "render/soft_marks.h"
 #include "render/surgical_field.h"
 
 namespace render {
@@ -83,6 +84,7 @@ struct Frame {
   double face_window_mm = 0.0;  ///< the face is cut away within this distance of the line eye-to-site; 0: never
   calibration::Point<calibration::Patient> site_P;
   SurgicalField field;
+  SoftMarks marks;
 };
 
 }  // namespace render

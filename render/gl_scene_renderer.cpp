@@ -17,6 +17,7 @@
 #include "render/scene/inset_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_constants.glsl"
+#include "render/soft_block.h"
 #include "render/tool_block.h"
 #include "render/volume/bone_mesh.h"
 #include "render/volume/ray_caster.h"
@@ -95,6 +96,7 @@ class GlSceneRenderer final : public SceneRenderer {
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
   UniformBlock<ToolBlock> tool_block_;
+  UniformBlock<SoftBlock> soft_block_;
   StereoCompositor compositor_;
   std::array<SceneMesh, kModels> models_;
   EdgePass edges_;
@@ -126,6 +128,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
   tool_block_.set(TOOL_BLOCK, toolBlock(frame));
+  soft_block_.set(SOFT_BLOCK, softBlock(frame.marks));
   caster_.bind(fields_, volume_, frame);
   target.bind();
   target.clear();

@@ -37,13 +37,26 @@ bool areSameFields(const render::SurgicalField& a, const render::SurgicalField& 
          std::abs(a.dust - b.dust) < kSeen && std::abs(a.spray - b.spray) < kSeen;
 }
 
+// Redness fades for seconds.
+bool areSameMarks(const render::SoftMarks& a, const render::SoftMarks& b) {
+  constexpr double kSeen = 0.1;
+  const auto is_same_cut = [](const render::SoftCut& of_a, const render::SoftCut& of_b) {
+    return of_a.from_P.mm == of_b.from_P.mm && of_a.to_P.mm == of_b.to_P.mm && of_a.radius_mm == of_b.radius_mm;
+  };
+  const auto is_alike = [](const render::Reddened& of_a, const render::Reddened& of_b) {
+    return std::abs(of_a.share - of_b.share) < kSeen && glm::distance(of_a.place_P.mm, of_b.place_P.mm) < kSeen;
+  };
+  return std::ranges::equal(a.cuts, b.cuts, is_same_cut) && std::ranges::equal(a.reddened, b.reddened, is_alike);
+}
+
 }  // namespace
 
 bool showSameScene(const render::Frame& a, const render::Frame& b) {
-  // A new member does not compile until it is compared; quality and display are not the scene's, the
-  // field has its own comparison.
+  // A new member does not compile until it is compared; quality and display are not the scene's, field
+  // and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, window, site, field] = a;
+                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, window, site, field,
+                                marks] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible) return false;
   if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
       a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
@@ -64,9 +77,11 @@ FrameDrawing StillPicture::next(const render::Frame& frame, bool changed, Time n
     return newest_ = FrameDrawing::live;
   }
   const bool is_refined = newest_ != FrameDrawing::live;
-  if (is_refined && areSameFields(still_->field, frame.field)) return newest_ = FrameDrawing::kept;
+  if (is_refined && areSameFields(still_->field, frame.field) && areSameMarks(still_->marks, frame.marks))
+    return newest_ = FrameDrawing::kept;
   if (!is_refined && now - since_ < kStillFor) return newest_ = FrameDrawing::live;
   still_->field = frame.field;
+  still_->marks = frame.marks;
   return newest_ = FrameDrawing::refined;
 }
 

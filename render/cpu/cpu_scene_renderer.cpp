@@ -143,7 +143,8 @@ void CpuSceneRenderer::prepare(const Frame& frame, const FieldChanges& changes) 
     cells_.refresh();
     if (changes.solid.empty()) cells_.rebuildIfStale();
     meshes_.place(placementsIn(frame),
-                  {glm::vec3(any_eye.window_eye_P), glm::vec3(any_eye.window_site_P), any_eye.window_site_P.w});
+                  {glm::vec3(any_eye.window_eye_P), glm::vec3(any_eye.window_site_P), any_eye.window_site_P.w},
+                  softBlock(frame.marks));
   });
 }
 
@@ -156,6 +157,7 @@ TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   ShadeScene& shade = scene.shade;
   shade.eye = eyeBlock(frame, eyeView(frame.rig, eye));
   shade.tool = toolBlock(frame);
+  shade.soft = softBlock(frame.marks);
   shade.right_axis_P = glm::normalize(glm::vec3(shade.eye.right_edge_P));
   const glm::vec3 window = glm::vec3(shade.eye.window_site_P) - glm::vec3(shade.eye.window_eye_P);
   shade.window_reach_mm = glm::length(window);

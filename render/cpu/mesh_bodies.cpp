@@ -113,6 +113,7 @@ RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, M
     std::ranges::copy(kept.triangles, index);
 
     const MeshTrait trait = kept.is_cut                             ? MeshTrait::cuttable
+                            : kept.finish == Finish::gingiva        ? MeshTrait::torn
                             : finishOf(body.model) == Finish::guide ? MeshTrait::outside_only
                                                                     : MeshTrait::plain;
     rtcSetGeometryUserData(triangles, reinterpret_cast<void*>(trait));
@@ -154,12 +155,13 @@ void MeshBodies::setModel(Model model, const assets::MeshModel& mesh) {
       rtcSetGeometryTransform(at->instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &at->pose);
       rtcCommitGeometry(at->instance);
     }
-  place(placements_, window_);
+  place(placements_, window_, SoftBlock(soft_));
 }
 
-void MeshBodies::place(const Placements& placements, const FaceWindow& window) {
-  if (window != window_) ++static_revision_;
+void MeshBodies::place(const Placements& placements, const FaceWindow& window, const SoftBlock& soft) {
+  if (window != window_ || !haveSameCuts(soft, soft_)) ++static_revision_;
   window_ = window;
+  soft_ = soft;
   placements_ = placements;
   has_ = {};
   const bool guided = hasGuides() || opacityOf(Model::ghost) > 0.0f;

@@ -10,6 +10,7 @@
 
 #include "assets/mesh.h"
 #include "render/scene/models.h"
+#include "render/soft_block.h"
 
 // Embree's, whose own header stays in .cpp files.
 struct RTCDeviceTy;
@@ -53,8 +54,8 @@ struct MeshBody {
   glm::mat4x3 pose{1.0f};
 };
 
-/// User data of a geometry, for the intersection filter.
-enum class MeshTrait : std::uintptr_t { plain = 0, cuttable = 1, outside_only = 2 };
+/// User data of a geometry, for the intersection filter. `torn`: where a bur cut it, it is gone.
+enum class MeshTrait : std::uintptr_t { plain = 0, cuttable = 1, outside_only = 2, torn = 3 };
 
 class MeshBodies {
  public:
@@ -66,14 +67,15 @@ class MeshBodies {
 
   /// An empty model removes the previous one. The instrument's part "Bur" rotates about its z axis.
   void setModel(Model model, const assets::MeshModel& mesh);
-  /// Initially as for a default Frame.
-  void place(const Placements& placements, const FaceWindow& window = {});
+  /// Initially as for a default Frame. Of the marks the cuts count; a new cut is a change of the fixed meshes.
+  void place(const Placements& placements, const FaceWindow& window = {}, const SoftBlock& soft = {});
 
   /// By instance ID; some slots may be free.
   const std::vector<MeshBody>& all() const { return bodies_; }
   float opacityOf(Model model) const { return placements_[model].opacity; }
   bool hasGuides() const { return opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ruler) > 0.0f; }
   const FaceWindow& window() const { return window_; }
+  const SoftBlock& soft() const { return soft_; }
   std::uint64_t staticRevision() const { return static_revision_; }
 
   RTCSceneTy* scene(MeshGroup group) const { return scenes_[static_cast<std::size_t>(group)]; }
@@ -94,6 +96,7 @@ class MeshBodies {
   std::vector<MeshBody> bodies_;
   Placements placements_ = placementsIn(Frame{});
   FaceWindow window_;
+  SoftBlock soft_;
   std::uint64_t static_revision_ = 0;
 };
 

@@ -25,6 +25,7 @@ struct Layer {
 struct Query {
   RTCIntersectContext context;  // must be first: Embree passes its address
   const FaceWindow* window;
+  const SoftBlock* soft;
   std::vector<Layer>* layers;  ///< null: looking for the first hit
 };
 
@@ -38,23 +39,26 @@ float rimDistance(const FaceWindow& window, const glm::vec3& p) {
   return std::max(glm::length(offset - along * axis) - window.radius_mm, along - (reach - RIM_BEHIND));
 }
 
-// Filter of Embree's hits: rejects hits in the face window and back faces of guides; records layers and continues.
+// Filter of Embree's hits: rejects hits in the face window and in cuts of soft tissue, and back faces of guides;
+// records layers and continues.
 void filter(const RTCFilterFunctionNArguments* args) {
   const Query& query = *reinterpret_cast<const Query*>(args->context);
   const auto trait = static_cast<MeshTrait>(reinterpret_cast<std::uintptr_t>(args->geometryUserPtr));
   const bool may_cut = trait == MeshTrait::cuttable && query.window->radius_mm > 0.0f;
+  const bool may_tear = trait == MeshTrait::torn && query.soft->counts.x > 0;
   const bool one_sided = trait == MeshTrait::outside_only;
-  if (!may_cut && !one_sided && query.layers == nullptr) return;
+  if (!may_cut && !may_tear && !one_sided && query.layers == nullptr) return;
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] == 0) continue;
     const float t = RTCRayN_tfar(args->ray, n, i);
     const glm::vec3 direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
                               RTCRayN_dir_z(args->ray, n, i));
-    if (may_cut) {
+    if (may_cut || may_tear) {
       const glm::vec3 origin(RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
                              RTCRayN_org_z(args->ray, n, i));
-      if (rimDistance(*query.window, origin + t * direction) < 0.0f) {
+      const glm::vec3 p_P = origin + t * direction;
+      if (may_cut ? rimDistance(*query.window, p_P) < 0.0f : cutDistance(*query.soft, p_P) < 0.0f) {
         args->valid[i] = 0;
         continue;
       }
@@ -120,10 +124,11 @@ void fill(RTCRayHit8& packet, int* valid, const RayBatch& rays, int first, const
 }
 
 Query queryFor(const MeshBodies& bodies, std::vector<Layer>* layers) {
-  Query query{.context = {}, .window = &bodies.window(), .layers = layers};
+  Query query{.context = {}, .window = &bodies.window(), .soft = &bodies.soft(), .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (layers != nullptr || bodies.window().radius_mm > 0.0f || bodies.hasGuides()) query.context.filter = filter;
+  if (layers != nullptr || bodies.window().radius_mm > 0.0f || bodies.soft().counts.x > 0 || bodies.hasGuides())
+    query.context.filter = filter;
   return query;
 }
 

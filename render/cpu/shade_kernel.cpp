@@ -2,6 +2,7 @@
 // occlusion_body.h, tissue_body.h and tool_body.h. Everything but the table has internal linkage.
 #include <cmath>
 
+#include "render/cpu/soft_body.h"
 #include "render/cpu/srgb_pieces.h"
 #include "render/cpu/tissue_body.h"
 #include "render/cpu/tool_body.h"
@@ -126,6 +127,13 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
       s.roughness = select(tooth, enamel.x, s.roughness);
       s.f0 = select(tooth, vec3(enamel.y), s.f0);
       s.wrap = select(tooth, enamel.z, s.wrap);
+    }
+
+    const Mask soft = mask & (gingiva | (skin & (load(points.is_cut + i) != 0)));
+    if ((scene.soft.counts.x > 0 || scene.soft.counts.y > 0) && any(soft)) {
+      const Surface mark = marked(scene.soft, s, p_P, soft);
+      s.albedo = select(soft, mark.albedo, s.albedo);
+      s.roughness = select(soft, mark.roughness, s.roughness);
     }
 
     Visibility visibility = visibilityFromVolume(scene, p_P + MESH_LIFT * normal, normal, mask);

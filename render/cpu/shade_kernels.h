@@ -9,6 +9,7 @@
 #include "assets/instruction_set.h"
 #include "render/cpu/mesh_points.h"
 #include "render/eye_block.h"
+#include "render/soft_block.h"
 #include "render/tool_block.h"
 
 namespace render {
@@ -25,6 +26,7 @@ struct FieldView {
 struct ShadeScene {
   EyeBlock eye;
   ToolBlock tool;
+  SoftBlock soft;
   glm::vec3 right_axis_P{1.0f, 0.0f, 0.0f};   ///< unit, along the image's rows
   glm::vec3 window_axis_P{0.0f, 0.0f, 1.0f};  ///< unit, axis of the face window
   float window_reach_mm = 0.0f;               ///< from the eyes to the site

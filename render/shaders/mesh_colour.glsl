@@ -3,6 +3,7 @@
 #include "part_block.glsl"
 #include "occlusion.glsl"
 #include "tool_shade.glsl"
+#include "soft_marks.glsl"
 
 layout(location = 0) in vec3 p_P;
 layout(location = 1) in vec3 normal_P;
@@ -37,6 +38,11 @@ vec4 meshColour() {
     rim = smoothstep(0.0, RIM_WIDTH, away);
   }
 
+  // Marks on gingiva, and on the face without its metal; cut gingiva is gone.
+  bool is_soft = finish == FINISH_GINGIVA || (finish == FINISH_SKIN && part.finish.w > 0.5);
+  float from_cut = is_soft ? cutDistance(p_P) : SOFT_FAR;
+  if (finish == FINISH_GINGIVA && from_cut < 0.0) discard;
+
   float metallic = part.finish.y;
   Surface s;
   s.roughness = clamp(part.finish.x, MIN_ROUGHNESS, 1.0);
@@ -60,6 +66,7 @@ vec4 meshColour() {
     s.f0 = vec3(kEnamel.y);
     s.wrap = kEnamel.z;
   }
+  if (is_soft) s = marked(s, p_P, from_cut);
   if (finish == FINISH_GUIDE) {
     // Unlit: it is not part of the patient and is visible inside the bone.
     float facing = abs(dot(normal, to_eye));

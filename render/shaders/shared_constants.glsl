@@ -9,6 +9,7 @@
 #define OUTPUT_BLOCK 3
 #define TRANSFER_BLOCK 4
 #define TOOL_BLOCK 5
+#define SOFT_BLOCK 6
 
 #define FRAGMENT_LIST 0          // storage buffers
 #define FRAGMENT_HEADS_IMAGE 2   // images, after the targets
@@ -69,6 +70,9 @@
 #define CAST_GROUP 8             // edge of a work group of the compute caster, px
 
 #define TOOL_PARTS 4             // round parts of an instrument that shade the patient
+
+#define SOFT_CUTS 64             // marks on soft tissue
+#define SOFT_REDDENED 8
 
 #define EDGE_SAMPLES 2           // along each edge of a pixel that antialiasing draws again
 
