@@ -14,6 +14,7 @@
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
+#include "app/rehearsal/soft_mark_trail.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
 #include "app/rehearsal/touches.h"
@@ -159,6 +160,7 @@ class Rehearsal {
     if (ticks.empty()) return;
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
+    soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
     for (const Touch& touch : touches_.follow(ticks, command.tool.head)) event_log_.note(kTouchEvent, touchText(touch));
     if (!plan_.procedure) return;
@@ -176,6 +178,7 @@ class Rehearsal {
     frame_ = nextFrame(frame_, newest_, active_command_.inForce());
     clarity_.step(newest_, active_command_.inForce().irrigating);
     frame_.field = surgicalField(clarity_);
+    frame_.marks = soft_marks_.marks();
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone();
@@ -237,6 +240,7 @@ class Rehearsal {
   Touches touches_{plan_.patient};
   ControlRouter router_;
   SoftTouchCounter soft_touches_;
+  SoftMarkTrail soft_marks_;
   std::optional<StereoSnapshot> first_, last_;
   LiveView view_;
   Pace pace_;
