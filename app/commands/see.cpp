@@ -15,6 +15,8 @@
 #include "app/options/settings_text.h"
 #include "app/options/view_option.h"
 #include "app/options/volume_option.h"
+#include "app/rehearsal/frame_builder.h"
+#include "app/session/field_clarity.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -39,7 +41,7 @@ struct SeeOptions {
   std::vector<double> tool_at_mm;
   std::string patient, case_name, out, depth, matrices;
   int samples = 2;
-  bool bone_only = false, panoramic = false, force = false;
+  bool bone_only = false, dry = false, panoramic = false, force = false;
 };
 
 std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
@@ -73,6 +75,14 @@ int seePanoramic(const SeeOptions& options) {
   return 0;
 }
 
+/// As a rehearsal begins: moist at the planned cut, or at the site; a specimen of its own all over.
+render::SurgicalField moistField(const assets::Patient& patient, const std::optional<assets::PlannedCut>& cut,
+                                 bool of_patient) {
+  render::SurgicalField field = surgicalField(FieldClarity({cut ? cut->surface_P_mm : patient.focus_P_mm()}));
+  if (!of_patient) field.reach_mm = 0.0;
+  return field;
+}
+
 int see(const SeeOptions& options) {
   const bool of_patient = !options.patient.empty() || !options.case_name.empty();
   if (options.volume.given() == of_patient)
@@ -101,6 +111,7 @@ int see(const SeeOptions& options) {
     guides = guidesFor(patient, plan ? std::optional(plan->cut) : std::nullopt);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
+  if (!options.dry) frame.field = moistField(patient, guides.cut, of_patient);
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
   if (options.view.namesRig() && hasNoPatientPose(frame.rig) && of_patient)
     frame.rig.X_WP = placePatientAtSite(patient, assets::kFaceAxes_PF);
@@ -162,6 +173,7 @@ void addSee(CommandLine& molar) {
       .numbers(3)
       .from(-1e4, 1e4);
   command.flag("--panoramic", options->panoramic, "The jaw unrolled along its arch, as dentists read it");
+  command.flag("--dry", options->dry, "Tooth and bone dry as a specimen, not moist as in a rehearsal");
   command.flag("--bone-only", options->bone_only, "Without face and gingiva");
   command.option("--out", options->out, "Image, .png").required();
   command.option("--depth", options->depth, "Distances along the rays in mm, .nrrd");

@@ -31,7 +31,7 @@ inline Surface marked(const SoftBlock& soft, Surface s, const Float3& p_P, Mask 
   }
   const Float away = cutDistance(soft, p_P, mask);
   if (any(mask & (away < SOFT_RIM_WIDTH))) {
-    const Float wound = 1.0f - smoothStep(0.0f, SOFT_RIM_WIDTH, away);
+    const Float wound = 1.0f - smoothStep(SOFT_RIM_FROM, SOFT_RIM_WIDTH, away);
     s.albedo = mix(s.albedo, vec3(SOFT_WOUND_COLOUR), SOFT_WOUND_COVER * wound);
     s.roughness = mix(s.roughness, minimum(s.roughness, SOFT_WOUND_ROUGHNESS), wound);
   }

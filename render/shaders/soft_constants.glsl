@@ -2,8 +2,9 @@
 // file too. Chosen by eye on pictures at work scale.
 
 #define SOFT_FAR 1e3f               // mm: no cut is near
-#define SOFT_RIM_WIDTH 0.7f         // mm of wound around a cut
-#define SOFT_WOUND_COLOUR 0.165f, 0.010f, 0.010f
+#define SOFT_RIM_FROM 0.25f         // mm from a cut: full wound
+#define SOFT_RIM_WIDTH 1.2f         // and where it ends
+#define SOFT_WOUND_COLOUR 0.20f, 0.013f, 0.012f
 #define SOFT_WOUND_COVER 0.92f
 #define SOFT_WOUND_ROUGHNESS 0.22f  // wet
 #define SOFT_RED_TINT 0.92f, 0.40f, 0.38f  // of the albedo where tissue is reddened

@@ -25,7 +25,7 @@ Surface marked(Surface s, vec3 p_P, float away) {
   }
   s.albedo = mix(s.albedo, s.albedo * vec3(SOFT_RED_TINT), min(red, 1.0));
 
-  float wound = 1.0 - smoothstep(0.0, SOFT_RIM_WIDTH, away);
+  float wound = 1.0 - smoothstep(SOFT_RIM_FROM, SOFT_RIM_WIDTH, away);
   s.albedo = mix(s.albedo, vec3(SOFT_WOUND_COLOUR), SOFT_WOUND_COVER * wound);
   s.roughness = mix(s.roughness, min(s.roughness, SOFT_WOUND_ROUGHNESS), wound);
   return s;

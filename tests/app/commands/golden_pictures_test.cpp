@@ -94,6 +94,17 @@ TEST_F(GoldenPicture, TheSiteAtWorkScaleBeforeAndAfterTheTrough) {
   }
 }
 
+TEST_F(GoldenPicture, TheSiteOfOnePictureMoistAndDry) {
+  constexpr char kSite[] =
+      "see --case usual --size 300x300 --renderer cpu --camera "
+      "'{\"eye_mm\":[-115,-387,217],\"look_at_mm\":[-30,37,-8],\"up\":[0,0,1],\"fov_y_deg\":4.5}' --out ";
+  for (const auto& [golden, option] : {std::pair{"see_moist.png", ""}, std::pair{"see_dry.png", " --dry"}}) {
+    const ProgramOutput said = molar(kSite + at(golden) + option);
+    ASSERT_EQ(said.status, 0) << said.err;
+    expectGolden(golden, golden, kStill);
+  }
+}
+
 TEST_F(GoldenPicture, ThePlannedCutAndTheSlices) {
   const ProgramOutput said =
       molar(kRun + std::string("--seconds 0.1 --layers plan,clearance,slices --first-snapshot ") + at("plan.png"));

@@ -94,6 +94,21 @@ TEST_F(SeeCommand, ShowsCarvedBone) {
   EXPECT_EQ(after[0], before[0]);
 }
 
+TEST_F(SeeCommand, DrawsMoistBoneUnlessDryIsWanted) {
+  writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
+  const auto pictureWith = [&](const std::string& option) {
+    const ProgramOutput said =
+        molar("see --volume " + at("v.nrrd") + " --field solid --size 64x48 --samples 1 --camera " + kCamera + option +
+              " --force --out " + at("a.png") + " --depth " + at("d.nrrd"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    return read("a.png");
+  };
+  const std::string moist = pictureWith("");
+  const std::string depth = read("d.nrrd");
+  EXPECT_NE(pictureWith(" --dry"), moist);
+  EXPECT_EQ(read("d.nrrd"), depth) << "the same surface";
+}
+
 TEST_F(SeeCommand, ShowsEveryGuideWithoutAGraphicsCard) {
   assets::savePatient(assets::syntheticJaw({.spacing_mm = 0.6}), at("p"), false);
   const auto pictureWith = [&](const std::string& layers) {

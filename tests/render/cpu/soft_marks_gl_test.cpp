@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/gpu/offscreen_context.h"
+#include "render/shaders/soft_constants.glsl"
 #include "render/soft_block.h"
 #include "tests/render/drawn_scene.h"
 #include "tests/render/twin_scene.h"
@@ -84,9 +85,9 @@ TEST_F(SoftMarksDrawn, ChangeNothingElsewhereAndNothingWhereThereAreNone) {
                                           {glm::dvec3(kGumCentre), static_cast<double>(kGumRadius)});
         const float away =
             mm ? cutDistance(block, glm::vec3(kEye_P_mm + *mm * rayDirection_P(cut.rig, view, x, y))) : 1e3f;
-        if (away > 0.75f) {
+        if (away > SOFT_RIM_WIDTH + 0.05f) {
           EXPECT_FALSE(differs) << x << ' ' << y;
-        } else if (away < 0.55f) {
+        } else if (away < SOFT_RIM_WIDTH - 0.25f) {
           EXPECT_TRUE(differs) << x << ' ' << y;
           ++changed;
         }
