@@ -16,6 +16,7 @@
 #include "assets/load_error.h"
 #include "assets/scenery/reflected_flap.h"
 #include "assets/smooth_distance.h"
+#include "assets/surface_smoothing.h"
 #include "assets/vertex_normals.h"
 
 namespace assets {
@@ -25,8 +26,9 @@ constexpr double kWoundReach_mm = 10.0;  // of its distances beyond the cut
 constexpr double kSightStep_mm = 1.0, kSight_mm = 14.0;
 constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
-constexpr int kSmoothingSteps = 4;
-constexpr double kOnFlap_mm = 0.2;  // of the surface from the folded sheet
+constexpr int kSmoothingSteps = 4, kLumpSteps = 40;
+constexpr float kWetRoughness = 0.16f;  // of the flap
+constexpr double kOnFlap_mm = 0.2;      // of the surface from the folded sheet
 
 bool carriesGingiva(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
 
@@ -156,6 +158,7 @@ MeshModel split(const MeshPart& whole, const IsOnFlap& is_on_flap) {
       part.triangles.push_back(moved[n][v]);
     }
   }
+  model.parts[1].material.roughness = kWetRoughness;
   if (model.parts[1].triangles.empty()) model.parts.pop_back();
   return model;
 }
@@ -212,8 +215,10 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cu
   for (const auto& p : points) {
     const glm::dvec3 p_P = ct.grid.origin_P_mm + ct.grid.spacing_mm * glm::dvec3(p.x(), p.y(), p.z());
     gingiva.position_mm.emplace_back(p_P);
-    gingiva.colour.emplace_back(colourAt(p_P, wound, flap), 1.0f);
   }
+  takeOffLumps(gingiva.position_mm, gingiva.triangles, kLumpSteps);
+  for (const glm::vec3& p_P : gingiva.position_mm)
+    gingiva.colour.emplace_back(colourAt(glm::dvec3(p_P), wound, flap), 1.0f);
   gingiva.normal = vertexNormals(gingiva.position_mm, gingiva.triangles);
   if (!flap) return {{std::move(gingiva)}};
   return split(gingiva, [&](const glm::vec3& p_P) { return flap->distance_mm(glm::dvec3(p_P)) < kOnFlap_mm; });

@@ -1,7 +1,7 @@
 // Gingiva as a surface with the mucoperiosteal flap raised for a planned cut: bone and tooth are bare over the whole
 // cut and 2 mm around it, also where gingiva would stand between the cut and the eye; the wound's edge is rounded and
 // darker, and the flap lies folded over on the cheek's side (reflected_flap.h). Its underside lies a little inside the
-// bone, so the surfaces do not coincide. Drawn only, never cut. Envelope flap with buccal reflection (Koerner 2006);
+// bone, so the surfaces do not coincide. Never changed by a bur. Envelope flap with buccal reflection (Koerner 2006);
 // the margin is our own choice. Frame P, mm. Any thread; about 1 s per 10^6 labelled voxels.
 #pragma once
 

@@ -56,7 +56,10 @@ double ReflectedFlap::distance_mm(const glm::dvec3& p_P_mm) const {
   const double uneven_mm = 0.35 * std::sin(0.9 * along_mm + 1.0) + 0.2 * std::sin(2.3 * along_mm);
   const double free_edge_mm = cheek * (kFolded_mm + uneven_mm);
   const double thick_mm = kFlapThickness_mm * (0.45 + 0.55 * cheek);
-  const double sheet_mm = std::abs(above_mm - kGap_mm - 0.5 * thick_mm) - 0.5 * thick_mm;
+  // The retractor lifts its free edge off the gingiva.
+  const double lifted = std::clamp(over_mm / kFolded_mm, 0.0, 1.0);
+  const double low_mm = kGap_mm + kLift_mm * cheek * lifted * (2.0 - lifted);
+  const double sheet_mm = std::abs(above_mm - low_mm - 0.5 * thick_mm) - 0.5 * thick_mm;
   const double to_edge_mm = smoothMax(over_mm - free_edge_mm, -kInWound_mm - over_mm, kRound_mm);
   const double front_mm = glm::dot(p_P_mm - corner_P_mm_, across_P_) + kBehindIncision_mm;
   return smoothMax(smoothMax(sheet_mm, to_edge_mm, kRound_mm), front_mm, kRound_mm);

@@ -15,9 +15,10 @@ namespace assets {
 class ReflectedFlap {
  public:
   static constexpr double kFolded_mm = 4.2;  ///< from the fold to the free edge
+  static constexpr double kLift_mm = 1.8;    ///< of the free edge
   static constexpr double kNone_mm = 10.0;   ///< the distance where there is no flap near
   /// The gingiva's distances are read up to here outside of it.
-  static constexpr double kReach_mm = kFlapThickness_mm + 1.65;
+  static constexpr double kReach_mm = kFlapThickness_mm + kLift_mm + 1.65;
   /// mm outside the gingiva as it was before the wound was cut, negative inside.
   using GingivaDistance = std::function<double(const glm::dvec3& p_P_mm)>;
 

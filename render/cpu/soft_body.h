@@ -32,7 +32,8 @@ inline Surface marked(const SoftBlock& soft, Surface s, const Float3& p_P, Mask 
   const Float away = cutDistance(soft, p_P, mask);
   if (any(mask & (away < SOFT_RIM_WIDTH))) {
     const Float wound = 1.0f - smoothStep(SOFT_RIM_FROM, SOFT_RIM_WIDTH, away);
-    s.albedo = mix(s.albedo, vec3(SOFT_WOUND_COLOUR), SOFT_WOUND_COVER * wound);
+    const Float deep = SOFT_DEEP_SHADE + (1.0f - SOFT_DEEP_SHADE) * smoothStep(SOFT_DEEP_TO, SOFT_DEEP_FROM, away);
+    s.albedo = mix(s.albedo, deep * vec3(SOFT_WOUND_COLOUR), SOFT_WOUND_COVER * wound);
     s.roughness = mix(s.roughness, minimum(s.roughness, SOFT_WOUND_ROUGHNESS), wound);
   }
   return s;

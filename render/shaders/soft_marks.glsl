@@ -26,7 +26,8 @@ Surface marked(Surface s, vec3 p_P, float away) {
   s.albedo = mix(s.albedo, s.albedo * vec3(SOFT_RED_TINT), min(red, 1.0));
 
   float wound = 1.0 - smoothstep(SOFT_RIM_FROM, SOFT_RIM_WIDTH, away);
-  s.albedo = mix(s.albedo, vec3(SOFT_WOUND_COLOUR), SOFT_WOUND_COVER * wound);
+  float deep = mix(SOFT_DEEP_SHADE, 1.0, smoothstep(SOFT_DEEP_TO, SOFT_DEEP_FROM, away));
+  s.albedo = mix(s.albedo, deep * vec3(SOFT_WOUND_COLOUR), SOFT_WOUND_COVER * wound);
   s.roughness = mix(s.roughness, min(s.roughness, SOFT_WOUND_ROUGHNESS), wound);
   return s;
 }

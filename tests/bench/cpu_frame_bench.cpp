@@ -56,6 +56,19 @@ double measure(const char* what, render::FrameRenderer& renderer, render::Frame 
   return median(cpu);
 }
 
+/// As many as can be drawn, on the gingiva around the site.
+render::SoftMarks manyMarks(const glm::dvec3& site_P_mm, const assets::MeshModel& gingiva_P) {
+  render::SoftMarks marks;
+  for (const assets::MeshPart& part : gingiva_P.parts)
+    for (std::size_t v = 0; v < part.position_mm.size(); v += 211) {
+      const glm::dvec3 place(part.position_mm[v]);
+      if (glm::distance(place, site_P_mm) > 20.0) continue;
+      if (marks.cuts.size() < render::kMostSoftCuts) marks.cuts.push_back({{place}, {place}, 1.0});
+      if (marks.reddened.size() < render::kMostReddened) marks.reddened.push_back({{place}, 3.5, 0.8});
+    }
+  return marks;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -118,6 +131,11 @@ int main(int count, char** words) {
   without("without the lamp's shadow", [](render::Frame& f) { f.quality.lamp_shadow = false; });
   without("without either", [](render::Frame& f) { f.quality.ambient_occlusion = f.quality.lamp_shadow = false; });
   without("with water, blood, dust and spray", [](render::Frame& f) { f.field = {f.site_P, 8.0, 0.8, 0.6, 0.4, 0.8}; });
+  const render::SoftMarks marks = manyMarks(frame.site_P.mm, patient.gingiva);
+  for (int pair = 0; pair < 3; ++pair) {
+    without("without marks on soft tissue", [](render::Frame&) {});
+    without("with all of them", [&](render::Frame& f) { f.marks = marks; });
+  }
   frame.gap = renderer->gap(frame);
   without("with the ring of the gap", [](render::Frame&) {});
   frame.gap.reset();

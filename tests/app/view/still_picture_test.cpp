@@ -55,6 +55,19 @@ TEST(StillPicture, IsRefinedAgainWhereTheFieldHasChangedAndNothingMoves) {
   EXPECT_EQ(still.next(frame, false, kStart + milliseconds(360)), Step::kept);
 }
 
+TEST(StillPicture, IsRefinedAgainWhereAMarkOnSoftTissueHasChanged) {
+  render::Frame frame = frameOfBur();
+  frame.marks.reddened = {{{}, 3.5, 1.0}};
+  StillPicture still = refinedAt300(frame);
+  frame.marks.reddened[0].share = 0.95;
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(320)), Step::kept) << "not seen";
+  frame.marks.reddened[0].share = 0.8;
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(340)), Step::refined);
+  frame.marks.cuts = {{{}, {}, 1.5}};
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(360)), Step::refined);
+  EXPECT_EQ(still.next(frame, false, kStart + milliseconds(380)), Step::kept);
+}
+
 TEST(StillPicture, DropsBackAtOnceWhateverMoves) {
   const render::Frame at_rest = frameOfBur();
   using Change = void (*)(render::Frame&);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "assets/load_error.h"
+#include "assets/scenery/reflected_flap.h"
+#include "assets/surface_smoothing.h"
 
 namespace assets {
 namespace {
@@ -120,8 +122,52 @@ TEST(GingivaSurface, LaysAThickFlapOverTheCheeksSideAndKeepsItOutOfTheWound) {
         EXPECT_GT(p.x, 20.0) << "the flap lies on the cheek's side";
     }
   EXPECT_LT(highest_beside_flap_mm, kGingivaTop_mm + 0.7 * kFlapThickness_mm);
-  EXPECT_NEAR(highest_mm, kGingivaTop_mm + kFlapThickness_mm, 0.4);
+  EXPECT_NEAR(highest_mm, kGingivaTop_mm + kFlapThickness_mm + ReflectedFlap::kLift_mm, 0.5)
+      << "its free edge is lifted";
   EXPECT_NEAR(highest_of_tongue_side_mm, kGingivaTop_mm, 0.3);
+}
+
+TEST(GingivaSurface, IsWetterOnTheFlap) {
+  const MeshModel model = gingivaSurface(ridge(), cutAlongTheCrest());
+  ASSERT_EQ(model.parts.size(), 2u);
+  EXPECT_LT(model.parts[1].material.roughness, 0.7f * model.parts[0].material.roughness);
+}
+
+// A ball of triangles of about 0.3 mm with ripples of its radius.
+TEST(TakeOffLumps, RemovesShortWavesAndKeepsTheShape) {
+  constexpr int kRings = 100;
+  constexpr float kRadius_mm = 10.0f, kLump_mm = 0.1f;
+  std::vector<glm::vec3> at;
+  std::vector<std::uint32_t> triangles;
+  for (int j = 1; j < kRings; ++j)
+    for (int i = 0; i < 2 * kRings; ++i) {
+      const float theta = 3.14159265f * static_cast<float>(j) / kRings,
+                  phi = 3.14159265f * static_cast<float>(i) / kRings;
+      const float r = kRadius_mm + kLump_mm * std::sin(40.0f * theta) * std::sin(40.0f * phi);
+      at.emplace_back(r * glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+    }
+  const auto row = static_cast<std::uint32_t>(2 * kRings);
+  for (std::uint32_t j = 0; j + 2 < static_cast<std::uint32_t>(kRings); ++j)
+    for (std::uint32_t i = 0; i < row; ++i) {
+      const std::uint32_t a = j * row + i, b = j * row + (i + 1) % row;
+      triangles.insert(triangles.end(), {a, a + row, b + row, a, b + row, b});
+    }
+  const auto figures = [&] {
+    double mean = 0.0, square = 0.0;
+    int count = 0;
+    for (const glm::vec3& p : at) {
+      if (std::abs(p.z) > 5.0f) continue;
+      const double r = static_cast<double>(glm::length(p));
+      mean += r, square += r * r, ++count;
+    }
+    mean /= count;
+    return std::pair(mean, std::sqrt(square / count - mean * mean));
+  };
+  const auto [radius_before, lumps_before] = figures();
+  takeOffLumps(at, triangles, 40);
+  const auto [radius_after, lumps_after] = figures();
+  EXPECT_LT(lumps_after, 0.3 * lumps_before);
+  EXPECT_NEAR(radius_after, radius_before, 0.02);
 }
 
 TEST(GingivaSurface, IsEmptyWithoutGingiva) {
