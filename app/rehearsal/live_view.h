@@ -50,6 +50,8 @@ class LiveView {
   void waitUntilShown();
   /// Bricks carved until now, for the next frame.
   void uploadBone();
+  /// Of the last uploadBone(), in the jaw's grid.
+  const std::vector<glm::ivec3>& uploadedBricks() const { return uploader_.uploaded(); }
   /// Between the bur of `frame` and the bone uploaded last; nothing before a view is open.
   std::optional<render::BoneGap> gapOf(const render::Frame& frame);
   /// After a change of tool.

@@ -17,8 +17,10 @@
 #include "app/rehearsal/soft_mark_trail.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
+#include "app/rehearsal/tooth_follower.h"
 #include "app/rehearsal/touches.h"
 #include "app/session/soft_touches.h"
+#include "assets/scan/tooth_division.h"
 
 namespace app {
 namespace {
@@ -32,6 +34,14 @@ void installInterruptHandlers() {
       if (interrupted) forbidForceNow();
       interrupted = 1;
     });
+}
+
+/// Before the first cut, where a rehearsal goes on; empty: it begins with it.
+std::vector<std::uint8_t> wholeTooth(const RehearsalPlan& plan) {
+  if (plan.scanned_solid.empty()) return {};
+  const assets::CtVolume& ct = plan.patient.ct;
+  const auto is_tooth = assets::voxelsOfTooth(ct, plan.patient.operatedTooth());
+  return assets::divideByTooth(ct.grid, plan.scanned_solid, ct.label, is_tooth).tooth.solid;
 }
 
 class Rehearsal {
@@ -58,6 +68,7 @@ class Rehearsal {
     active_command_.attach(station());
     active_command_.speakTo([this](const std::string& line) { head_up_.say(line); });
     view_.attach(station().bodies());
+    tooth_.emplace(station().bodies(), wholeTooth(plan_));
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
@@ -182,6 +193,11 @@ class Rehearsal {
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone();
+    tooth_->follow(view_.uploadedBricks(), newest_.bone_digest);
+    if (const auto line = tooth_->news()) {
+      head_up_.say(*line);
+      event_log_.note("tooth", *line);
+    }
     frame_.gap = view_.gapOf(frame_);
   }
 
@@ -223,6 +239,7 @@ class Rehearsal {
     RehearsalFigures figures = status_reporter_->figures(state());
     figures.times = head_up_.times();
     if (plan_.summary) figures.exposed_share = exposedShare();
+    figures.tooth = tooth_->ending();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
@@ -246,6 +263,7 @@ class Rehearsal {
   Pace pace_;
   std::optional<StatusReporter> status_reporter_;  // destroyed before view_
   render::Frame frame_;
+  std::optional<ToothFollower> tooth_;
   haptics::Tick newest_;
   FieldClarity clarity_;
 };

@@ -69,6 +69,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
   line("tooth removed", removedText(f, assets::isTooth));
   line("other removed", removedText(f, is_soft));
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
+  line("tooth", f.tooth);
   line("touched", f.touched.empty() ? "no tooth, no canal" : touchesText(f.touched));
   line("soft tissue", softTouchesText(f.soft_touches.touched));
   line("bur turned on", softTouchesText(f.soft_touches.cut));

@@ -24,6 +24,7 @@ struct RehearsalFigures {
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::optional<double> exposed_share;  ///< of the crown that the plan lays bare; none without a plan for it
   WorkTimes times;
+  std::string tooth;                ///< what it has come apart into, tooth_follower.h; empty: whole
   std::vector<TouchCount> touched;  ///< teeth and canal
   std::vector<Warnings::Count> warnings;
   bool for_engineers = true;  ///< servo, display and latency as well

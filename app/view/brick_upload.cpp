@@ -22,13 +22,13 @@ std::size_t BrickUploader::upload(haptics::Bodies& from, render::FrameRenderer& 
   from.takeDirtyBricks(bricks_);
   for (const glm::ivec3 brick : bricks_) {
     uploadBrick(from, brick, to);
-    uploaded_.insert(brick);
+    ever_.insert(brick);
   }
   return bricks_.size();
 }
 
 void BrickUploader::uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const {
-  for (const glm::ivec3 brick : uploaded_) uploadBrick(from, brick, to);
+  for (const glm::ivec3 brick : ever_) uploadBrick(from, brick, to);
 }
 
 }  // namespace app

@@ -23,6 +23,8 @@ class BrickUploader {
  public:
   /// Bricks changed since the last call. Returns their number.
   std::size_t upload(haptics::Bodies& from, render::FrameRenderer& to);
+  /// Of the last upload().
+  const std::vector<glm::ivec3>& uploaded() const { return bricks_; }
   /// All bricks ever uploaded, to a new renderer of the initial bone.
   void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const;
 
@@ -34,7 +36,7 @@ class BrickUploader {
   };
 
   std::vector<glm::ivec3> bricks_;
-  std::set<glm::ivec3, InOrder> uploaded_;
+  std::set<glm::ivec3, InOrder> ever_;
 };
 
 }  // namespace app

@@ -62,6 +62,12 @@ SolidBodies Bodies::view() const {
   return view;
 }
 
+std::optional<glm::ivec3> Bodies::brickOfPiece(std::size_t piece, glm::ivec3 brick) const {
+  const glm::ivec3 own = brick - first_brick_[piece], bricks = bones_[piece + 1].grid().bricks();
+  if (glm::any(glm::lessThan(own, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(own, bricks))) return {};
+  return own;
+}
+
 std::uint64_t Bodies::digest() const {
   std::uint64_t digest = jaw().digest();
   const auto mix = [&](std::uint64_t bits) { digest = calibration::mixedBits(digest ^ bits); };
@@ -95,11 +101,10 @@ void Bodies::takeDirtyBricks(std::vector<glm::ivec3>& out) {
 void Bodies::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
   jaw().copyBrick(brick, solid_out);
   for (std::size_t n = 0; n < pieces(); ++n) {
-    const glm::ivec3 own = brick - first_brick_[n], bricks = bones_[n + 1].grid().bricks();
-    if (!at_rest_[n] || glm::any(glm::lessThan(own, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(own, bricks)))
-      continue;
+    const auto own = brickOfPiece(n, brick);
+    if (!at_rest_[n] || !own) continue;
     std::array<std::uint8_t, 512> part{};
-    bones_[n + 1].copyBrick(own, part);
+    bones_[n + 1].copyBrick(*own, part);
     for (std::size_t v = 0; v < part.size(); ++v)
       solid_out[v] = static_cast<std::uint8_t>(std::min(255, solid_out[v] + part[v]));
   }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,9 @@ class Bodies {
   bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
 
   SolidBodies view() const;
+
+  /// The brick of a piece at rest under a brick of the jaw's grid; none: outside the piece's grid.
+  std::optional<glm::ivec3> brickOfPiece(std::size_t piece, glm::ivec3 brick) const;
 
   /// The jaw's grid, on which a piece at rest lies too.
   const assets::VolumeGrid& grid() const { return jaw().grid(); }

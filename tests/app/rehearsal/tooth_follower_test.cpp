@@ -1,0 +1,78 @@
+#include "app/rehearsal/tooth_follower.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "haptics/bone/carve.h"
+
+namespace app {
+namespace {
+
+/// A tooth of 10 x 5 x 6 mm that stands free in a volume.
+struct FreeTooth {
+  assets::VolumeGrid grid{{48, 32, 40}, 0.25, {-6.0, -4.0, -5.0}};
+  std::vector<std::uint8_t> solid, label, is_tooth;
+
+  FreeTooth() : solid(grid.voxelCount()), label(grid.voxelCount()), is_tooth(grid.voxelCount()) {
+    assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+      const glm::dvec3 p = glm::abs(grid.centre_P_mm(ijk));
+      if (p.x > 5.0 || p.y > 2.5 || p.z > 3.0) return;
+      solid[v] = 255, label[v] = 5, is_tooth[v] = 1;
+    });
+  }
+};
+
+/// A slot across the tooth, from above down to `floor_mm`.
+void section(haptics::Bodies& bodies, double floor_mm) {
+  haptics::ErosionStep step;
+  step.loss.fill(1.0);
+  std::uint64_t tick = 0;
+  for (double z = 3.0; z > floor_mm + 0.7; z -= 0.25)
+    for (double y = -3.5; y < 3.6; y += 0.2)
+      for (int n = 0; n < 3; ++n)
+        haptics::carveTool(bodies, {haptics::ShapeKind::sphere, 0.7, 0.0}, {{1.0, 0.0, 0.0, 0.0}, {0.1, y, z}}, step,
+                           ++tick);
+}
+
+TEST(ToothFollower, TellsTheBridgeThenThePieces) {
+  const FreeTooth tooth;
+  haptics::Bodies bodies(tooth.grid, tooth.solid, tooth.label, tooth.is_tooth);
+  ToothFollower follower(bodies);
+  EXPECT_EQ(follower.ending(), "");
+  EXPECT_FALSE(follower.news());
+
+  section(bodies, -1.2);
+  EXPECT_EQ(follower.ending().rfind("held by a bridge of ", 0), 0u) << follower.ending();
+  const auto bridge = follower.news();
+  ASSERT_TRUE(bridge);
+  EXPECT_EQ(bridge->rfind("the tooth is held by a bridge of ", 0), 0u) << *bridge;
+  EXPECT_FALSE(follower.news()) << "told once";
+
+  section(bodies, -4.0);
+  EXPECT_EQ(follower.ending().rfind("in 2 pieces, 1", 0), 0u) << follower.ending();
+  const auto apart = follower.news();
+  ASSERT_TRUE(apart);
+  EXPECT_EQ(apart->rfind("the tooth is in 2 pieces, ", 0), 0u) << *apart;
+}
+
+TEST(ToothFollower, ATimeLaterTheWholeToothIsRemembered) {
+  const FreeTooth tooth;
+  haptics::Bodies bodies(tooth.grid, tooth.solid, tooth.label, tooth.is_tooth);
+  const std::vector<std::uint8_t> whole = bodies.bones()[1].solidInGridOrder();
+  section(bodies, -1.2);
+  ToothFollower follower(bodies, whole);
+  EXPECT_EQ(follower.ending().rfind("held by a bridge of ", 0), 0u) << follower.ending();
+}
+
+TEST(ToothFollower, SaysNothingOfAJawWithoutTooth) {
+  const FreeTooth tooth;
+  haptics::Bodies bodies(tooth.grid, tooth.solid, tooth.label);
+  ToothFollower follower(bodies);
+  follower.follow(std::vector<glm::ivec3>{{0, 0, 0}}, 1);
+  EXPECT_FALSE(follower.news());
+  EXPECT_EQ(follower.ending(), "");
+}
+
+}  // namespace
+}  // namespace app
