@@ -10,6 +10,7 @@
 #include "app/commands/command.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/session/metrics.h"
+#include "app/start_screen/kept_choices.h"
 #include "app/start_screen/show_start_screen.h"
 #include "app/start_screen/start_lists.h"
 #include "app/text/command_line.h"
@@ -51,13 +52,15 @@ std::string inShort(const std::string& session) {
 
 int start() {
   StartMenu menu(startListsHere());
+  menu.chooseAsIn(keptChoices());
   while (showStartScreen(menu, printMessage)) {
+    keepChoices(menu.chosenWords());
     const std::string trouble = troubleOf(menu.arguments());
     if (wasInterrupted()) return 0;
     // The rehearsal's own would no longer end the program.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
     StartMenu next(startListsHere());
-    next.chooseAsIn(menu);
+    next.chooseAsIn(menu.chosenWords());
     if (!trouble.empty())
       next.say(trouble, true);
     else if (next.newestSession() != menu.newestSession())

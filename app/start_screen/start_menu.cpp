@@ -79,10 +79,16 @@ std::string StartMenu::newestSession() const {
   return sessions.size() > 1 ? sessions[1].arguments.back() : std::string();
 }
 
-void StartMenu::chooseAsIn(const StartMenu& former) {
-  for (std::size_t n = 0; n < lists_.size(); ++n) {
+std::vector<std::string> StartMenu::chosenWords() const {
+  std::vector<std::string> words;
+  for (const StartList& list : lists_) words.push_back(list.choice().words);
+  return words;
+}
+
+void StartMenu::chooseAsIn(const std::vector<std::string>& chosen_words) {
+  for (std::size_t n = 0; n < std::min(lists_.size(), chosen_words.size()); ++n) {
     if (n == kSessions) continue;
-    const auto same = std::ranges::find(lists_[n].choices, former.lists_[n].choice().words, &StartChoice::words);
+    const auto same = std::ranges::find(lists_[n].choices, chosen_words[n], &StartChoice::words);
     if (same != lists_[n].choices.end()) lists_[n].chosen = static_cast<std::size_t>(same - lists_[n].choices.begin());
   }
 }

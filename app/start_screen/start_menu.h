@@ -57,8 +57,10 @@ class StartMenu {
   bool isTrouble() const { return is_trouble_; }
   /// The session recorded last; empty: none.
   std::string newestSession() const;
-  /// Takes over what was chosen in another menu, where it is still there; sessions begin anew.
-  void chooseAsIn(const StartMenu& former);
+  /// Of the choices, list by list; for chooseAsIn().
+  std::vector<std::string> chosenWords() const;
+  /// Takes over what was chosen there, where it is still offered; sessions begin anew.
+  void chooseAsIn(const std::vector<std::string>& chosen_words);
 
  private:
   void moveFocus(int by);

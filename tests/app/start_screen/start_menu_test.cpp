@@ -90,7 +90,7 @@ TEST(StartMenu, AfterARehearsalTheChoicesAreAsBefore) {
   former.choose(3, 1);
   former.choose(4, 1);
   StartMenu menu = smallMenu();
-  menu.chooseAsIn(former);
+  menu.chooseAsIn(former.chosenWords());
   EXPECT_EQ(menu.lists()[0].chosen, 0u);
   EXPECT_EQ(menu.lists()[3].chosen, 1u);
   EXPECT_EQ(menu.lists()[4].chosen, 0u) << "a session is gone on with once";
