@@ -122,7 +122,7 @@ CutTooth toothOfVolume(const PiecesOptions& options) {
   const auto belongs = [&](std::size_t v) {
     return options.tooth ? volume.label[v] == *options.tooth : assets::isToothPart(volume.label[v]);
   };
-  const auto isHardPart = [&](glm::ivec3 ijk) {
+  const auto is_hard_part = [&](glm::ivec3 ijk) {
     if (!volume.grid.contains(ijk)) return false;
     const std::size_t v = volume.grid.index(ijk);
     return belongs(v) && (options.tooth || assets::isHard(volume.label[v]));
@@ -131,9 +131,9 @@ CutTooth toothOfVolume(const PiecesOptions& options) {
   tooth.before = tooth.now;
   bool is_cut = false;
   assets::forVoxels(volume.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (tooth.now[v] >= assets::kHalfSolid || !isHardPart(ijk)) return;
+    if (tooth.now[v] >= assets::kHalfSolid || !is_hard_part(ijk)) return;
     bool is_inner = true;
-    assets::forVoxels(ijk - 1, ijk + 2, [&](glm::ivec3 beside) { is_inner = is_inner && isHardPart(beside); });
+    assets::forVoxels(ijk - 1, ijk + 2, [&](glm::ivec3 beside) { is_inner = is_inner && is_hard_part(beside); });
     if (!is_inner) return;
     tooth.before[v] = 255;
     is_cut = true;
