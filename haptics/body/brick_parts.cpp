@@ -69,7 +69,7 @@ BrickMask takePart(BrickMask& left) {
       part[k] = left[k] & -left[k];
       break;
     }
-  const auto growLayer = [&](std::size_t k) {
+  const auto grow_layer = [&](std::size_t k) {
     std::uint64_t layer = part[k];
     if (k > 0) layer |= part[k - 1];
     if (k + 1 < part.size()) layer |= part[k + 1];
@@ -85,8 +85,8 @@ BrickMask takePart(BrickMask& left) {
   };
   for (bool grew = true; grew;) {
     grew = false;
-    for (std::size_t k = 0; k < part.size(); ++k) grew |= growLayer(k);
-    for (std::size_t k = part.size(); k-- > 0;) grew |= growLayer(k);
+    for (std::size_t k = 0; k < part.size(); ++k) grew |= grow_layer(k);
+    for (std::size_t k = part.size(); k-- > 0;) grew |= grow_layer(k);
   }
   for (std::size_t k = 0; k < left.size(); ++k) left[k] &= ~part[k];
   return part;

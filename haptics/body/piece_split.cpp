@@ -10,9 +10,9 @@
 namespace haptics {
 namespace {
 
-/// isFirst(voxel of at least half) decides; what is less solid follows its neighbours.
+/// is_first(voxel of at least half) decides; what is less solid follows its neighbours.
 template <class IsFirst>
-std::vector<std::uint8_t> bytesWhere(const Components& components, const IsFirst& isFirst) {
+std::vector<std::uint8_t> bytesWhere(const Components& components, const IsFirst& is_first) {
   const assets::VolumeGrid& grid = components.grid();
   std::vector<std::uint8_t> bytes(grid.voxelCount(), 0);
   const auto follows = [&](glm::ivec3 ijk) {
@@ -24,14 +24,14 @@ std::vector<std::uint8_t> bytesWhere(const Components& components, const IsFirst
         const std::uint8_t solid = components.solidAt(beside);
         if (away.x + away.y + away.z != reach || solid < assets::kHalfSolid || solid <= most) return;
         most = solid;
-        first = isFirst(beside);
+        first = is_first(beside);
       });
     return first;
   };
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     const std::uint8_t solid = components.solidAt(ijk);
     if (solid == 0) return;
-    if (solid >= assets::kHalfSolid ? isFirst(ijk) : follows(ijk)) bytes[v] = solid;
+    if (solid >= assets::kHalfSolid ? is_first(ijk) : follows(ijk)) bytes[v] = solid;
   });
   return bytes;
 }

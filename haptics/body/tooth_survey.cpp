@@ -36,19 +36,19 @@ using Counts = std::function<bool(std::size_t brick, std::size_t part)>;
 CutRegion regionAround(const Components& components, std::span<const std::vector<BrickPart>> lost,
                        const Counts& counts) {
   const assets::VolumeGrid& grid = components.grid();
-  const auto forCounted = [&](const auto& visit) {
+  const auto for_counted = [&](const auto& visit) {
     forBricks(components.bricks(), [&](std::size_t brick, glm::ivec3 corner) {
       for (std::size_t n = 0; n < lost[brick].size(); ++n)
         if (counts(brick, n)) visit(lost[brick][n], corner);
     });
   };
   VoxelMoments moments;
-  forCounted([&](const BrickPart& part, glm::ivec3) { moments += part.moments; });
+  for_counted([&](const BrickPart& part, glm::ivec3) { moments += part.moments; });
   const ToothPiece mass = massOf(moments, grid);
   const glm::dmat3 axes = principalAxes(mass.inertia_mm5), into = glm::transpose(axes);
 
   glm::dvec3 low_mm(0.0), high_mm(0.0);
-  forCounted([&](const BrickPart& part, glm::ivec3 corner) {
+  for_counted([&](const BrickPart& part, glm::ivec3 corner) {
     assets::forVoxels(glm::ivec3(0), glm::ivec3(assets::kBrickVoxels), [&](glm::ivec3 within) {
       if (!holds(part.mask, within)) return;
       const glm::dvec3 at_mm = into * (grid.centre_P_mm(corner + within) - mass.centroid_mm);
