@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/case/impaction_class.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -13,7 +14,8 @@ namespace {
 
 /// Crown height of the built-in patient's second molar: its cervical line under the occlusal plane, mm.
 constexpr double kSecondMolarCrown_mm = 7.6;
-constexpr double kSameLevel_mm = 1.0;
+/// Between the second molar and the ramus there is less room than the crown is wide, in this jaw always.
+constexpr int kRamusClass = 2;
 
 constexpr assets::JawParameters jawOf(bool right_side, double winter_angle_deg, double depth_mm, double canal_mm) {
   return {.right_side = right_side,
@@ -35,14 +37,7 @@ constexpr std::array kCases{
     Case{"disto-angular", jawOf(false, -30.0, 8.5, 1.5), "the crown lies under the ramus and its way out is backwards"},
 };
 
-enum class Angulation { disto_angular, vertical, mesio_angular, horizontal };
-
-Angulation angulationOf(const Case& one) {
-  const double angle_deg = one.jaw.winter_angle_deg;
-  if (angle_deg <= -10.5) return Angulation::disto_angular;
-  if (angle_deg < 10.5) return Angulation::vertical;
-  return angle_deg < 79.5 ? Angulation::mesio_angular : Angulation::horizontal;
-}
+Angulation angulationOf(const Case& one) { return winterClass(one.jaw.winter_angle_deg); }
 
 }  // namespace
 
@@ -62,15 +57,12 @@ const Case* caseNamed(std::string_view name) {
 const Case& usualCase() { return *caseNamed("usual"); }
 
 std::string angulationText(const Case& one) {
-  constexpr std::string_view kNames[] = {"disto-angular", "vertical", "mesio-angular", "horizontal"};
-  return fmt::format("{}, {:g}°", kNames[static_cast<std::size_t>(angulationOf(one))],
-                     std::abs(one.jaw.winter_angle_deg));
+  return fmt::format("{}, {:g}°", nameOf(angulationOf(one)), std::abs(one.jaw.winter_angle_deg));
 }
 
 std::string depthText(const Case& one) {
-  // Between the second molar and the ramus there is less room than the crown is wide: class II, in this jaw always.
-  return fmt::format("{:g} mm under the occlusal plane, position {} class II", one.jaw.depth_mm,
-                     pellGregoryPosition(one));
+  return fmt::format("{:g} mm under the occlusal plane, position {} class {}", one.jaw.depth_mm,
+                     pellGregoryPosition(one), ramusClassName(kRamusClass));
 }
 
 std::string canalText(const Case& one) {
@@ -79,20 +71,11 @@ std::string canalText(const Case& one) {
                            : std::string("canal touched by the root");
 }
 
-char pellGregoryPosition(const Case& one) {
-  return one.jaw.depth_mm <= kSameLevel_mm ? 'A' : one.jaw.depth_mm <= kSecondMolarCrown_mm ? 'B' : 'C';
-}
+char pellGregoryPosition(const Case& one) { return pellGregoryDepth(one.jaw.depth_mm, kSecondMolarCrown_mm); }
 
-int pedersonScore(const Case& one) {
-  constexpr int kClassII = 2;
-  constexpr int kByAngulation[] = {4, 3, 1, 2};
-  return kByAngulation[static_cast<std::size_t>(angulationOf(one))] + (pellGregoryPosition(one) - 'A' + 1) + kClassII;
-}
+int pedersonScore(const Case& one) { return pedersonSum(angulationOf(one), pellGregoryPosition(one), kRamusClass); }
 
-std::string_view difficultyText(const Case& one) {
-  const int score = pedersonScore(one);
-  return score <= 4 ? "slight" : score <= 6 ? "moderate" : "high";
-}
+std::string_view difficultyText(const Case& one) { return pedersonWord(pedersonScore(one)); }
 
 std::string caseList() {
   std::string text;

@@ -12,6 +12,7 @@ void addRehearse(CommandLine& molar);
 void addStart(CommandLine& molar);
 void addImport(CommandLine& molar);
 void addInspect(CommandLine& molar);
+void addPlan(CommandLine& molar);
 void addFeel(CommandLine& molar);
 void addCarve(CommandLine& molar);
 void addSee(CommandLine& molar);
@@ -31,9 +32,9 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse, addStart,    addImport,    addInspect, addFeel,   addCarve,
-                                   addSee,      addDisplay,  addCalibrate, addDevices, addDoctor, addReplay,
-                                   addMetrics,  addSessions, addExport,    addPieces,  addLaws,   addPsychophysics,
-                                   addHelp,     addManual,   addCompletion};
+inline constexpr auto kCommands = {addRehearse,      addStart,   addImport,   addInspect,   addPlan,    addFeel,
+                                   addCarve,         addSee,     addDisplay,  addCalibrate, addDevices, addDoctor,
+                                   addReplay,        addMetrics, addSessions, addExport,    addPieces,  addLaws,
+                                   addPsychophysics, addHelp,    addManual,   addCompletion};
 
 }  // namespace app
