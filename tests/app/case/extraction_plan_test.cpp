@@ -130,14 +130,24 @@ TEST(ExtractionPlan, CountsRootsThatPart) {
 
 TEST(ExtractionPlan, RefusesWhatHasNoLowerThirdMolar) {
   assets::Patient patient = numberedBlock();
-  patient.site->fdi = 46;
-  EXPECT_THROW(extractionPlan(patient, "block"), UsageError);
-  patient.site->fdi = 18;
-  EXPECT_THROW(extractionPlan(patient, "block"), UsageError);
+  const auto refusal = [&] {
+    try {
+      extractionPlan(patient, "block");
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  for (const int fdi : {47, 18, 28}) {
+    std::ranges::replace(patient.ct.tooth, static_cast<std::uint8_t>(patient.site->fdi),
+                         static_cast<std::uint8_t>(fdi));
+    patient.site->fdi = fdi;
+    EXPECT_NE(refusal().find("lower third molar"), std::string::npos) << refusal();
+  }
   patient.site->fdi = 38;
-  EXPECT_THROW(extractionPlan(patient, "block"), UsageError);
+  EXPECT_NE(refusal().find("no voxel"), std::string::npos) << refusal();
   patient.site.reset();
-  EXPECT_THROW(extractionPlan(patient, "block"), UsageError);
+  EXPECT_NE(refusal().find("no third molar is labelled"), std::string::npos) << refusal();
 }
 
 TEST(ImpactionClass, HasTheCutOffsOfTheAuthors) {
