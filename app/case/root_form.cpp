@@ -80,12 +80,12 @@ std::optional<RootForm> rootForm(const ToothVoxels& tooth, const glm::dvec3& axi
     sections.push_back(slice.empty() ? SectionCentres{} : partsOf(slice, 1.25 * voxel_mm));
 
   // The largest number that holds over 2 mm of length.
-  const auto slicesWith = [&](std::size_t count) {
+  const auto slices_with = [&](std::size_t count) {
     return std::ranges::count_if(sections, [&](const SectionCentres& s) { return s.size() == count; });
   };
   std::size_t count = 1;
   for (std::size_t n = 2; n <= 4; ++n)
-    if (static_cast<double>(slicesWith(n)) * kSlice_mm >= kApart_mm) count = n;
+    if (static_cast<double>(slices_with(n)) * kSlice_mm >= kApart_mm) count = n;
   form.count = static_cast<int>(count);
 
   // From the first to the last slice in which all are apart.
