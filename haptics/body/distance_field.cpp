@@ -1,0 +1,112 @@
+#include "haptics/body/distance_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "assets/ct_volume.h"
+
+namespace haptics {
+namespace {
+
+bool isSolid(std::uint8_t byte) { return byte >= assets::kHalfSolid; }
+
+/// The distance t of a voxel whose nearest known neighbours along the axes are this far: the least solution of
+/// sum max(t - d, 0)^2 = edge^2.
+float distanceFrom(std::array<float, 3> d_mm, float edge_mm) {
+  if (d_mm[0] > d_mm[1]) std::swap(d_mm[0], d_mm[1]);
+  if (d_mm[1] > d_mm[2]) std::swap(d_mm[1], d_mm[2]);
+  if (d_mm[0] > d_mm[1]) std::swap(d_mm[0], d_mm[1]);
+  const auto [a, b, c] = d_mm;
+  const float one = a + edge_mm;
+  if (one <= b) return one;
+  const float two = 0.5F * (a + b + std::sqrt(std::max(0.0F, 2.0F * edge_mm * edge_mm - (a - b) * (a - b))));
+  if (two <= c) return two;
+  const float sum = a + b + c, squares = a * a + b * b + c * c;
+  return (sum + std::sqrt(std::max(0.0F, sum * sum - 3.0F * (squares - edge_mm * edge_mm)))) / 3.0F;
+}
+
+}  // namespace
+
+DistanceField::DistanceField(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, double band_mm)
+    : grid_(grid),
+      last_(grid.size - 1),
+      band_mm_(static_cast<float>(band_mm)),
+      distance_mm_(grid.voxelCount(), band_mm_) {
+  assert(solid.size() == grid.voxelCount());
+  std::vector<std::uint8_t> is_fixed(solid.size(), 0);
+  startAtCrossings(solid, is_fixed);
+  for (int n = 0; n < 8; ++n) sweep(is_fixed, solid, 1 - 2 * assets::cornerOffset(n));
+  for (std::size_t v = 0; v < solid.size(); ++v)
+    if (isSolid(solid[v])) distance_mm_[v] = -distance_mm_[v];
+}
+
+/// Where a neighbour lies on the other side, the plane through the crossings of one half along the axes.
+void DistanceField::startAtCrossings(std::span<const std::uint8_t> solid, std::vector<std::uint8_t>& is_fixed) {
+  constexpr float kHalf = 127.5F;
+  const std::array<std::size_t, 3> stride = {1, assets::indexIn(grid_.size, {0, 1, 0}),
+                                             assets::indexIn(grid_.size, {0, 0, 1})};
+  assets::forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
+    const float here = static_cast<float>(solid[v]) - kHalf;
+    float inverse_squares = 0.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+      float nearest = 2.0F;  // in voxels; crossings lie within one
+      const auto look = [&](std::size_t beside) {
+        const float there = static_cast<float>(solid[beside]) - kHalf;
+        if ((there > 0.0F) != (here > 0.0F)) nearest = std::min(nearest, here / (here - there));
+      };
+      const std::size_t step = stride[static_cast<std::size_t>(axis)];
+      if (ijk[axis] > 0) look(v - step);
+      if (ijk[axis] + 1 < grid_.size[axis]) look(v + step);
+      if (nearest < 2.0F) inverse_squares += 1.0F / (nearest * nearest + 1e-6F);
+    }
+    if (inverse_squares == 0.0F) return;
+    distance_mm_[v] = static_cast<float>(grid_.spacing_mm) / std::sqrt(inverse_squares);
+    is_fixed[v] = 1;
+  });
+}
+
+/// One pass in a diagonal direction; a value spreads on its own side of the surface alone.
+void DistanceField::sweep(const std::vector<std::uint8_t>& is_fixed, std::span<const std::uint8_t> solid,
+                          glm::ivec3 direction) {
+  const float edge_mm = static_cast<float>(grid_.spacing_mm);
+  const std::array<std::size_t, 3> stride = {1, assets::indexIn(grid_.size, {0, 1, 0}),
+                                             assets::indexIn(grid_.size, {0, 0, 1})};
+  assets::forVoxels(grid_, [&](glm::ivec3 forward, std::size_t) {
+    glm::ivec3 ijk = forward;
+    for (int axis = 0; axis < 3; ++axis)
+      if (direction[axis] < 0) ijk[axis] = grid_.size[axis] - 1 - ijk[axis];
+    const std::size_t v = grid_.index(ijk);
+    if (is_fixed[v] != 0) return;
+    const bool inside = isSolid(solid[v]);
+    std::array<float, 3> nearest{};
+    for (int axis = 0; axis < 3; ++axis) {
+      float& least = nearest[static_cast<std::size_t>(axis)] = band_mm_;
+      const std::size_t step = stride[static_cast<std::size_t>(axis)];
+      if (ijk[axis] > 0 && isSolid(solid[v - step]) == inside) least = distance_mm_[v - step];
+      if (ijk[axis] + 1 < grid_.size[axis] && isSolid(solid[v + step]) == inside)
+        least = std::min(least, distance_mm_[v + step]);
+    }
+    if (std::min({nearest[0], nearest[1], nearest[2]}) >= band_mm_) return;
+    distance_mm_[v] = std::min(distance_mm_[v], distanceFrom(nearest, edge_mm));
+  });
+}
+
+DistanceField::Sample DistanceField::at(glm::vec3 index) const {
+  index = glm::clamp(index, glm::vec3(0.0F), last_);
+  const glm::ivec3 low = glm::clamp(glm::ivec3(index), glm::ivec3(0), glm::max(grid_.size - 2, 0));
+  const glm::ivec3 next = glm::min(glm::ivec3(1), grid_.size - 1 - low);
+  const glm::vec3 f = index - glm::vec3(low);
+  const auto value = [&](int i, int j, int k) { return distance_mm_[grid_.index(low + next * glm::ivec3(i, j, k))]; };
+  const float x00 = value(0, 0, 0), x01 = value(0, 0, 1), x10 = value(0, 1, 0), x11 = value(0, 1, 1);
+  const float d00 = value(1, 0, 0) - x00, d01 = value(1, 0, 1) - x01, d10 = value(1, 1, 0) - x10,
+              d11 = value(1, 1, 1) - x11;
+  const float y00 = x00 + f.x * d00, y01 = x01 + f.x * d01, y10 = x10 + f.x * d10, y11 = x11 + f.x * d11;
+  const float z0 = y00 + f.y * (y10 - y00), z1 = y01 + f.y * (y11 - y01);
+  const float dx0 = d00 + f.y * (d10 - d00), dx1 = d01 + f.y * (d11 - d01);
+  const glm::vec3 slope(dx0 + f.z * (dx1 - dx0), (y10 - y00) + f.z * ((y11 - y01) - (y10 - y00)), z1 - z0);
+  return {z0 + f.z * (z1 - z0), slope / static_cast<float>(grid_.spacing_mm)};
+}
+
+}  // namespace haptics
