@@ -2,6 +2,8 @@
 // volume; as a table, or JSON for programs. Lengths in mm, frame P.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,6 +16,7 @@
 #include "app/case/patient_source.h"
 #include "app/commands/command.h"
 #include "app/options/volume_option.h"
+#include "app/procedure/ways_out.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
 #include "app/text/command_line.h"
@@ -21,6 +24,7 @@
 #include "app/text/usage_error.h"
 #include "assets/ct_volume.h"
 #include "assets/patient/patient_folder.h"
+#include "calibration/geometry/units.h"
 #include "haptics/body/tooth_survey.h"
 
 namespace app {
@@ -30,6 +34,7 @@ struct PiecesOptions {
   VolumeOption volume;
   std::string source, case_name;
   std::optional<int> tooth;
+  std::vector<double> exit_P;
   bool json = false;
 };
 
@@ -37,6 +42,14 @@ struct PiecesOptions {
 struct CutTooth {
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> before, now;
+};
+
+/// And what is around it.
+struct Source {
+  CutTooth tooth;
+  assets::VolumeGrid grid;
+  std::vector<std::uint8_t> around, label, number;  ///< as AroundTooth
+  WayUp up;
 };
 
 /// On the smallest grid that holds it; none: there is no tooth.
@@ -65,7 +78,13 @@ std::vector<std::uint8_t> masked(const std::vector<std::uint8_t>& solid, const B
   return of_tooth;
 }
 
-CutTooth toothOfPatient(const PiecesOptions& options) {
+/// All but the tooth.
+template <class Belongs>
+std::vector<std::uint8_t> without(const std::vector<std::uint8_t>& solid, const Belongs& belongs) {
+  return masked(solid, [&](std::size_t v) { return !belongs(v); });
+}
+
+Source toothOfPatient(const PiecesOptions& options) {
   const assets::Patient patient = options.case_name.empty() ? assets::loadPatient(options.source)
                                                             : builtInPatient(caseNamed(options.case_name)->jaw);
   const std::string name = options.case_name.empty() ? options.source : "--case " + options.case_name;
@@ -73,13 +92,16 @@ CutTooth toothOfPatient(const PiecesOptions& options) {
     throw UsageError(name + ": no third molar is labelled here, name a tooth with --tooth FDI");
   const int fdi = options.tooth.value_or(patient.operatedTooth());
   const std::vector<std::uint8_t>& number = patient.ct.tooth;
-  const auto solid = masked(patient.ct.solid, [&](std::size_t v) { return !number.empty() && number[v] == fdi; });
+  const auto belongs = [&](std::size_t v) { return !number.empty() && number[v] == fdi; };
+  const auto solid = masked(patient.ct.solid, belongs);
   const auto tooth = cropped({patient.ct.grid, solid, solid});
   if (!tooth) throw UsageError(fmt::format("{}: no voxel is labelled as tooth {}, see molar inspect", name, fdi));
-  return *tooth;
+  Source source{*tooth, patient.ct.grid, without(patient.ct.solid, belongs), patient.ct.label, number, {}};
+  if (patient.site && patient.site->fdi == fdi) source.up = wayUp(patient);
+  return source;
 }
 
-CutTooth toothOfSession(const PiecesOptions& options) {
+Source toothOfSession(const PiecesOptions& options) {
   if (options.tooth) throw UsageError("--tooth: a session keeps its tooth, leave it out");
   const std::string path = sessionNamed(options.source);
   const BoneAtTime bone = boneAtTime(path, std::nullopt);
@@ -90,7 +112,7 @@ CutTooth toothOfSession(const PiecesOptions& options) {
   if (!tooth)
     throw UsageError(path +
                      ": it keeps no tooth to be removed, write its bone with molar replay --to and use --volume");
-  return *tooth;
+  return {*tooth, bone.start.grid, without(bone.solid, belongs), bone.start.label, {}, {}};
 }
 
 /// Fills up to kGap_mm of what is not solid between solid voxels along an axis.
@@ -116,7 +138,7 @@ void fillGaps(const CutTooth& tooth, std::vector<std::uint8_t>& before) {
 
 /// Without a record of the cut. What lies among voxels of the tooth was solid before, by its labels; where they show no
 /// cut, narrow gaps were.
-CutTooth toothOfVolume(const PiecesOptions& options) {
+Source toothOfVolume(const PiecesOptions& options) {
   const SolidVolume volume = options.volume.load();
   if (volume.label.empty()) throw UsageError("pieces --volume: give --labels too, they say which voxels are the tooth");
   const auto belongs = [&](std::size_t v) {
@@ -143,9 +165,9 @@ CutTooth toothOfVolume(const PiecesOptions& options) {
     throw UsageError(options.tooth
                          ? fmt::format("--tooth {}: no solid voxel has this label", *options.tooth)
                          : "--labels: no third molar is labelled (enamel 4, dentine 5, pulp 6), give --tooth");
-  CutTooth result = *alone;
+  Source result{*alone, volume.grid, without(volume.solid, belongs), volume.label, {}, {}};
   if (!is_cut) {
-    fillGaps(result, result.before);
+    fillGaps(result.tooth, result.tooth.before);
     printMessage(
         "pieces: the labels show no cut in the tooth, so its gaps of up to 4 mm count as cut, those between "
         "roots too");
@@ -153,7 +175,7 @@ CutTooth toothOfVolume(const PiecesOptions& options) {
   return result;
 }
 
-CutTooth toothOf(const PiecesOptions& options) {
+Source toothOf(const PiecesOptions& options) {
   const int sources = !options.source.empty() + !options.case_name.empty() + options.volume.given();
   if (sources != 1) throw UsageError("pieces: give exactly one of SOURCE, --case NAME and --volume FILE");
   if (options.volume.given()) return toothOfVolume(options);
@@ -161,7 +183,13 @@ CutTooth toothOf(const PiecesOptions& options) {
   return toothOfSession(options);
 }
 
-haptics::ToothFindings findingsOf(const CutTooth& tooth) {
+struct Findings {
+  haptics::ToothFindings tooth;
+  std::vector<PieceWay> ways;
+};
+
+Findings findingsOf(const Source& source, const std::optional<glm::dvec3>& exit_P) {
+  const CutTooth& tooth = source.tooth;
   haptics::ToothSurvey survey(tooth.grid, tooth.before);
   haptics::forBricks(tooth.grid.bricks(), [&](std::size_t, glm::ivec3 corner) {
     std::array<std::uint8_t, 512> bytes{};
@@ -171,13 +199,42 @@ haptics::ToothFindings findingsOf(const CutTooth& tooth) {
     });
     survey.update(corner / assets::kBrickVoxels, bytes);
   });
-  haptics::ToothFindings found = survey.pieces();
-  survey.findBridges(found, tooth.grid.spacing_mm);
+  Findings found{survey.pieces(), {}};
+  survey.findBridges(found.tooth, tooth.grid.spacing_mm);
+  WayUp up = source.up;
+  if (exit_P) up.direction_P = *exit_P;
+  const AroundTooth around{source.grid, source.around, source.label, source.number};
+  found.ways = waysOut(around, survey.components(), std::min(found.tooth.pieces, haptics::kMostPieces), up);
   return found;
 }
 
+nlohmann::json jsonOf(const std::vector<PieceWay>& ways) {
+  using nlohmann::json;
+  constexpr std::array<const char*, 4> kAnswers = {"free", "grazes", "blocked", "not-found"};
+  json list = json::array();
+  for (const PieceWay& piece : ways) {
+    const haptics::WayOut& way = piece.way;
+    json where = json::array();
+    for (const InTheWay& one : piece.in_the_way)
+      where.push_back({{"what", one.words},
+                       {"volume_mm3", one.volume_mm3},
+                       {"centre_P_mm", {one.centre_P_mm.x, one.centre_P_mm.y, one.centre_P_mm.z}}});
+    const bool is_found = way.answer != haptics::WayOutAnswer::not_found;
+    list.push_back({{"piece", piece.piece},
+                    {"after", piece.after},
+                    {"answer", kAnswers[static_cast<std::size_t>(way.answer)]},
+                    {"blocked_mm3_by_label", piece.in_the_way_mm3_by_label},
+                    {"in_the_way", where},
+                    {"path_mm", is_found ? json(way.length_mm) : json()},
+                    {"turned_deg", is_found ? json(calibration::degreesFromRad(way.turned_rad)) : json()},
+                    {"poses", way.poses}});
+  }
+  return list;
+}
+
 /// Pieces are numbered from 0; the parts that bridges hold together go on from there.
-nlohmann::json jsonOf(const haptics::ToothFindings& found) {
+nlohmann::json jsonOf(const Findings& findings) {
+  const haptics::ToothFindings& found = findings.tooth;
   using nlohmann::json;
   const auto list = [](const glm::dvec3& v) { return json{v.x, v.y, v.z}; };
   const std::size_t listed = std::min(found.pieces, haptics::kMostPieces);
@@ -214,10 +271,12 @@ nlohmann::json jsonOf(const haptics::ToothFindings& found) {
           {"bridges", bridges},
           {"piece_count", found.pieces},
           {"chips", {{"count", found.chips}, {"volume_mm3", found.chips_mm3}}},
-          {"cut_mm3", found.cut_mm3}};
+          {"cut_mm3", found.cut_mm3},
+          {"free", jsonOf(findings.ways)}};
 }
 
-std::string tableOf(const haptics::ToothFindings& found) {
+std::string tableOf(const Findings& findings) {
+  const haptics::ToothFindings& found = findings.tooth;
   std::string text = "piece   volume mm³   centroid mm (P)\n";
   const std::size_t listed = std::min(found.pieces, haptics::kMostPieces);
   for (std::size_t n = 0; n < listed; ++n) {
@@ -235,14 +294,24 @@ std::string tableOf(const haptics::ToothFindings& found) {
   }
   if (found.pieces > listed) text += fmt::format("and {} smaller pieces\n", found.pieces - listed);
   if (found.chips > 0) text += fmt::format("chips {:12.1f}   {} below 1 mm³\n", found.chips_mm3, found.chips);
-  return text + fmt::format("cut   {:12.1f}\n", found.cut_mm3);
+  text += fmt::format("cut   {:12.1f}\n", found.cut_mm3);
+  for (const PieceWay& piece : findings.ways) text += wordsOf(piece) + "\n";
+  return text;
+}
+
+std::optional<glm::dvec3> exitOf(const PiecesOptions& options) {
+  if (options.exit_P.empty()) return std::nullopt;
+  const glm::dvec3 exit(options.exit_P[0], options.exit_P[1], options.exit_P[2]);
+  const double length = glm::length(exit);
+  if (!(length > 1e-6) || !std::isfinite(length)) throw UsageError("--exit: give a direction of some length");
+  return exit / length;
 }
 
 int pieces(const PiecesOptions& options) {
-  const haptics::ToothFindings found = findingsOf(toothOf(options));
-  if (found.pieces == 0)
+  const Findings found = findingsOf(toothOf(options), exitOf(options));
+  if (found.tooth.pieces == 0)
     throw UsageError(fmt::format("pieces: the tooth holds {:.3f} mm³ in all, no piece reaches 1 mm³; check its labels",
-                                 found.chips_mm3));
+                                 found.tooth.chips_mm3));
   std::fputs((options.json ? jsonOf(found).dump(2) + "\n" : tableOf(found)).c_str(), stdout);
   return 0;
 }
@@ -260,15 +329,24 @@ void addPieces(CommandLine& molar) {
       .option("--tooth", options->tooth,
               "Patient: FDI number (default: the operated tooth). Volume: label of the tooth (default: 4, 5 and 6)")
       .wholeFrom(1, 255);
+  command
+      .option(
+          "--exit", options->exit_P,
+          "Which way is out, X,Y,Z in frame P (default: up and to the cheek of a patient's operated tooth, else up)")
+      .numbers(3);
   command.flag("--json", options->json, "All of it as JSON");
   command.footer(
       "A bridge is the least area that holds two parts of a piece, looked for around the cut: what was solid before. "
-      "In "
-      "a volume that is what its labels say inside the tooth. Parts below 5 mm³ count for no bridge, pieces below 1 "
-      "mm³ "
-      "are chips.\n"
+      "In a volume that is what its labels say inside the tooth. Parts below 5 mm³ count for no bridge, pieces below 1 "
+      "mm³ are chips.\n"
+      "Each piece is then tried in every way out up to 12 mm, the others in their places until they are out. What is "
+      "in "
+      "the way is enough to take away, not always the least; below 2 mm³ a piece comes out tightly.\n"
       "JSON: pieces [{id, volume_mm3, centroid_P_mm, inertia_mm5, parts}], bridges [{between (ids of parts), piece, "
-      "area_mm2, thickness_mm, width_mm, normal_P, width_axis_P, centre_P_mm}], chips, cut_mm3.");
+      "area_mm2, thickness_mm, width_mm, normal_P, width_axis_P, centre_P_mm}], chips, cut_mm3, free [{piece, after, "
+      "answer (free, grazes, blocked, not-found), blocked_mm3_by_label, in_the_way, path_mm, turned_deg, poses}] in "
+      "the "
+      "order in which they come out.");
   command.does([options] { return pieces(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <queue>
 #include <unordered_map>
@@ -17,15 +18,16 @@
 namespace haptics {
 namespace {
 
-constexpr double kCoarse_mm = 1.0, kFine_mm = 0.5;                              // surface points
-constexpr double kShell_mm = 0.4, kShellDepth_mm = 0.8;                         // points under the surface
-constexpr double kLong_mm = 8.0;                                                // reach beyond which moves are shorter
-constexpr double kSolidPrice = 6.0;                                             // mm of way per mm^3 that is cut
-constexpr double kSolidEagerness = 3.0;                                         // of the bound's price
-constexpr std::size_t kPoses = 3000, kPosesInAll = 4000, kPosesIfNone = 20000;  // per search
+constexpr double kCoarse_mm = 1.0, kFine_mm = 0.5;        // surface points
+constexpr double kShell_mm = 0.4, kShellDepth_mm = 0.8;   // points under the surface
+constexpr double kLong_mm = 8.0;                          // reach beyond which moves are shorter
+constexpr double kSolidPrice = 6.0;                       // mm of way per mm^3 that is cut
+constexpr double kSolidEagerness = 3.0;                   // of the bound's price
+constexpr std::size_t kPoses = 2000, kPosesInAll = 3000;  // per search
 constexpr double kBeyondAnyTooth_mm = 100.0;
-constexpr double kToMiddle = 0.1;   // mm of depth that 1 mm from the centroid is worth
-constexpr double kSettle_mm = 0.3;  // of a pose of the way that was found
+constexpr double kToMiddle = 0.1;     // mm of depth that 1 mm from the centroid is worth
+constexpr double kStraight_mm = 0.4;  // steps of a straight way
+constexpr double kSettle_mm = 0.3;    // of a pose of the way that was found
 
 /// What is searched with: the piece about the middle of its largest ball.
 struct SearchedPiece {
@@ -183,14 +185,23 @@ class Search {
       turn_rad[move / 2 - 3] = sign * step_.turn_rad;
     Placement next = node.placement.moved(by_mm, turn_rad);
     Overlap overlap = overlapOf(piece_.coarse, next, around_.field, kPlay_mm);
+    // As it moves, cutting; and pushed aside by what it meets, or a wall would never be gone through.
+    consider(next, overlap, node, index, move, graze_price);
     const Step push{0.4 * step_.length_mm, 0.4 * step_.turn_rad};
+    bool is_pushed = false;
     for (int push_out = 0; push_out < 2 && overlap.volume_mm3 > 0.0; ++push_out) {
       const Placement aside = pushed(next, limited(pushOut(overlap, 0.15), push));
       const Overlap less = overlapOf(piece_.coarse, aside, around_.field, kPlay_mm);
       if (less.volume_mm3 >= overlap.volume_mm3) break;
       next = aside;
       overlap = less;
+      is_pushed = true;
     }
+    if (is_pushed) consider(next, overlap, node, index, move, graze_price);
+  }
+
+  void consider(const Placement& next, const Overlap& overlap, const Node& node, std::size_t index, int move,
+                double graze_price) {
     const double length_mm = glm::length(next.at_mm - node.placement.at_mm) + (move < 6 ? 0.0 : 0.3 * step_.length_mm);
     double cost = node.cost + length_mm * (1.0 + graze_price * overlap.volume_mm3);
     if (overlap.volume_mm3 > 0.0) {
@@ -294,6 +305,31 @@ WayOut wayOutAlong(const std::vector<Placement>& way, const SearchedPiece& piece
   return out;
 }
 
+/// Without a turn, in the direction of a cone around the goal's in which least is met: there always is one.
+std::vector<Placement> straightWay(const SearchedPiece& piece, const Surroundings& around, const WayOutGoal& goal) {
+  const glm::dvec3 aside =
+      glm::normalize(std::abs(goal.direction.x) < 0.7 ? glm::cross(goal.direction, glm::dvec3(1.0, 0.0, 0.0))
+                                                      : glm::cross(goal.direction, glm::dvec3(0.0, 1.0, 0.0)));
+  const glm::dvec3 across = glm::cross(goal.direction, aside);
+  std::vector<Placement> best;
+  double least_mm3 = 0.0;
+  for (int ring = 0; ring < 4; ++ring)
+    for (int n = 0; n < (ring == 0 ? 1 : 12); ++n) {
+      const double tilt = 0.25 * ring, angle = n * std::numbers::pi / 6.0;
+      const glm::dvec3 step = goal.direction + tilt * (std::cos(angle) * aside + std::sin(angle) * across);
+      std::vector<Placement> way;
+      double met_mm3 = 0.0;
+      for (double along_mm = 0.0; along_mm < goal.distance_mm + kStraight_mm; along_mm += kStraight_mm) {
+        way.push_back({piece.middle_mm + along_mm * step, {1.0, 0.0, 0.0, 0.0}});
+        met_mm3 += overlapOf(piece.coarse, way.back(), around.field, kPlay_mm).volume_mm3;
+      }
+      if (!best.empty() && met_mm3 >= least_mm3) continue;
+      best = std::move(way);
+      least_mm3 = met_mm3;
+    }
+  return best;
+}
+
 }  // namespace
 
 WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const WayOutGoal& goal,
@@ -309,13 +345,13 @@ WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const
   const WayBound patient = bound(3.0), eager = bound(8.0);
   Search search(*piece, around, goal);
   WayOut best;
-  const auto ask = [&](const WayBound& rest, double graze_price, std::size_t poses) {
-    const std::vector<Placement> way = search.way(rest, graze_price, poses, stop);
+  const auto keep = [&](const std::vector<Placement>& way) {
     if (way.empty()) return;
     WayOut found = wayOutAlong(way, *piece, around);
     if (best.answer == WayOutAnswer::not_found || found.in_the_way.size() < best.in_the_way.size())
       best = std::move(found);
   };
+  if (!stop.stop_requested()) keep(straightWay(*piece, around, goal));
   // A price of grazing keeps it off the walls but makes it wander; the least that is cut wins. Those that find a way at
   // once cost next to nothing.
   struct Attempt {
@@ -325,8 +361,7 @@ WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const
   for (const Attempt& attempt :
        {Attempt{patient, 0.0}, Attempt{eager, 1.0}, Attempt{eager, 4.0}, Attempt{patient, 1.0}, Attempt{patient, 4.0}})
     if (best.answer != WayOutAnswer::free && search.poses() < kPosesInAll)
-      ask(attempt.rest, attempt.graze_price, kPoses);
-  if (best.answer == WayOutAnswer::not_found) ask(eager, 3.0, kPosesIfNone);
+      keep(search.way(attempt.rest, attempt.graze_price, kPoses, stop));
   best.poses = search.poses();
   return best;
 }

@@ -1,8 +1,8 @@
 // Can a piece of tooth come out of what is around it, and what is in its way? A search over poses in which solid may be
 // cut at a price: the answer is a way with little to cut, and the voxels that it cuts. An upper bound: "blocked" tells
-// what is enough to take away, "not found" that no way was seen, not that there is none. Frame and mm of the obstacles'
-// grid. Worker threads; 10 ms to 2 s; allocates. A pure function: the same bytes give the same bits. Method and
-// figures: reference/extraction 7 (A* over 12 moves with push-outs; least constraint removal, Erickson and LaValle,
+// what is enough to take away, not the least. Straight out is always a way, so one is always found. Frame and mm of the
+// obstacles' grid. Worker threads; 10 ms to 2 s; allocates. A pure function: the same bytes give the same bits. Method
+// and figures: reference/extraction 7 (A* over 12 moves with push-outs; least constraint removal, Erickson and LaValle,
 // AAAI 2013).
 #pragma once
 
@@ -18,10 +18,10 @@
 namespace haptics {
 
 enum class WayOutAnswer {
-  free,     ///< less than kGrazes_mm3 to cut
-  grazes,   ///< less than kBlocked_mm3: within what voxels can tell of a tight way
-  blocked,  ///< a way, once that much is cut
-  not_found,
+  free,       ///< less than kGrazes_mm3 to cut
+  grazes,     ///< less than kBlocked_mm3: within what voxels can tell of a tight way
+  blocked,    ///< a way, once that much is cut
+  not_found,  ///< no piece, or stopped
 };
 
 inline constexpr double kGrazes_mm3 = 0.05, kBlocked_mm3 = 2.0;

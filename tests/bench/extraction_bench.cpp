@@ -1,6 +1,7 @@
 // Work of the rest of the operation, each beside a slow and obvious twin in one run: nothing to compare by hand.
 //   haptics_extraction_bench            all parts
 //   haptics_extraction_bench pieces     pieces of a tooth and the bridge between them
+//   haptics_extraction_bench way-out    whether a piece can come out, and what is in its way
 // CPU time of this thread; only ratios are comparable between machines.
 #include <cstdio>
 #include <string_view>

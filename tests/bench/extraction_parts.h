@@ -30,11 +30,13 @@ double p10_us(int times, Work work) {
 }
 
 void benchPieces();
+void benchWayOut();
 
 struct ExtractionPart {
   std::string_view name;
   void (*run)();
 };
-inline constexpr std::array kExtractionParts{ExtractionPart{"pieces", benchPieces}};
+inline constexpr std::array kExtractionParts{ExtractionPart{"pieces", benchPieces},
+                                             ExtractionPart{"way-out", benchWayOut}};
 
 }  // namespace bench

@@ -25,13 +25,31 @@ TEST(WayOut, ALedgeIsNamedWithLittleMoreThanMustGo) {
   for (const double overhang_mm : {1.0, 2.0}) {
     const WayOutScene scene = phantom::ledge(overhang_mm);
     const WayOut way = scene.answer();
-    // By hand, if the piece only shifts: what stands over it less the play, across its breadth.
-    const double least_mm3 = (overhang_mm - 0.7) * 7.5;
-    EXPECT_EQ(way.answer, WayOutAnswer::blocked);
-    EXPECT_GE(way.in_the_way_mm3, least_mm3 * 0.95);
-    EXPECT_LE(way.in_the_way_mm3, least_mm3 * 1.5);
+    // By hand, if the piece only shifts: what stands over it less the play, across its breadth. A tilt saves a little.
+    const double shifted_mm3 = (overhang_mm - 0.7) * 7.5;
+    EXPECT_GE(way.in_the_way_mm3, shifted_mm3 * 0.8);
+    EXPECT_LE(way.in_the_way_mm3, shifted_mm3 * 1.5);
+    EXPECT_NE(way.answer, WayOutAnswer::free);
+    EXPECT_EQ(way.answer, way.in_the_way_mm3 < kBlocked_mm3 ? WayOutAnswer::grazes : WayOutAnswer::blocked);
     EXPECT_LT(scene.without(way.in_the_way).answer().in_the_way_mm3, kBlocked_mm3) << "it is enough";
   }
+}
+
+TEST(WayOut, UnderAClosedRoofAllOfItIsInTheWay) {
+  WayOutScene scene = phantom::openSlot();
+  const assets::VolumeGrid& grid = scene.bone.grid;
+  double roof_mm3 = 0.0;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = grid.centre_P_mm(ijk);
+    if (p.z < 5.5 || p.z > 7.0) return;
+    scene.bone.solid[v] = 255;
+    if (std::max(std::abs(p.x), std::abs(p.y)) < 4.0) roof_mm3 += grid.voxelVolume_mm3();
+  });
+  const WayOut way = scene.answer();
+  EXPECT_EQ(way.answer, WayOutAnswer::blocked);
+  EXPECT_GT(way.in_the_way_mm3, 0.8 * roof_mm3);
+  EXPECT_LT(way.in_the_way_mm3, 1.3 * roof_mm3);
+  EXPECT_LT(scene.without(way.in_the_way).answer().in_the_way_mm3, kBlocked_mm3);
 }
 
 TEST(WayOut, RoundACornerUnderARoofIsFound) {

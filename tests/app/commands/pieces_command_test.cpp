@@ -62,6 +62,31 @@ TEST_F(PiecesCommand, FivePartsAreFivePiecesByVolume) {
   EXPECT_NE(words.out.find("volume mm³"), std::string::npos) << words.out;
 }
 
+/// A tooth of 5 x 5 x 5 mm in a well of bone, with or without a lid of 1 mm.
+TEST_F(PiecesCommand, SaysWhetherAPieceCanComeOutAndWhatIsInTheWay) {
+  ToothPhantom tooth({60, 60, 90}, 0.25), solid = tooth;
+  fill(tooth, {20, 20, 10}, {40, 40, 30});
+  fill(solid, {0, 0, 0}, {60, 60, 32});
+  fill(solid, {18, 18, 8}, {42, 42, 32}, 0);
+  fill(solid, {20, 20, 10}, {40, 40, 30});
+  const nlohmann::json open = answer(volume(solid, tooth)).at("free");
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_EQ(open[0].at("answer"), "free");
+  EXPECT_EQ(open[0].at("piece"), 0);
+  EXPECT_NEAR(open[0].at("path_mm").get<double>(), 12.0, 0.8);
+  EXPECT_TRUE(open[0].at("blocked_mm3_by_label").empty());
+
+  fill(solid, {0, 0, 32}, {60, 60, 36});
+  const nlohmann::json closed = answer(volume(solid, tooth)).at("free")[0];
+  EXPECT_EQ(closed.at("answer"), "blocked");
+  EXPECT_NEAR(closed.at("blocked_mm3_by_label").at("unlabelled").get<double>(), 25.0, 8.0);
+  EXPECT_NE(molar(volume(solid, tooth)).out.find("hard tissue"), std::string::npos);
+
+  const nlohmann::json below = answer(volume(solid, tooth) + "--exit 0,0,-1 ").at("free")[0];
+  EXPECT_EQ(below.at("answer"), "blocked");
+  expectRefusal(volume(solid, tooth) + "--exit 0,0,0", "--exit");
+}
+
 TEST_F(PiecesCommand, RefusesWhatHoldsNoTooth) {
   ToothPhantom block({20, 20, 20}, 0.2), none({20, 20, 20}, 0.2), one({20, 20, 20}, 0.2);
   fill(block, {2, 2, 2}, {18, 18, 18});
