@@ -43,7 +43,8 @@ WayBound::WayBound(const DistanceField& obstacles, const Ball& ball, const glm::
     if (rest <= 0.0 || is_border) open.emplace(cost_[v] = static_cast<float>(rest), v);
   });
   while (!open.empty()) {
-    const auto [cost, v] = open.top();
+    const float cost = open.top().first;
+    const std::size_t v = open.top().second;
     open.pop();
     if (cost > cost_[v]) continue;
     const std::size_t layer = assets::indexIn(grid_.size, {0, 0, 1}), row = assets::indexIn(grid_.size, {0, 1, 0});
