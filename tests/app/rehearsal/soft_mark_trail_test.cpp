@@ -50,15 +50,49 @@ TEST(SoftMarkTrail, IsNoneWithoutTouch) {
   EXPECT_TRUE(trail.marks().reddened.empty());
 }
 
+/// Near enough to be joined, had the bur stayed in.
 TEST(SoftMarkTrail, DoesNotCutBetweenTwoPlacesWhereTheBurWasOut) {
   SoftMarkTrail trail;
-  trail.follow(std::vector{tickOf({0, 0, 0}, SoftTissue::lip), tickOf({3, 0, 0}, SoftTissue::none),
-                           tickOf({6, 0, 0}, SoftTissue::lip)},
+  trail.follow(std::vector{tickOf({0, 0, 0}, SoftTissue::lip), tickOf({2.75, 0, 0}, SoftTissue::none),
+                           tickOf({5.5, 0, 0}, SoftTissue::lip)},
                kBall);
   const render::SoftBlock block = softBlock(trail.marks());
   EXPECT_LT(cutDistance(block, {0, 0, 0}), 0.0f);
-  EXPECT_GT(cutDistance(block, {3, 0, 0}), 1.0f);
-  EXPECT_LT(cutDistance(block, {6, 0, 0}), 0.0f);
+  EXPECT_GT(cutDistance(block, {2.75, 0, 0}), 1.0f);
+  EXPECT_LT(cutDistance(block, {5.5, 0, 0}), 0.0f);
+}
+
+TEST(SoftMarkTrail, DoesNotCutAlongAJumpWithinOneTick) {
+  SoftMarkTrail trail;
+  trail.follow(std::vector{tickOf({0, 0, 0}, SoftTissue::lip), tickOf({7, 0, 0}, SoftTissue::lip)}, kBall);
+  const render::SoftBlock block = softBlock(trail.marks());
+  EXPECT_LT(cutDistance(block, {0, 0, 0}), 0.0f);
+  EXPECT_GT(cutDistance(block, {3.5, 0, 0}), 1.0f);
+  EXPECT_LT(cutDistance(block, {7, 0, 0}), 0.0f);
+}
+
+/// Cuts far apart, and among them a small one that lies mostly in a larger one.
+TEST(SoftMarkTrail, GivesUpTheCutThatIsBestCoveredByAnother) {
+  constexpr haptics::BurShape small_ball{haptics::ShapeKind::sphere, 1.0, 0.0};
+  constexpr double apart_mm = 10.0;
+  constexpr int places = static_cast<int>(render::kMostSoftCuts), larger = places / 2;
+  const auto place = [](int n) { return glm::dvec3(apart_mm * n, 0.0, 0.0); };
+  SoftMarkTrail trail;
+  const auto touch = [&](const glm::dvec3& at_P_mm, const haptics::BurShape& head) {
+    trail.follow(std::vector{tickOf(at_P_mm, SoftTissue::gingiva), tickOf(at_P_mm, SoftTissue::none)}, head);
+  };
+  const glm::dvec3 beside = place(larger) + glm::dvec3(0.8, 0.0, 0.0), end_of_small = beside + glm::dvec3(0.9, 0, 0);
+  for (int n = 0; n + 1 < places; ++n) {
+    touch(place(n), kBall);
+    if (n == larger) touch(beside, small_ball);
+  }
+  ASSERT_EQ(trail.marks().cuts.size(), render::kMostSoftCuts);
+  EXPECT_LT(cutDistance(softBlock(trail.marks()), end_of_small), 0.0f);
+  touch(place(places - 1), kBall);
+  EXPECT_EQ(trail.marks().cuts.size(), render::kMostSoftCuts);
+  const render::SoftBlock block = softBlock(trail.marks());
+  for (int n = 0; n < places; ++n) EXPECT_LT(cutDistance(block, place(n) - glm::dvec3(1.4, 0.0, 0.0)), 0.0f) << n;
+  EXPECT_GT(cutDistance(block, end_of_small), 0.0f);
 }
 
 TEST(SoftMarkTrail, TakesALongHeadAlongItsAxis) {
