@@ -51,5 +51,47 @@ TEST(ServoRealTime, NeitherAllocatesNorBlocksInTenThousandTicksOfCarving) {
   EXPECT_GT(faulty, 0u);
 }
 
+/// The tooth is one half of the block, moved a little off the jaw, and the bur goes to and fro across both.
+TEST(ServoRealTime, NeitherAllocatesNorBlocksWhileTheBurCutsAJawAndAMovedTooth) {
+  if (ForbidBlocking::countsNothing()) GTEST_SKIP() << "a sanitizer owns malloc: nothing can be counted";
+  const app::test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.grid.voxelCount());
+  assets::forVoxels(block.grid,
+                    [&](glm::ivec3 ijk, std::size_t v) { is_tooth[v] = block.grid.centre_P_mm(ijk).x > 0.1; });
+  haptics::Bodies bodies(block.grid, block.solid, block.label, is_tooth);
+  ASSERT_EQ(bodies.pieces(), 1u);
+  haptics::Bodies::PiecePose moved;
+  moved.rotation = glm::angleAxis(0.03, glm::dvec3(0.0, 1.0, 0.0));
+  moved.translation_mm = {0.15, 0.1, 0.05};
+  bodies.place(0, moved);
+  ASSERT_FALSE(bodies.isAtRest(0));
+  haptics::Servo servo(bodies);
+  const auto removed_mm3 = [](const haptics::CarvedBone& bone) {
+    double sum_mm3 = 0.0;
+    for (const double one_mm3 : bone.removedByTissue_mm3()) sum_mm3 += one_mm3;
+    return sum_mm3;
+  };
+
+  haptics::Command command = block.start().command;
+  std::uint64_t in_contact = 0;
+  const ForbidBlocking guard;
+  for (int n = 0; n < 6'000; ++n) {
+    haptics::HandSample hand = app::test::sweepingHand(n * 0.001);
+    hand.X_PT.translation_mm.z -= n * 3e-4;
+    if (n % 300 == 0) {
+      const int change = n / 300;
+      ++command.serial;
+      command.law.kind = haptics::kLaws[static_cast<std::size_t>(change) % haptics::kLaws.size()].kind;
+      command.tool.head = {static_cast<haptics::ShapeKind>(change % 4), 0.5 + 0.2 * (change % 8), 1.5};
+    }
+    in_contact += servo.step(hand, command, 0.001).overlap_mm3 > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(guard.blockingCalls(), 0u);
+  EXPECT_GT(in_contact, 3'000u);
+  EXPECT_GT(removed_mm3(bodies.bones()[0]), 0.5);
+  EXPECT_GT(removed_mm3(bodies.bones()[1]), 0.5);
+}
+
 }  // namespace
 }  // namespace tests
