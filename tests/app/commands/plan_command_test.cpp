@@ -1,4 +1,5 @@
 // `molar plan`: keys and refusals; what it reads is tested at tests/app/case/extraction_plan_test.cpp.
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -23,8 +24,16 @@ TEST_F(PlanCommand, PrintsEveryParameterWithHowItWasFound) {
     EXPECT_TRUE(plan.at(key).contains("unit")) << key;
     EXPECT_FALSE(plan.at(key).at("how").get<std::string>().empty()) << key;
   }
+  EXPECT_EQ(plan.at("depth").at("unit"), "mm");
+  EXPECT_EQ(plan.at("winter_angle").at("unit"), "deg");
+  EXPECT_EQ(plan.at("difficulty").at("unit"), "of 10");
+  EXPECT_TRUE(plan.at("winter_class").at("unit").is_null());
+  EXPECT_TRUE(plan.at("depth").at("value").is_number());
   const ProgramOutput table = molar("plan --case usual");
-  EXPECT_NE(table.out.find("mesio-angular"), std::string::npos);
+  EXPECT_EQ(table.status, 0) << table.err;
+  for (const char* words : {"mesio-angular", " °", " mm", " of 10", " FDI"})
+    EXPECT_NE(table.out.find(words), std::string::npos) << words;
+  EXPECT_EQ(std::ranges::count(table.out, '\n'), static_cast<std::ptrdiff_t>(plan.size()));
 }
 
 TEST_F(PlanCommand, RefusesInOneLine) {
