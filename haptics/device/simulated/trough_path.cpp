@@ -83,7 +83,9 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
     work(stroke, motion.speed_mm_per_s);
   }
   pedal_to_s_ = begins_s_.back();
+  // Out of the gutter as between strokes, then to where the shaft leads.
   const glm::dvec3 end_mm = corner_mm_.back();
+  go(lifted(end_mm), kApproach_mm_per_s);
   const double above_mm = glm::dot(strokes_mm.front().front() - end_mm, outward) + motion.clearance_mm;
   go(end_mm + std::max(above_mm, motion.clearance_mm) * way_per_height * away, kApproach_mm_per_s);
 }
