@@ -23,7 +23,7 @@ constexpr double kShell_mm = 0.4, kShellDepth_mm = 0.8;   // points under the su
 constexpr double kLong_mm = 8.0;                          // reach beyond which moves are shorter
 constexpr double kSolidPrice = 6.0;                       // mm of way per mm^3 that is cut
 constexpr double kSolidEagerness = 3.0;                   // of the bound's price
-constexpr std::size_t kPoses = 2000, kPosesInAll = 3000;  // per search
+constexpr std::size_t kPoses = 2000, kPosesInAll = 3000;  // of a search; with which no other is begun
 constexpr double kBeyondAnyTooth_mm = 100.0;
 constexpr double kToMiddle = 0.1;     // mm of depth that 1 mm from the centroid is worth
 constexpr double kStraight_mm = 0.4;  // steps of a straight way
