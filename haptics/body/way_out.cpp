@@ -183,25 +183,8 @@ class Search {
       by_mm[move / 2] = sign * step_.length_mm;
     else
       turn_rad[move / 2 - 3] = sign * step_.turn_rad;
-    Placement next = node.placement.moved(by_mm, turn_rad);
-    Overlap overlap = overlapOf(piece_.coarse, next, around_.field, kPlay_mm);
-    // As it moves, cutting; and pushed aside by what it meets, or a wall would never be gone through.
-    consider(next, overlap, node, index, move, graze_price);
-    const Step push{0.4 * step_.length_mm, 0.4 * step_.turn_rad};
-    bool is_pushed = false;
-    for (int push_out = 0; push_out < 2 && overlap.volume_mm3 > 0.0; ++push_out) {
-      const Placement aside = pushed(next, limited(pushOut(overlap, 0.15), push));
-      const Overlap less = overlapOf(piece_.coarse, aside, around_.field, kPlay_mm);
-      if (less.volume_mm3 >= overlap.volume_mm3) break;
-      next = aside;
-      overlap = less;
-      is_pushed = true;
-    }
-    if (is_pushed) consider(next, overlap, node, index, move, graze_price);
-  }
-
-  void consider(const Placement& next, const Overlap& overlap, const Node& node, std::size_t index, int move,
-                double graze_price) {
+    const Placement next = node.placement.moved(by_mm, turn_rad);
+    const Overlap overlap = overlapOf(piece_.coarse, next, around_.field, kPlay_mm);
     const double length_mm = glm::length(next.at_mm - node.placement.at_mm) + (move < 6 ? 0.0 : 0.3 * step_.length_mm);
     double cost = node.cost + length_mm * (1.0 + graze_price * overlap.volume_mm3);
     if (overlap.volume_mm3 > 0.0) {

@@ -2,7 +2,7 @@
 // cut at a price: the answer is a way with little to cut, and the voxels that it cuts. An upper bound: "blocked" tells
 // what is enough to take away, not the least. Straight out is always a way, so one is always found. Frame and mm of the
 // obstacles' grid. Worker threads; 10 ms to 2 s; allocates. A pure function: the same bytes give the same bits. Method
-// and figures: reference/extraction 7 (A* over 12 moves with push-outs; least constraint removal, Erickson and LaValle,
+// and figures: reference/extraction 7 (A* over 12 moves; least constraint removal, Erickson and LaValle,
 // AAAI 2013).
 #pragma once
 
