@@ -21,6 +21,12 @@ inline std::size_t indexIn(glm::ivec3 size, glm::ivec3 ijk) {
          static_cast<std::size_t>(ijk.x);
 }
 
+/// The element of an index: the inverse of indexIn().
+inline glm::ivec3 elementAt(glm::ivec3 size, std::size_t index) {
+  const std::size_t row = static_cast<std::size_t>(size.x), layer = row * static_cast<std::size_t>(size.y);
+  return {static_cast<int>(index % row), static_cast<int>(index % layer / row), static_cast<int>(index / layer)};
+}
+
 /// Offset of corner 0..7 of a cell, i fastest.
 inline glm::ivec3 cornerOffset(int corner) { return {corner & 1, corner >> 1 & 1, corner >> 2}; }
 

@@ -303,12 +303,14 @@ std::optional<glm::dvec3> exitOf(const PiecesOptions& options) {
   if (options.exit_P.empty()) return std::nullopt;
   const glm::dvec3 exit(options.exit_P[0], options.exit_P[1], options.exit_P[2]);
   const double length = glm::length(exit);
-  if (!(length > 1e-6) || !std::isfinite(length)) throw UsageError("--exit: give a direction of some length");
+  if (!(length > 1e-6) || !std::isfinite(length))
+    throw UsageError("pieces --exit: the direction has no length, give another");
   return exit / length;
 }
 
 int pieces(const PiecesOptions& options) {
-  const Findings found = findingsOf(toothOf(options), exitOf(options));
+  const std::optional<glm::dvec3> exit_P = exitOf(options);
+  const Findings found = findingsOf(toothOf(options), exit_P);
   if (found.tooth.pieces == 0)
     throw UsageError(fmt::format("pieces: the tooth holds {:.3f} mm³ in all, no piece reaches 1 mm³; check its labels",
                                  found.tooth.chips_mm3));
@@ -339,14 +341,12 @@ void addPieces(CommandLine& molar) {
       "A bridge is the least area that holds two parts of a piece, looked for around the cut: what was solid before. "
       "In a volume that is what its labels say inside the tooth. Parts below 5 mm³ count for no bridge, pieces below 1 "
       "mm³ are chips.\n"
-      "Each piece is then tried in every way out up to 12 mm, the others in their places until they are out. What is "
-      "in "
-      "the way is enough to take away, not always the least; below 2 mm³ a piece comes out tightly.\n"
+      "Each piece is then moved out by 12 mm, the others in their places until they are out. What is in the way is "
+      "enough to take away, not always the least; below 2 mm³ a piece comes out tightly.\n"
       "JSON: pieces [{id, volume_mm3, centroid_P_mm, inertia_mm5, parts}], bridges [{between (ids of parts), piece, "
       "area_mm2, thickness_mm, width_mm, normal_P, width_axis_P, centre_P_mm}], chips, cut_mm3, free [{piece, after, "
-      "answer (free, grazes, blocked, not-found), blocked_mm3_by_label, in_the_way, path_mm, turned_deg, poses}] in "
-      "the "
-      "order in which they come out.");
+      "answer (free, grazes, blocked, not-found), blocked_mm3_by_label, in_the_way, path_mm, turned_deg, poses}], "
+      "first those that come out, in their order.");
   command.does([options] { return pieces(*options); });
 }
 

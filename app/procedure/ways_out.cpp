@@ -136,9 +136,7 @@ void nameWhatIsInTheWay(const AroundTooth& around, const Scene& scene, const Way
                         PieceWay& piece) {
   std::map<std::string, InTheWay> found;
   for (const std::size_t v : piece.way.in_the_way) {
-    const glm::ivec3 size = scene.grid.size;
-    const int n = static_cast<int>(v);
-    const glm::dvec3 p_mm = scene.grid.centre_P_mm({n % size.x, n / size.x % size.y, n / (size.x * size.y)});
+    const glm::dvec3 p_mm = scene.grid.centre_P_mm(assets::elementAt(scene.grid.size, v));
     const std::string key = keyOf(around, scene, v);
     std::string words = nounOf(key);
     const bool has_side = key.find('_') == std::string::npos && up.arch;
@@ -169,7 +167,7 @@ WayUp wayUp(const assets::Patient& patient) {
 }
 
 std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Components& tooth, std::size_t pieces,
-                              const WayUp& up, const std::stop_token& stop) {
+                              const WayUp& up) {
   assert(pieces <= tooth.pieces().size() && around.solid.size() == around.grid.voxelCount());
   const Scenes scenes(around, tooth, pieces);
   const auto ask = [&](std::size_t piece, const std::vector<std::size_t>& out) {
@@ -178,8 +176,7 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
       if (n != piece && std::ranges::find(out, n) == out.end()) others.push_back(n);
     const Scene scene = scenes.of(piece, others, up.direction_P);
     PieceWay answer{piece, out, {}, {}, {}};
-    answer.way =
-        haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece}, {up.direction_P, kExit_mm}, stop);
+    answer.way = haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece}, {up.direction_P, kExit_mm});
     nameWhatIsInTheWay(around, scene, up, tooth.pieces()[piece].centroid_mm, answer);
     return answer;
   };
@@ -187,7 +184,7 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
   std::vector<PieceWay> answers;
   std::vector<std::size_t> out;
   std::vector<PieceWay> held;
-  for (bool has_come = true; has_come && out.size() < pieces && !stop.stop_requested();) {
+  for (bool has_come = true; has_come && out.size() < pieces;) {
     has_come = false;
     held.clear();
     for (std::size_t piece = 0; piece < pieces && !has_come; ++piece) {
@@ -204,15 +201,17 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
 
 std::string wordsOf(const PieceWay& piece) {
   std::string text = fmt::format("piece {}", piece.piece);
-  for (std::size_t n = 0; n < piece.after.size(); ++n)
-    text += fmt::format("{}{}", n == 0 ? ", once out: piece " : ", ", piece.after[n]);
+  const std::size_t before = piece.after.size();
+  for (std::size_t n = 0; n < before; ++n)
+    text += fmt::format("{}{}", n > 0 ? ", " : before > 1 ? ", once pieces " : ", once piece ", piece.after[n]);
+  if (before > 0) text += before > 1 ? " are out" : " is out";
   switch (piece.way.answer) {
     case haptics::WayOutAnswer::free:
       return text + ": free to come out";
     case haptics::WayOutAnswer::grazes:
       return text + ": comes out tightly";
     case haptics::WayOutAnswer::not_found:
-      return text + fmt::format(": no way out seen in {} poses", piece.way.poses);
+      return text + ": no way out found";
     case haptics::WayOutAnswer::blocked:
       break;
   }

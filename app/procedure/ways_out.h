@@ -1,12 +1,11 @@
 // Can each piece of a tooth come out of the jaw as it is now, in which order, and what is in the way, in a dentist's
-// words. Frame P, mm. Worker threads or a command; 0.1 to 3 s a piece; allocates. What is said to be in the way is
+// words. Frame P, mm. Worker threads or a command; 0.2 to 5 s a piece; allocates. What is said to be in the way is
 // enough to take away, not the least (haptics/body/way_out.h).
 #pragma once
 
 #include <map>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -47,7 +46,7 @@ struct PieceWay {
 
 /// In the order in which they come out; those that cannot come last, by number. `pieces`: how many of the components.
 std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Components& tooth, std::size_t pieces,
-                              const WayUp& up, const std::stop_token& stop = {});
+                              const WayUp& up);
 
 /// "piece 0: free", "piece 1, once piece 0 is out: distobuccal bone 3.1 mm³, tooth 47 0.4 mm³ in the way".
 std::string wordsOf(const PieceWay& piece);

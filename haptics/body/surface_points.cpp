@@ -20,34 +20,53 @@ SurfacePoints surfacePoints(const DistanceField& piece, const glm::dvec3& origin
   return points;
 }
 
-Overlap overlapOf(const SurfacePoints& points, const Placement& placement, const DistanceField& obstacles,
-                  double play_mm) {
+namespace {
+
+/// visit(arm from the placement's origin, field there, depth) of the points that are deeper than the play.
+template <class Visit>
+void forDeep(const SurfacePoints& points, const Placement& placement, const DistanceField& obstacles, double play_mm,
+             const Visit& visit) {
   const assets::VolumeGrid& grid = obstacles.grid();
   const float per_mm = static_cast<float>(1.0 / grid.spacing_mm), play = static_cast<float>(play_mm);
   const float clear_mm = 0.87F * static_cast<float>(grid.spacing_mm) - play;
   const glm::mat3 R(glm::mat3_cast(placement.rotation));
   const glm::vec3 origin(grid.indexFromPoint(placement.at_mm));
-  Overlap sum;
-  double depths_mm = 0.0;
   for (const glm::vec3& p_mm : points.at_mm) {
     const glm::vec3 arm_mm = R * p_mm, index = origin + per_mm * arm_mm;
     if (obstacles.near(index) > clear_mm) continue;
     const DistanceField::Sample there = obstacles.at(index);
     const float depth_mm = -there.distance_mm - play;
-    if (depth_mm <= 0.0F) continue;
-    depths_mm += static_cast<double>(depth_mm);
-    const glm::dvec3 out(there.gradient), turn(glm::cross(arm_mm, there.gradient));
-    const Vector6 rate = {out.x, out.y, out.z, turn.x, turn.y, turn.z};
-    const double weight = static_cast<double>(points.area_mm2);
-    for (std::size_t row = 0; row < 6; ++row) {
-      sum.gradient[row] -= weight * static_cast<double>(depth_mm) * rate[row];
-      for (std::size_t column = row; column < 6; ++column)
-        sum.hessian[row][column] += weight * rate[row] * rate[column];
-    }
+    if (depth_mm > 0.0F) visit(arm_mm, there, static_cast<double>(depth_mm));
   }
+}
+
+}  // namespace
+
+double overlap_mm3(const SurfacePoints& points, const Placement& placement, const DistanceField& obstacles,
+                   double play_mm) {
+  double depths_mm = 0.0;
+  forDeep(points, placement, obstacles, play_mm,
+          [&](const glm::vec3&, const DistanceField::Sample&, double depth_mm) { depths_mm += depth_mm; });
+  return static_cast<double>(points.area_mm2) * depths_mm;
+}
+
+Overlap overlapOf(const SurfacePoints& points, const Placement& placement, const DistanceField& obstacles,
+                  double play_mm) {
+  const double weight = static_cast<double>(points.area_mm2);
+  Overlap sum;
+  forDeep(points, placement, obstacles, play_mm,
+          [&](const glm::vec3& arm_mm, const DistanceField::Sample& there, double depth_mm) {
+            sum.volume_mm3 += weight * depth_mm;
+            const glm::dvec3 out(there.gradient), turn(glm::cross(arm_mm, there.gradient));
+            const Vector6 rate = {out.x, out.y, out.z, turn.x, turn.y, turn.z};
+            for (std::size_t row = 0; row < 6; ++row) {
+              sum.gradient[row] -= weight * depth_mm * rate[row];
+              for (std::size_t column = row; column < 6; ++column)
+                sum.hessian[row][column] += weight * rate[row] * rate[column];
+            }
+          });
   for (std::size_t row = 0; row < 6; ++row)
     for (std::size_t column = 0; column < row; ++column) sum.hessian[row][column] = sum.hessian[column][row];
-  sum.volume_mm3 = static_cast<double>(points.area_mm2) * depths_mm;
   return sum;
 }
 

@@ -47,8 +47,7 @@ WayBound::WayBound(const DistanceField& obstacles, const Ball& ball, const glm::
     const std::size_t v = open.top().second;
     open.pop();
     if (cost > cost_[v]) continue;
-    const std::size_t layer = assets::indexIn(grid_.size, {0, 0, 1}), row = assets::indexIn(grid_.size, {0, 1, 0});
-    const glm::ivec3 ijk(static_cast<int>(v % row), static_cast<int>(v % layer / row), static_cast<int>(v / layer));
+    const glm::ivec3 ijk = assets::elementAt(grid_.size, v);
     assets::forVoxels(glm::max(ijk - 1, 0), glm::min(ijk + 2, grid_.size), [&](glm::ivec3 beside) {
       const std::size_t w = grid_.index(beside);
       if (w == v) return;

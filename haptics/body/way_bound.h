@@ -1,7 +1,7 @@
 // The least that the way out can cost a piece: that of the largest ball in it, whose centre goes through the obstacles
 // from cell to cell and pays for the solid that its front cuts (Dijkstra, Numer. Math. 1, 1959, from the goal back). It
 // leads a search round a corner, where the straight remainder would hold it under the roof. mm of the obstacles' grid.
-// Immutable; any thread; 20 to 60 ms to make; allocates.
+// Immutable; any thread; 70 ms to make for a jaw of 30 mm; allocates.
 #pragma once
 
 #include <algorithm>

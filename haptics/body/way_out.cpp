@@ -125,14 +125,13 @@ class Search {
   std::size_t poses() const { return poses_; }
 
   /// From where it lies to the goal; empty: not within so many poses.
-  std::vector<Placement> way(const WayBound& rest, double graze_price, std::size_t most_poses,
-                             const std::stop_token& stop) {
+  std::vector<Placement> way(const WayBound& rest, double graze_price, std::size_t most_poses) {
     rest_ = &rest;
     nodes_.clear();
     best_.clear();
     open_ = {};
     add({piece_.middle_mm, {1.0, 0.0, 0.0, 0.0}}, kNone, 0.0);
-    for (std::size_t expanded = 0; expanded < most_poses && !open_.empty() && !stop.stop_requested();) {
+    for (std::size_t expanded = 0; expanded < most_poses && !open_.empty();) {
       const std::size_t from = open_.top().second;
       open_.pop();
       const Node node = nodes_[from];
@@ -184,10 +183,10 @@ class Search {
     else
       turn_rad[move / 2 - 3] = sign * step_.turn_rad;
     const Placement next = node.placement.moved(by_mm, turn_rad);
-    const Overlap overlap = overlapOf(piece_.coarse, next, around_.field, kPlay_mm);
+    const double met_mm3 = overlap_mm3(piece_.coarse, next, around_.field, kPlay_mm);
     const double length_mm = glm::length(next.at_mm - node.placement.at_mm) + (move < 6 ? 0.0 : 0.3 * step_.length_mm);
-    double cost = node.cost + length_mm * (1.0 + graze_price * overlap.volume_mm3);
-    if (overlap.volume_mm3 > 0.0) {
+    double cost = node.cost + length_mm * (1.0 + graze_price * met_mm3);
+    if (met_mm3 > 0.0) {
       const auto known = best_.find(keyOf(next));
       if (known != best_.end() && known->second <= cost) return;
       cost += kSolidPrice * newlyCut_mm3(next, node.placement);
@@ -251,7 +250,7 @@ std::vector<std::size_t> sweptBy(const std::vector<Placement>& way, const Search
   const assets::VolumeGrid& grid = around.volume.grid;
   std::vector<std::uint8_t> is_swept(grid.voxelCount(), 0);
   for (const Placement& at : way) {
-    if (overlapOf(piece.fine, at, around.field, kPlay_mm).volume_mm3 <= 0.0) continue;
+    if (overlap_mm3(piece.fine, at, around.field, kPlay_mm) <= 0.0) continue;
     const glm::mat3 back(glm::mat3_cast(glm::conjugate(at.rotation)));
     const glm::dvec3 middle = grid.indexFromPoint(at.at_mm);
     const double reach = piece.reach_mm / grid.spacing_mm;
@@ -304,7 +303,7 @@ std::vector<Placement> straightWay(const SearchedPiece& piece, const Surrounding
       double met_mm3 = 0.0;
       for (double along_mm = 0.0; along_mm < goal.distance_mm + kStraight_mm; along_mm += kStraight_mm) {
         way.push_back({piece.middle_mm + along_mm * step, {1.0, 0.0, 0.0, 0.0}});
-        met_mm3 += overlapOf(piece.coarse, way.back(), around.field, kPlay_mm).volume_mm3;
+        met_mm3 += overlap_mm3(piece.coarse, way.back(), around.field, kPlay_mm);
       }
       if (!best.empty() && met_mm3 >= least_mm3) continue;
       best = std::move(way);
@@ -315,18 +314,11 @@ std::vector<Placement> straightWay(const SearchedPiece& piece, const Surrounding
 
 }  // namespace
 
-WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const WayOutGoal& goal,
-                  const std::stop_token& stop) {
+WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const WayOutGoal& goal) {
   assert(obstacles.solid.size() == obstacles.grid.voxelCount() && volume.solid.size() == volume.grid.voxelCount());
   const std::optional<SearchedPiece> piece = searchedPiece(volume);
   if (!piece) return {};
   const Surroundings around{obstacles, {obstacles.grid, obstacles.solid, std::max(1.5, piece->ball_mm + 0.5)}};
-  const auto bound = [&](double per_mm) {
-    return WayBound(around.field, {piece->middle_mm, piece->ball_mm}, goal.direction, goal.distance_mm, per_mm,
-                    kSolidEagerness * kSolidPrice);
-  };
-  const WayBound patient = bound(3.0), eager = bound(8.0);
-  Search search(*piece, around, goal);
   WayOut best;
   const auto keep = [&](const std::vector<Placement>& way) {
     if (way.empty()) return;
@@ -334,7 +326,15 @@ WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const
     if (best.answer == WayOutAnswer::not_found || found.in_the_way.size() < best.in_the_way.size())
       best = std::move(found);
   };
-  if (!stop.stop_requested()) keep(straightWay(*piece, around, goal));
+  keep(straightWay(*piece, around, goal));
+  if (best.answer == WayOutAnswer::free) return best;
+
+  const auto bound = [&](double per_mm) {
+    return WayBound(around.field, {piece->middle_mm, piece->ball_mm}, goal.direction, goal.distance_mm, per_mm,
+                    kSolidEagerness * kSolidPrice);
+  };
+  const WayBound patient = bound(3.0), eager = bound(8.0);
+  Search search(*piece, around, goal);
   // A price of grazing keeps it off the walls but makes it wander; the least that is cut wins. Those that find a way at
   // once cost next to nothing.
   struct Attempt {
@@ -344,7 +344,7 @@ WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const
   for (const Attempt& attempt :
        {Attempt{patient, 0.0}, Attempt{eager, 1.0}, Attempt{eager, 4.0}, Attempt{patient, 1.0}, Attempt{patient, 4.0}})
     if (best.answer != WayOutAnswer::free && search.poses() < kPosesInAll)
-      keep(search.way(attempt.rest, attempt.graze_price, kPoses, stop));
+      keep(search.way(attempt.rest, attempt.graze_price, kPoses));
   best.poses = search.poses();
   return best;
 }

@@ -1,4 +1,4 @@
-// Work of the rest of the operation, each beside a slow and obvious twin in one run: nothing to compare by hand.
+// Work of the rest of the operation: pieces beside a slow and obvious twin in one run, ways out beside what must go.
 //   haptics_extraction_bench            all parts
 //   haptics_extraction_bench pieces     pieces of a tooth and the bridge between them
 //   haptics_extraction_bench way-out    whether a piece can come out, and what is in its way

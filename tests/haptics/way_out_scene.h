@@ -77,7 +77,7 @@ inline WayOutScene ledge(double overhang_mm) {
   const auto hole = [=](const glm::dvec3& p) {
     return std::max(slot_mm(p), -boxDistance_mm(p - glm::dvec3(0, overhang_mm - 5.8, 5.5), {4.4, 1.5, 0.5}));
   };
-  return {"ledge", boneAround(hole, 6.0), blockPiece(), 12.0};
+  return {"ledge of " + std::to_string(overhang_mm).substr(0, 3) + " mm", boneAround(hole, 6.0), blockPiece(), 12.0};
 }
 
 /// 5 mm to one side under a roof, then up.
