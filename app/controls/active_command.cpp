@@ -17,6 +17,7 @@ void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.irrigating = from.irrigating;
   to.undo_serial = from.undo_serial;
   to.redo_serial = from.redo_serial;
+  to.split = from.split;
   to.rearm = from.rearm;
 }
 
@@ -181,6 +182,13 @@ void ActiveCommand::adopt(const haptics::Command& command) {
   haptics::Command wanted = command;
   keepSwitches(command_, wanted);
   put(wanted);
+}
+
+void ActiveCommand::split(const haptics::SplitOrder& order) {
+  const std::uint64_t serial = command_.split.serial + 1;
+  command_.split = order;
+  command_.split.serial = serial;
+  workstation_->change(command_);
 }
 
 void ActiveCommand::put(const haptics::Command& wanted) {

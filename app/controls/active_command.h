@@ -36,7 +36,9 @@ class ActiveCommand {
   /// Once a frame: reports an undo or redo when the servo has done it, with its volume and what is left.
   void followStrokes(const haptics::Tick& newest);
   void pollSettingsFile(LiveParameters::Clock::time_point now);
-  /// A procedure's command, unchecked and unreported; irrigation, undo, redo and rearm stay as they are.
+  /// Makes a piece of tooth that has fallen apart two; its serial is set here. Unreported.
+  void split(const haptics::SplitOrder& order);
+  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split and rearm stay as they are.
   void adopt(const haptics::Command& command);
 
   /// Tools to change between, in order.

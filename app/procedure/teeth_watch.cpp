@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "haptics/body/piece_split.h"
+
 namespace app {
 namespace {
 
@@ -28,15 +30,30 @@ void TeethWatch::give(glm::ivec3 brick, const Brick& solid, std::uint64_t digest
     const std::lock_guard lock(mutex_);
     given_.insert_or_assign(assets::indexIn(bricks_, brick), std::pair{brick, solid});
     digest_ = digest;
+    confirmed_.reset();
+    parting_.reset();
   }
   wake_.notify_all();
+}
+
+void TeethWatch::confirm(std::uint64_t digest) {
+  {
+    const std::lock_guard lock(mutex_);
+    confirmed_ = digest;
+  }
+  wake_.notify_all();
+}
+
+std::unique_ptr<TeethWatch::Parting> TeethWatch::takeParting() {
+  const std::lock_guard lock(mutex_);
+  return std::move(parting_);
 }
 
 void TeethWatch::settle() {
   std::unique_lock lock(mutex_);
   hurry_ = true;
   wake_.notify_all();
-  settled_.wait(lock, [this] { return given_.empty() && !is_looking_ && !owes_bridges_; });
+  settled_.wait(lock, [this] { return given_.empty() && !is_looking_ && !owes_bridges_ && !mayPart(); });
   hurry_ = false;
 }
 
@@ -45,8 +62,22 @@ void TeethWatch::run() {
   int looks_without = 0;
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return stopping_ || !given_.empty() || owes_bridges_; });
+    wake_.wait(lock, [this] { return stopping_ || !given_.empty() || owes_bridges_ || mayPart(); });
     if (stopping_) return;
+    // Nothing new, and it is sure what it is: whether it has fallen apart.
+    if (given_.empty() && !owes_bridges_) {
+      const std::uint64_t digest = *confirmed_;
+      is_looking_ = true;
+      lock.unlock();
+      haptics::SplitPlan plan = haptics::partingPlan(survey_.components());
+      lock.lock();
+      is_looking_ = false;
+      parted_ = digest;
+      if (!plan.blocks.empty() && confirmed_ == digest)
+        parting_ = std::make_unique<Parting>(Parting{std::move(plan), digest});
+      settled_.notify_all();
+      continue;
+    }
     const auto bricks = std::exchange(given_, {});
     report.digest = digest_;
     is_looking_ = true;

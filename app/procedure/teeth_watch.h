@@ -1,5 +1,6 @@
-// Follows a tooth while it is cut, on a thread of its own: bricks in, pieces and bridges out. give() and newest() from
-// one thread, not the servo's; both return at once. At most 20 looks a second; bridges on every look, but at most every
+// Follows a tooth, or a piece of it, while it is cut, on a thread of its own: bricks in, pieces and bridges out, and
+// what comes off when it has fallen apart. All but the destructor from one thread, not the servo's; all but settle()
+// return at once. At most 20 looks a second; bridges on every look, but at most every
 // fourth while bricks keep coming. The newest bytes of a brick win, so a slow look leaves nothing out.
 // What it finds depends on the bytes alone; how often it looks does not change what a replay recomputes.
 #pragma once
@@ -8,11 +9,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
 
+#include "haptics/body/split_plan.h"
 #include "haptics/body/tooth_survey.h"
 #include "haptics/latest.h"
 
@@ -37,11 +41,20 @@ class TeethWatch {
   /// A changed brick (i fastest) of the body with this digest.
   void give(glm::ivec3 brick, const Brick& solid, std::uint64_t digest);
   const Report& newest() { return newest_.read(); }
-  /// Waits until everything given was looked at, bridges included.
+  /// What was given is all of the body with this digest.
+  void confirm(std::uint64_t digest);
+  struct Parting {
+    haptics::SplitPlan plan;
+    std::uint64_t digest = 0;  ///< as confirmed
+  };
+  /// Once for each confirmed state in which the body is in two or more pieces.
+  std::unique_ptr<Parting> takeParting();
+  /// Waits until everything given and confirmed was looked at, bridges included.
   void settle();
 
  private:
   void run();
+  bool mayPart() const { return confirmed_ && given_.empty() && *confirmed_ != parted_; }
 
   haptics::ToothSurvey survey_;
   glm::ivec3 bricks_;
@@ -51,6 +64,9 @@ class TeethWatch {
   std::condition_variable wake_, settled_;
   std::map<std::size_t, std::pair<glm::ivec3, Brick>> given_;  ///< by brick
   std::uint64_t digest_ = 0;
+  std::optional<std::uint64_t> confirmed_;  ///< for all that was given
+  std::uint64_t parted_ = 0;                ///< confirmed digest for which it was looked whether the body falls apart
+  std::unique_ptr<Parting> parting_;
   bool stopping_ = false, is_looking_ = false, owes_bridges_ = false, hurry_ = false;
   std::thread thread_;
 };

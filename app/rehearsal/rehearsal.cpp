@@ -97,6 +97,7 @@ class Rehearsal {
       updateCommand();
       pace_.toNextFrame();
       readServo();
+      followTooth();
       draw();
       status_reporter_->update(pace_.now(), state());
       router_.handleInstructorInput(status_reporter_->updateInstructor(state()), frame_);
@@ -193,12 +194,19 @@ class Rehearsal {
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone();
-    tooth_->follow(view_.uploadedBricks(), newest_.bone_digest);
+    frame_.gap = view_.gapOf(frame_);
+  }
+
+  void followTooth() {
+    if (pace_.isRealTime())
+      tooth_->follow(view_.uploadedBricks(), newest_);
+    else
+      tooth_->followStepped(newest_);
+    if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {
       head_up_.say(*line);
       event_log_.note("tooth", *line);
     }
-    frame_.gap = view_.gapOf(frame_);
   }
 
   /// Some tenths of a second: once, at the end.

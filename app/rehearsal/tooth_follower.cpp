@@ -3,20 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <fmt/core.h>
+
+#include "haptics/body/components.h"
 
 namespace app {
 namespace {
 
-/// The thinnest bridge of the largest piece; null: it is not cut through to one.
+/// Of all pieces; null: none is cut through to a bridge.
 const haptics::Bridge* thinnestBridge(const haptics::ToothFindings& findings) {
-  const haptics::ToothFindings::Held& held = findings.held[0];
-  if (findings.pieces == 0 || held.parts < 2 || held.bridges == 0) return nullptr;
-  const auto last = held.bridge.begin() + static_cast<std::ptrdiff_t>(std::min(held.bridges, held.bridge.size()));
-  return &*std::min_element(held.bridge.begin(), last, [](const haptics::Bridge& a, const haptics::Bridge& b) {
-    return a.thickness_mm < b.thickness_mm;
-  });
+  const haptics::Bridge* thinnest = nullptr;
+  for (std::size_t n = 0; n < std::min(findings.pieces, haptics::kMostPieces); ++n) {
+    const haptics::ToothFindings::Held& held = findings.held[n];
+    for (std::size_t b = 0; held.parts > 1 && b < std::min(held.bridges, held.bridge.size()); ++b)
+      if (thinnest == nullptr || held.bridge[b].thickness_mm < thinnest->thickness_mm) thinnest = &held.bridge[b];
+  }
+  return thinnest;
 }
 
 std::string bridgeText(const haptics::Bridge& bridge) {
@@ -39,55 +44,160 @@ std::string toothText(const haptics::ToothFindings& findings) {
 
 ToothFollower::ToothFollower(haptics::Bodies& bodies, std::span<const std::uint8_t> whole) : bodies_(bodies) {
   if (bodies.pieces() == 0) return;
-  const haptics::CarvedBone& tooth = bodies.bones()[1];
-  const std::vector<std::uint8_t> now = tooth.solidInGridOrder();
-  watch_ = std::make_unique<TeethWatch>(tooth.grid(), whole.size() == now.size() ? whole : std::span(now));
-  if (whole.size() == now.size()) giveAll(0);
+  whole_ = bodies.bones()[1].solidInGridOrder();
+  if (whole.size() == whole_.size()) whole_.assign(whole.begin(), whole.end());
+  watchAnew(bodies.pieces());
 }
 
-void ToothFollower::giveAll(std::uint64_t bone_digest) {
-  const haptics::CarvedBone& tooth = bodies_.bones()[1];
-  assets::forVoxels(glm::ivec3(0), tooth.grid().bricks(), [&](glm::ivec3 brick) {
-    TeethWatch::Brick bytes{};
-    tooth.copyBrick(brick, bytes);
-    watch_->give(brick, bytes, bone_digest);
-  });
-}
-
-void ToothFollower::follow(std::span<const glm::ivec3> bricks, std::uint64_t bone_digest) {
-  if (!watch_) return;
-  for (const glm::ivec3& brick : bricks) {
-    const auto own = bodies_.brickOfPiece(0, brick);
-    if (!own) continue;
-    TeethWatch::Brick bytes{};
-    bodies_.bones()[1].copyBrick(*own, bytes);
-    watch_->give(*own, bytes, bone_digest);
+/// One piece: against the whole tooth. Several: each as it is now, what is cut from here on counts.
+void ToothFollower::watchAnew(std::size_t pieces) {
+  watches_.clear();
+  for (std::size_t n = 0; n < pieces; ++n) {
+    const haptics::CarvedBone& piece = bodies_.bones()[n + 1];
+    std::vector<std::uint8_t> now = whole_;
+    if (pieces > 1)
+      haptics::forBricks(piece.grid().bricks(), [&](std::size_t, glm::ivec3 corner) {
+        TeethWatch::Brick bytes{};
+        piece.copyBrick(corner / assets::kBrickVoxels, bytes);
+        std::size_t at = 0;
+        assets::forVoxels(corner, corner + assets::kBrickVoxels, [&](glm::ivec3 ijk) {
+          const std::uint8_t solid = bytes[at++];
+          if (piece.grid().contains(ijk)) now[piece.grid().index(ijk)] = solid;
+        });
+      });
+    watches_.push_back(std::make_unique<TeethWatch>(piece.grid(), now));
   }
+  looks_ = 0;
+  bridge_told_mm_ = 4;
+  is_partial_ = true;
+}
+
+void ToothFollower::give(std::span<const glm::ivec3> bricks, std::uint64_t bodies_digest) {
+  for (std::size_t n = 0; n < watches_.size(); ++n)
+    for (const glm::ivec3& brick : bricks) {
+      const auto own = bodies_.brickOfPiece(n, brick);
+      if (!own) continue;
+      TeethWatch::Brick bytes{};
+      bodies_.bones()[n + 1].copyBrick(*own, bytes);
+      watches_[n]->give(*own, bytes, bodies_digest);
+    }
+}
+
+void ToothFollower::giveAll(std::uint64_t bodies_digest) {
+  for (std::size_t n = 0; n < watches_.size(); ++n) {
+    const haptics::CarvedBone& piece = bodies_.bones()[n + 1];
+    assets::forVoxels(glm::ivec3(0), piece.grid().bricks(), [&](glm::ivec3 brick) {
+      TeethWatch::Brick bytes{};
+      piece.copyBrick(brick, bytes);
+      watches_[n]->give(brick, bytes, bodies_digest);
+    });
+  }
+  is_partial_ = false;
+}
+
+/// Not while pieces part or join block by block. When they have, all is looked at anew.
+bool ToothFollower::mayLook(const haptics::Tick& newest) {
+  if (newest.dt_s == 0.0) return true;
+  if (newest.split == haptics::SplitAnswer::running || newest.drill_inhibit == haptics::DrillInhibit::undo_running) {
+    is_partial_ = true;
+    return false;
+  }
+  if (newest.pieces != watches_.size()) watchAnew(newest.pieces);
+  return true;
+}
+
+void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
+  if (watches_.empty() || !mayLook(newest)) return;
+  const bool is_quiet = bricks.empty() && !is_partial_ && quiet_at_ == newest.bone_digest;
+  if (is_partial_)
+    giveAll(newest.bone_digest);
+  else
+    give(bricks, newest.bone_digest);
+  quiet_at_ = newest.bone_digest;
+  if (!is_quiet) return;
+  for (const auto& watch : watches_) watch->confirm(newest.bone_digest);
+}
+
+void ToothFollower::followStepped(const haptics::Tick& newest) {
+  if (watches_.empty()) return;
+  bodies_.takeDirtyBricks(unseen_);
+  if (newest.depth_mm > 0.0 || (unseen_.empty() && !is_partial_) || !mayLook(newest)) return;
+  if (is_partial_)
+    giveAll(newest.bone_digest);
+  else
+    give(unseen_, newest.bone_digest);
+  unseen_.clear();
+  for (const auto& watch : watches_) watch->confirm(newest.bone_digest);
+  settle();
+}
+
+void ToothFollower::settle() {
+  for (const auto& watch : watches_) watch->settle();
+}
+
+std::optional<haptics::SplitOrder> ToothFollower::order(const haptics::Tick& newest) {
+  if (newest.split == haptics::SplitAnswer::waiting || newest.split == haptics::SplitAnswer::running) return {};
+  for (std::size_t n = 0; n < watches_.size(); ++n) {
+    const auto parting = watches_[n]->takeParting();
+    if (!parting || parting->digest != newest.bone_digest) continue;
+    const haptics::SplitPlan* const plan = &plans_.emplace_back(std::move(parting->plan));
+    return haptics::SplitOrder{0, parting->digest, n, plan};
+  }
+  return {};
+}
+
+/// Of all watches together, the largest piece first.
+haptics::ToothFindings ToothFollower::found() {
+  haptics::ToothFindings all;
+  std::vector<std::pair<haptics::ToothPiece, haptics::ToothFindings::Held>> pieces;
+  for (const auto& watch : watches_) {
+    const haptics::ToothFindings& own = watch->newest().findings;
+    for (std::size_t n = 0; n < std::min(own.pieces, haptics::kMostPieces); ++n)
+      pieces.emplace_back(own.piece[n], own.held[n]);
+    all.pieces += own.pieces;
+    all.chips += own.chips;
+    all.chips_mm3 += own.chips_mm3;
+    all.cut_mm3 += own.cut_mm3;
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& a, const auto& b) { return a.first.volume_mm3 > b.first.volume_mm3; });
+  for (std::size_t n = 0; n < std::min(pieces.size(), haptics::kMostPieces); ++n)
+    std::tie(all.piece[n], all.held[n]) = pieces[n];
+  return all;
 }
 
 std::optional<std::string> ToothFollower::news() {
-  if (!watch_) return {};
-  const TeethWatch::Report& report = watch_->newest();
-  if (report.serial == looks_) return {};
-  looks_ = report.serial;
-  const haptics::ToothFindings& found = report.findings;
-  const bool more = found.pieces > pieces_told_, fewer = found.pieces < pieces_told_;
-  pieces_told_ = std::max<std::size_t>(1, found.pieces);
-  if (more) return "the tooth is " + toothText(found);
-  if (fewer && found.pieces == 1) return "the tooth is in one piece again";
-  const haptics::Bridge* const bridge = report.has_bridges && found.pieces == 1 ? thinnestBridge(found) : nullptr;
-  if (bridge == nullptr) return {};
+  std::uint64_t looks = 0;
+  for (const auto& watch : watches_) {
+    const std::uint64_t serial = watch->newest().serial;
+    // All of them, or a part that was just made would seem to be missing.
+    if (serial == 0) return {};
+    looks += serial;
+  }
+  if (looks == looks_) return {};
+  looks_ = looks;
+  const haptics::ToothFindings all = found();
+  const bool more = all.pieces > pieces_told_, fewer = all.pieces < pieces_told_;
+  pieces_told_ = std::max<std::size_t>(1, all.pieces);
+  if (more) return "the tooth is " + toothText(all);
+  if (fewer && all.pieces == 1) return "the tooth is in one piece again";
+  const haptics::Bridge* const bridge = thinnestBridge(all);
+  const bool are_bridges_known =
+      std::all_of(watches_.begin(), watches_.end(), [](const auto& watch) { return watch->newest().has_bridges; });
+  if (bridge == nullptr || !are_bridges_known) return {};
   const int below_mm = static_cast<int>(std::ceil(std::min(bridge->thickness_mm, 4.0)));
   const bool thinner = below_mm < bridge_told_mm_;
   bridge_told_mm_ = below_mm;
-  return thinner ? std::optional("the tooth is held by " + bridgeText(*bridge)) : std::nullopt;
+  const std::string what = all.pieces > 1 ? "a piece of the tooth" : "the tooth";
+  return thinner ? std::optional(what + " is held by " + bridgeText(*bridge)) : std::nullopt;
 }
 
 std::string ToothFollower::ending() {
-  if (!watch_) return "";
+  if (watches_.empty()) return "";
+  if (bodies_.pieces() != watches_.size()) watchAnew(bodies_.pieces());
   giveAll(bodies_.digest());
-  watch_->settle();
-  return toothText(watch_->newest().findings);
+  settle();
+  return toothText(found());
 }
 
 }  // namespace app

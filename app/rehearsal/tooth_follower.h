@@ -1,9 +1,11 @@
 // What becomes of the tooth while it is sectioned, in words for the surgeon: how thick the bridge is that still holds
-// it, and into which pieces it has come apart. Looks on a thread of its own (procedure/teeth_watch); main thread.
-// Nothing it finds enters the servo. Without a tooth of its own (haptics/body/bodies) it says nothing.
+// it, and into which pieces it has come apart; and the order to the servo that makes a piece that has fallen apart two.
+// Looks on threads of its own, one a piece (procedure/teeth_watch); main thread.
+// Without a tooth of its own (haptics/body/bodies) it says nothing.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +16,7 @@
 
 #include "app/procedure/teeth_watch.h"
 #include "haptics/body/bodies.h"
+#include "haptics/servo/tick.h"
 
 namespace app {
 
@@ -25,18 +28,32 @@ class ToothFollower {
   /// Borrows the bodies. `whole`: the tooth before the first cut, in the order of its grid; empty: as it is.
   explicit ToothFollower(haptics::Bodies& bodies, std::span<const std::uint8_t> whole = {});
 
-  /// Bricks of the jaw's grid that have changed. `bone_digest`: Tick::bone_digest of the newest tick.
-  void follow(std::span<const glm::ivec3> bricks, std::uint64_t bone_digest);
+  /// Bricks of the jaw's grid that have changed up to the newest tick or later.
+  void follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
+  /// The same for a servo that is stepped, which waits: looks when the tool is clear. Takes the dirty bricks.
+  void followStepped(const haptics::Tick& newest);
+  /// What the servo shall split, once nothing has changed between two calls of follow(): the serial is the caller's.
+  std::optional<haptics::SplitOrder> order(const haptics::Tick& newest);
   /// A line when the bridge has become thinner than 3, 2 or 1 mm, or a piece has come apart.
   std::optional<std::string> news();
   /// With the servo stopped: all of the tooth, looked at once more, as toothText().
   std::string ending();
 
  private:
-  void giveAll(std::uint64_t bone_digest);
+  bool mayLook(const haptics::Tick& newest);
+  void watchAnew(std::size_t pieces);
+  void give(std::span<const glm::ivec3> bricks, std::uint64_t bodies_digest);
+  void giveAll(std::uint64_t bodies_digest);
+  void settle();
+  haptics::ToothFindings found();
 
   haptics::Bodies& bodies_;
-  std::unique_ptr<TeethWatch> watch_;  ///< null: no tooth
+  std::vector<std::uint8_t> whole_;
+  std::vector<std::unique_ptr<TeethWatch>> watches_;  ///< by piece; none: no tooth
+  std::deque<haptics::SplitPlan> plans_;              ///< of all orders: the servo reads them
+  std::vector<glm::ivec3> unseen_;                    ///< stepped: since the last look
+  std::optional<std::uint64_t> quiet_at_;             ///< digest of the bodies with which nothing changed
+  bool is_partial_ = false;                           ///< bricks were left out while a piece moved block by block
   std::uint64_t looks_ = 0;
   std::size_t pieces_told_ = 1;
   int bridge_told_mm_ = 4;  ///< the limit told last

@@ -51,6 +51,13 @@ void visitTool(auto& tool, Visit&& visit) {
   visit("tool.handpiece", handpiece);
 }
 
+/// The plan follows from the bodies.
+template <class Visit>
+void visitSplit(auto& split, Visit&& visit) {
+  auto& [serial, bodies_digest, piece, plan] = split;
+  visit("split.serial", serial), visit("split.bodies_digest", bodies_digest), visit("split.piece", piece);
+}
+
 template <class Visit>
 void visitMachining(auto& machining, Visit&& visit) {
   auto& [chip_tangential_N_per_mm2, chip_radial_N_per_mm2, chip_axial_N_per_mm2, edge_tangential_N_per_mm,
@@ -150,12 +157,13 @@ void visitSafety(auto& safety, Visit&& visit) {
 
 template <class Visit>
 void forEachKey(auto& command, Visit&& visit) {
-  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, law, erosion, spindle, safety, rearm] =
-      command;
+  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, law, erosion, spindle, safety,
+         rearm] = command;
   visit("serial", serial);
   visitTool(tool, visit);
   visit("drill_enabled", drill_enabled), visit("irrigating", irrigating), visit("undo_serial", undo_serial);
   visit("redo_serial", redo_serial);
+  visitSplit(split, visit);
   visitLaw(law, visit);
   visitErosion(erosion, visit);
   visitSpindle(spindle, visit);

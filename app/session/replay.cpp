@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "app/session/session_error.h"
 #include "app/text/version.h"
+#include "haptics/body/piece_split.h"
 #include "haptics/servo/servo.h"
 
 namespace app {
@@ -45,6 +47,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.drilling != again.drilling || recorded.drill_inhibit != again.drill_inhibit) return "the drill differs";
   if (recorded.strokes != again.strokes || recorded.undone_strokes != again.undone_strokes)
     return "the strokes to undo or redo differ";
+  if (recorded.split != again.split) return "the splitting of the tooth differs";
   if (!same(recorded.restored_total_mm3, again.restored_total_mm3)) return "the restored volume differs";
   if (recorded.state != again.state) return "the state of the safety layer differs";
   if (recorded.faults != again.faults) return "the faults differ";
@@ -56,13 +59,17 @@ class Rerun {
  public:
   /// Borrows bodies and soft tissue.
   Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands)
-      : servo_(bodies, &soft_tissue), commands_(std::move(commands)) {}
+      : bodies_(bodies), servo_(bodies, &soft_tissue), commands_(std::move(commands)) {}
 
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded) {
     const std::uint64_t lost = recorded.index - std::exchange(next_index_, recorded.index + 1);
-    while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index)
+    while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index) {
+      const haptics::SplitOrder before = command_.split;
       command_ = commands_[next_++].command;
+      command_.split.plan = before.plan;
+      if (command_.split.serial != before.serial) command_.split.plan = planFor(command_.split);
+    }
     if (lost > 0) return std::to_string(lost) + " ticks before it were lost";
     if (command_.serial != recorded.command_serial) return "its command was not recorded";
     return std::nullopt;
@@ -71,8 +78,18 @@ class Rerun {
   const haptics::Command& command() const { return command_; }
 
  private:
+  /// Made again from the bodies as they are: an order holds for these or not at all.
+  const haptics::SplitPlan* planFor(const haptics::SplitOrder& order) {
+    if (order.piece >= bodies_.pieces() || order.bodies_digest != bodies_.digest()) return nullptr;
+    const haptics::CarvedBone& piece = bodies_.bones()[order.piece + 1];
+    plans_.push_back(haptics::partingPlan({piece.grid(), piece.solidInGridOrder()}));
+    return &plans_.back();
+  }
+
+  haptics::Bodies& bodies_;
   haptics::Servo servo_;
   std::vector<SessionCommand> commands_;
+  std::deque<haptics::SplitPlan> plans_;
   haptics::Command command_;
   std::size_t next_ = 0;
   std::uint64_t next_index_ = 0;

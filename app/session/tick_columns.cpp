@@ -19,6 +19,7 @@ constexpr std::string_view kRests = "none 0, undoing 1, caught 2, pedal 3";
 constexpr std::string_view kStates = "off 0, calibrate 1, ready 2, armed 3, active 4, fault 5";
 constexpr std::string_view kSoftMeaning = "none 0, gingiva 1, flap 2, lip 3, cheek 4, tongue 5, mucosa 6";
 constexpr std::string_view kSoftSetMeaning = "gingiva 2, flap 4, lip 8, cheek 16, tongue 32, mucosa 64; their sum";
+constexpr std::string_view kSplitMeaning = "none 0, waiting 1, running 2, done 3, refused 4";
 constexpr std::string_view kFaults =
     "bad_pose 1, bad_force 2, clamped 4, slewed 8, device 16, joints 32, hot 64, stale 128, resumed 256, braked 512, "
     "too_fast 1024, buzz 2048, overdrawn 4096, let_go 8192, latched 16384, stopped 32768; their sum";
@@ -75,8 +76,8 @@ template <class Visit>
 void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
-         bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, state,
-         faults, work_us] = tick;
+         bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
+         split, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -100,6 +101,8 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"rest", "", "", "", kRests}, drill_inhibit);
   visit(Text{"strokes"}, strokes);
   visit(Text{"undone_strokes"}, undone_strokes);
+  visit(Text{"pieces"}, pieces);
+  visit(Text{"split", "", "", "", kSplitMeaning}, split);
   visit(Text{"state", "", "", "", kStates}, state);
   visit(Text{"faults", "", "", "", kFaults}, faults);
   visit(Text{"work_us", "", "us"}, work_us);

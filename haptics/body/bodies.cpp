@@ -26,8 +26,12 @@ Bodies::Bodies(const assets::VolumeGrid& grid, std::span<const std::uint8_t> sol
   } else {
     const assets::ToothDivision divided = assets::divideByTooth(grid, solid, label, is_tooth);
     bones_.emplace_back(grid, divided.jaw.solid, divided.jaw.label);
-    if (!divided.tooth.solid.empty()) bones_.emplace_back(divided.tooth.grid, divided.tooth.solid, divided.tooth.label);
-    first_brick_[0] = divided.first_brick;
+    if (!divided.tooth.solid.empty()) {
+      bones_.emplace_back(divided.tooth.grid, divided.tooth.solid, divided.tooth.label);
+      while (bones_.size() < kMaxBodies)
+        bones_.push_back(CarvedBone::emptied(divided.tooth.grid, divided.tooth.solid, divided.tooth.label));
+    }
+    first_brick_.fill(divided.first_brick);
   }
   at_rest_.fill(true);
   numberBlocks();
@@ -47,6 +51,18 @@ void Bodies::numberBlocks() {
     bone.setFirstBlock(first);
     first += bone.blocks();
   }
+}
+
+std::size_t Bodies::pieces() const {
+  std::size_t last = bones_.size() - 1;
+  while (last > 1 && bones_[last].isEmpty()) --last;
+  return last;
+}
+
+void Bodies::moveBlock(std::size_t from, std::size_t to, std::size_t block,
+                       std::span<const std::uint8_t, kBlockVoxels> given, StrokeHistory* strokes) noexcept {
+  assert(from != to && isAtRest(from) == isAtRest(to));
+  bones_[from + 1].moveBlock(block, given, bones_[to + 1], strokes);
 }
 
 void Bodies::place(std::size_t piece, const PiecePose& X_PQ) {
@@ -91,7 +107,7 @@ std::array<double, assets::kTissueCount> Bodies::removedByTissue_mm3() const noe
 
 void Bodies::takeDirtyBricks(std::vector<glm::ivec3>& out) {
   bones_.front().dirtyBricks().takeInto(out);
-  for (std::size_t n = 0; n < pieces(); ++n) {
+  for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
     const std::size_t first = out.size();
     bones_[n + 1].dirtyBricks().takeInto(out);
     for (std::size_t at = first; at < out.size(); ++at) out[at] += first_brick_[n];
@@ -100,7 +116,7 @@ void Bodies::takeDirtyBricks(std::vector<glm::ivec3>& out) {
 
 void Bodies::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
   jaw().copyBrick(brick, solid_out);
-  for (std::size_t n = 0; n < pieces(); ++n) {
+  for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
     const auto own = brickOfPiece(n, brick);
     if (!at_rest_[n] || !own) continue;
     std::array<std::uint8_t, 512> part{};
@@ -112,7 +128,7 @@ void Bodies::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out)
 
 std::vector<std::uint8_t> Bodies::solidInGridOrder() const {
   std::vector<std::uint8_t> solid = jaw().solidInGridOrder();
-  for (std::size_t n = 0; n < pieces(); ++n) {
+  for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
     if (!at_rest_[n]) continue;
     const SolidField piece = bones_[n + 1].field();
     const glm::ivec3 first = first_brick_[n] * assets::kBrickVoxels;

@@ -1,6 +1,7 @@
 // The live volumes of a rehearsal: the jaw, and the tooth to be removed as a body of its own from the start, later in
 // up to kMaxPieces pieces. Frame P, mm; a piece lies in its frame Q, which is P until it moves. One writer, the servo;
 // other threads copy dirty bricks. Poses change while the servo is stopped.
+// All pieces have the tooth's grid: a split moves solid from one to an empty one, block by block.
 // While a piece is at rest, forces, cuts and pictures are those of one undivided volume. Construction divides the
 // volume (assets/scan/tooth_division) and allocates; every other call but solidInGridOrder() is bounded and never
 // allocates, locks or throws.
@@ -29,16 +30,22 @@ class Bodies {
   /// The jaw alone.
   explicit Bodies(CarvedBone jaw);
 
-  /// The jaw first, then the pieces.
+  /// The jaw first, then the pieces, also those that hold nothing yet.
   std::span<CarvedBone> bones() { return bones_; }
   std::span<const CarvedBone> bones() const { return bones_; }
   const CarvedBone& jaw() const { return bones_.front(); }
-  std::size_t pieces() const { return bones_.size() - 1; }
+  /// Up to the last one that holds solid; the tooth itself always counts.
+  std::size_t pieces() const;
 
   /// Of piece n, from 0. A rotation that is not of unit length is normalised. Writer only, with the servo stopped.
   void place(std::size_t piece, const PiecePose& X_PQ);
   const PiecePose& pose(std::size_t piece) const { return X_PQ_[piece]; }
   bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
+
+  /// Moves up to `given` of each voxel of a block of the tooth's grid from a piece to another that is where it is
+  /// (CarvedBone::moveBlock). Writer only.
+  void moveBlock(std::size_t from, std::size_t to, std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
+                 StrokeHistory* strokes = nullptr) noexcept;
 
   SolidBodies view() const;
 

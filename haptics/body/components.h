@@ -15,6 +15,8 @@
 
 namespace haptics {
 
+inline constexpr double kLeastPiece_mm3 = 1.0;  ///< smaller ones are chips (reference/extraction 2.2)
+
 /// A voxel of at least half counts whole: at a smooth surface that errs to neither side.
 struct ToothPiece {
   double volume_mm3 = 0.0;

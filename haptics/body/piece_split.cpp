@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 
 #include "assets/ct_volume.h"
-#include "calibration/random.h"
+#include "haptics/bone/solid_field.h"
 
 namespace haptics {
 namespace {
@@ -64,11 +65,26 @@ std::vector<std::uint8_t> bytesBeforeBreak(const Components& components, const B
   return bytes;
 }
 
-std::uint64_t splitDigest(std::span<const std::uint8_t> bytes) {
-  std::uint64_t digest = calibration::mixedBits(bytes.size());
-  for (std::size_t v = 0; v < bytes.size(); ++v)
-    if (bytes[v] != 0) digest = calibration::mixedBits(digest ^ (static_cast<std::uint64_t>(v) << 8 | bytes[v]));
-  return digest;
+SplitPlan splitPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t> bytes) {
+  SolidField lattice;
+  lattice.blocks = (grid.size + kBlockEdge - 1) / kBlockEdge;
+  std::map<std::size_t, SplitPlan::Block> blocks;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (bytes[v] == 0) return;
+    const std::size_t at = lattice.offsetOf(ijk), block = at / kBlockVoxels;
+    SplitPlan::Block& planned = blocks[block];
+    planned.block = static_cast<std::uint32_t>(block);
+    planned.given[at % kBlockVoxels] = bytes[v];
+  });
+  SplitPlan plan;
+  for (const auto& [number, block] : blocks) plan.blocks.push_back(block);
+  return plan;
+}
+
+SplitPlan partingPlan(const Components& components) {
+  const std::span<const ToothPiece> pieces = components.pieces();
+  if (pieces.size() < 2 || pieces[1].volume_mm3 < kLeastPiece_mm3) return {};
+  return splitPlan(components.grid(), bytesOfPiece(components, 1));
 }
 
 }  // namespace haptics

@@ -1,6 +1,6 @@
 // A piece's volume divided in two: the bytes that come off; what stays is the difference, so no solid is lost or made.
 // Frame and mm of the grid. Any thread; O(voxels of the grid), 10-50 ms for a tooth; allocates. The same bytes of solid
-// give the same bytes here, so that a replay can prove a split by its digest.
+// give the same plan, so that a replay can recompute it.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "haptics/body/bridge.h"
 #include "haptics/body/components.h"
+#include "haptics/body/split_plan.h"
 
 namespace haptics {
 
@@ -20,7 +21,11 @@ std::vector<std::uint8_t> bytesOfPiece(const Components& components, std::size_t
 std::vector<std::uint8_t> bytesBeforeBreak(const Components& components, const BridgeSearch& search,
                                            std::size_t bridge);
 
-/// Of all bytes and their places.
-std::uint64_t splitDigest(std::span<const std::uint8_t> bytes);
+/// `bytes` as of the functions above.
+SplitPlan splitPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t> bytes);
+
+/// Of a piece that has fallen apart: its next largest component comes off; chips stay with the largest. Nothing: it is
+/// in one piece of kLeastPiece_mm3 and more.
+SplitPlan partingPlan(const Components& components);
 
 }  // namespace haptics

@@ -19,8 +19,7 @@
 
 namespace haptics {
 
-inline constexpr double kLeastPiece_mm3 = 1.0;  ///< smaller ones are chips (reference/extraction 2.2)
-inline constexpr std::size_t kMostPieces = 8;   ///< that are listed
+inline constexpr std::size_t kMostPieces = 8;  ///< that are listed
 
 /// Crosses threads: owns nothing.
 struct ToothFindings {

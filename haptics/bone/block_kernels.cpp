@@ -25,5 +25,9 @@ void stepBlock(BlockStep& block) noexcept { isFast() ? fastest::stepBlock(block)
 BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept {
   return isFast() ? fastest::blockDigest(solid, reach, dose) : portable::blockDigest(solid, reach, dose);
 }
+std::uint16_t doseLeaving(std::uint8_t first, std::uint8_t left, std::uint32_t block_key,
+                          std::uint32_t within) noexcept {
+  return portable::doseLeaving(first, left, block_key, within);
+}
 
 }  // namespace haptics

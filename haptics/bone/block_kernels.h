@@ -42,12 +42,18 @@ void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t*
 bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
 void stepBlock(BlockStep& block) noexcept;
 BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
+/// The least dose that leaves no more than `left` of a voxel's first content, `within` the block of this key; 65535 for
+/// 0. Exact for every `left` up to `first`.
+std::uint16_t doseLeaving(std::uint8_t first, std::uint8_t left, std::uint32_t block_key,
+                          std::uint32_t within) noexcept;
 
 namespace portable {
 void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept;
 bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
 void stepBlock(BlockStep& block) noexcept;
 BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
+std::uint16_t doseLeaving(std::uint8_t first, std::uint8_t left, std::uint32_t block_key,
+                          std::uint32_t within) noexcept;
 }  // namespace portable
 
 #if defined(__x86_64__)
@@ -56,6 +62,8 @@ void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t*
 bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
 void stepBlock(BlockStep& block) noexcept;
 BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
+std::uint16_t doseLeaving(std::uint8_t first, std::uint8_t left, std::uint32_t block_key,
+                          std::uint32_t within) noexcept;
 }  // namespace avx2
 #endif
 

@@ -45,6 +45,14 @@ inline std::uint32_t lost(std::uint32_t key, std::uint32_t phase, std::uint32_t 
   return static_cast<std::uint32_t>((static_cast<std::uint64_t>(whole) * loss_q32 + (key + phase)) >> 32);
 }
 
+/// The rest of a voxel's first content, over 65535, rounded at its own threshold: it never rises with the dose, and is
+/// unbiased over voxels.
+inline std::uint32_t leftOf(std::uint32_t first, std::uint32_t dose, std::uint32_t key) {
+  const std::uint32_t high = key >> 16, threshold = high < kFullDose ? high : kFullDose - 1;
+  const std::uint32_t left = first * (kFullDose - dose) + threshold;
+  return (left + 1u + (left >> 16)) >> 16;
+}
+
 void stepWithHistory(BlockStep& block) {
   alignas(64) std::uint32_t key[kVoxels], loss[kVoxels], change[kVoxels], after[kVoxels];
   alignas(64) std::uint32_t new_reach[kVoxels], new_dose[kVoxels];
@@ -56,11 +64,7 @@ void stepWithHistory(BlockStep& block) {
     const std::uint32_t reach = old_reach > covered ? old_reach : covered, old_dose = block.dose[n];
     const std::uint32_t limit = reach * kDosePerReach, cap = old_dose > limit ? old_dose : limit;
     const std::uint32_t requested = old_dose + loss[n], dose = requested < cap ? requested : cap;
-    // The rest of its first content, over 65535, rounded at the voxel's own threshold: it never rises, and is unbiased
-    // over voxels.
-    const std::uint32_t high = key[n] >> 16, threshold = high < kFullDose ? high : kFullDose - 1;
-    const std::uint32_t left = block.first[n] * (kFullDose - dose) + threshold;
-    after[n] = (left + 1u + (left >> 16)) >> 16;
+    after[n] = leftOf(block.first[n], dose, key[n]);
     new_reach[n] = reach;
     new_dose[n] = dose;
     change[n] = stateOf(after[n], reach, dose) - stateOf(block.solid[n], old_reach, old_dose);
@@ -159,6 +163,21 @@ BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, co
     digest.high += kDigest.high[n] * state;
   }
   return digest;
+}
+
+std::uint16_t doseLeaving(std::uint8_t first, std::uint8_t left, std::uint32_t block_key,
+                          std::uint32_t within) noexcept {
+  if (left == 0) return kFullDose;
+  const std::uint32_t key = voxelKey(block_key, within);
+  std::uint32_t low = 0, high = kFullDose;
+  while (low < high) {
+    const std::uint32_t middle = (low + high) / 2;
+    if (leftOf(first, middle, key) > left)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return static_cast<std::uint16_t>(low);
 }
 
 }  // namespace MOLAR_KERNEL_SET

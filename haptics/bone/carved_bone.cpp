@@ -11,6 +11,7 @@ namespace haptics {
 namespace {
 
 constexpr double kHistoryShare = 0.42;        // of the blocks: 4 bytes a voxel in all
+constexpr std::uint16_t kFullDose = 65535;    // all of a voxel's first content is gone
 constexpr std::size_t kMinHistories = 16384;  // 4 MB: a small bone has a history for every block
 
 std::size_t tissueOf(const SolidField& field, std::size_t place) {
@@ -30,6 +31,7 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
   for (std::size_t block = 0; block < blocks; ++block) {
     if (at.weight[block] == 0) continue;
     ++with_bone;
+    solid_steps_ += at.weight[block];
     addToDigest(calibration::mixedBits(block + 1),
                 blockDigest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
   }
@@ -68,8 +70,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const bool mixed_labels = at.only_label[block] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
-  if (strokes != nullptr && strokes->needsSaving(first_block_ + block))
-    strokes->save(first_block_ + block, stateOf(block));
+  saveTo(strokes, block);
 
   alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
   alignas(64) std::array<std::uint8_t, kBlockVoxels> after;
@@ -102,9 +103,61 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
     steps[only_tissue] += step.removed;
     removed_steps_[only_tissue] += step.removed;
   }
+  solid_steps_ -= step.removed;
   cubelets_.setBlock(block, after);
   dirty_.mark(block_ijk * kBlockEdge / assets::kBrickVoxels);
   return true;
+}
+
+void CarvedBone::saveTo(StrokeHistory* strokes, std::size_t block) const {
+  if (strokes != nullptr && strokes->needsSaving(first_block_ + block))
+    strokes->save(first_block_ + block, stateOf(block));
+}
+
+CarvedBone CarvedBone::emptied(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
+                               std::span<const std::uint8_t> label) {
+  CarvedBone empty(grid, solid, label);
+  const SolidField at = empty.field();
+  for (std::size_t block = 0; block < empty.blocks(); ++block) {
+    if (at.weight[block] == 0) continue;
+    BlockState gone;
+    if (empty.historyOf(block) != nullptr) gone.dose.fill(kFullDose);
+    empty.restoreBlock(block, gone);
+  }
+  empty.removed_steps_ = {};
+  std::vector<glm::ivec3> unchanged;
+  empty.dirty_.takeInto(unchanged);
+  return empty;
+}
+
+void CarvedBone::moveBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given, CarvedBone& to,
+                           StrokeHistory* strokes) {
+  BlockState from_state = stateOf(block), to_state = to.stateOf(block);
+  const History* const history = historyOf(block);
+  const bool to_has_history = to.history_of_[block] != 0;
+  const auto key = static_cast<std::uint32_t>(calibration::mixedBits(block + 1) >> 32);
+  bool moves = false;
+  for (std::size_t n = 0; n < kBlockVoxels; ++n) {
+    const std::uint8_t whole = from_state.solid[n], moved = std::min(given[n], whole);
+    if (moved == 0) continue;
+    moves = true;
+    const auto received = static_cast<std::uint8_t>(std::min(255, to_state.solid[n] + moved));
+    if (to_has_history) {
+      const std::uint8_t first = to.histories_[to.history_of_[block] - 1].first[n];
+      const bool is_all = received == whole && history != nullptr && first == history->first[n];
+      to_state.dose[n] = is_all ? from_state.dose[n] : doseLeaving(first, received, key, static_cast<std::uint32_t>(n));
+      to_state.reach[n] = std::max(to_state.reach[n], from_state.reach[n]);
+    }
+    to_state.solid[n] = received;
+    from_state.solid[n] = static_cast<std::uint8_t>(whole - moved);
+    if (history != nullptr)
+      from_state.dose[n] = doseLeaving(history->first[n], from_state.solid[n], key, static_cast<std::uint32_t>(n));
+  }
+  if (!moves) return;
+  saveTo(strokes, block);
+  to.saveTo(strokes, block);
+  restoreBlock(block, from_state);
+  to.restoreBlock(block, to_state);
 }
 
 BlockState CarvedBone::stateOf(std::size_t block) const {
@@ -139,6 +192,7 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
     removed_steps_[tissueOf(at, block * kBlockVoxels + n)] -= more;
     steps += more;
   }
+  solid_steps_ += steps;
   cubelets_.setBlock(block, state.solid);
   const int at_x = static_cast<int>(block % static_cast<std::size_t>(at.blocks.x));
   const auto rows = static_cast<int>(block / static_cast<std::size_t>(at.blocks.x));

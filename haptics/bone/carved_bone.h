@@ -46,6 +46,7 @@ static_assert(sizeof(BlockState) == 256);
 ///             solid before the  | largest coverage   | part of `first` removed,
 ///             first cut         | so far, 0..255     | 0..65535
 ///
+///   solid_steps_ i64: sum of all solid bytes
 ///   digest_      u64: low and high 32 bits are sums modulo 2^32 over all blocks with bone,
 ///                (half of mixedBits(b + 1) | 1) x sum over v of weight(v) x (solid << 24 | reach << 16 | dose),
 ///                so a cut updates it by the difference of one block and order does not matter
@@ -56,7 +57,12 @@ class CarvedBone {
   /// Spans must fit the grid (assert).
   CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label);
 
+  /// The same with nothing left, as if all had been cut away: what is left of the other can be moved to it.
+  static CarvedBone emptied(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
+                            std::span<const std::uint8_t> label);
+
   const assets::VolumeGrid& grid() const { return grid_; }
+  bool isEmpty() const { return solid_steps_ == 0; }
   std::size_t blocks() const { return history_of_.size(); }
   /// The number of block 0 in a StrokeHistory of several bones. Before the first cut.
   void setFirstBlock(std::size_t number) { first_block_ = number; }
@@ -69,6 +75,12 @@ class CarvedBone {
   /// `strokes` first where needed. Writer only.
   bool cutBlock(glm::ivec3 block, const BlockCut& cut, std::array<std::int64_t, assets::kTissueCount>& steps,
                 StrokeHistory* strokes = nullptr);
+
+  /// Moves up to `given` of each voxel of a block to the same block of `to`, made by emptied(), with its history: both
+  /// are cut on as the whole would have been. No solid is lost or made. Marks the bricks. Saves both blocks to
+  /// `strokes` first where needed. Writer only.
+  void moveBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given, CarvedBone& to,
+                 StrokeHistory* strokes = nullptr);
 
   BlockState stateOf(std::size_t block) const;
   /// Restores an earlier state of this block with its sums, digest and removed volume. Returns the solid steps of 1/255
@@ -100,6 +112,7 @@ class CarvedBone {
     std::array<std::uint16_t, kBlockVoxels> dose;
   };
   History* historyOf(std::size_t block);
+  void saveTo(StrokeHistory* strokes, std::size_t block) const;
   void addToDigest(std::uint64_t block_key, const BlockDigest& change);
 
   assets::VolumeGrid grid_;
@@ -109,6 +122,7 @@ class CarvedBone {
   std::size_t histories_most_ = 0, histories_used_ = 0;
   std::vector<History> histories_;
   std::array<std::int64_t, assets::kTissueCount> removed_steps_{};
+  std::int64_t solid_steps_ = 0;
   std::uint64_t digest_ = 0;
   DirtyBricks dirty_;
 };

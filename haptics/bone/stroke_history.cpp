@@ -40,6 +40,12 @@ void StrokeHistory::beginStroke() noexcept {
   open_ = true;
 }
 
+void StrokeHistory::reopen() noexcept {
+  if (open_) return;
+  dropUndone();
+  open_ = count_ > 0;
+}
+
 void StrokeHistory::endStroke() noexcept {
   if (!open_) return;
   open_ = false;

@@ -41,6 +41,8 @@ class StrokeHistory {
   bool needsSaving(std::size_t block) const { return saved_in_[block] != stroke_; }
   /// Begins a stroke if none is open; what was undone can no longer be redone.
   void save(std::size_t block, const BlockState& state) noexcept;
+  /// Later saves belong to the newest stroke again, if there is one; what was undone can no longer be redone.
+  void reopen() noexcept;
   /// Later saves belong to another stroke.
   void endStroke() noexcept;
 

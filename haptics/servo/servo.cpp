@@ -39,8 +39,10 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.state = admitted.state;
 
   // Undo before the bone is evaluated.
-  const double restored_mm3 =
-      undo_.restore(bodies_, {command.undo_serial, command.redo_serial}, command.tool, at_proxy_X_PT_);
+  split_.receive(bodies_, command.split);
+  const double restored_mm3 = split_.isRunning() ? 0.0
+                                                 : undo_.restore(bodies_, {command.undo_serial, command.redo_serial},
+                                                                 command.tool, at_proxy_X_PT_);
   const bool embedded = undo_.isToolEmbedded();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
@@ -93,6 +95,11 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
                                            tick.drilling, tick.dt_s, tick.index);
   undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, proxy.proxy_P, removed.removed_mm3, tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
+
+  // A piece that has fallen apart becomes two.
+  if (split_.step(bodies_, !proxy.touches() && !embedded && !undo_.isRunning(), undo_.strokes())) undo_.keepStrokes();
+  tick.split = split_.answer();
+  tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());
   tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());
   tick.undone_strokes = static_cast<std::uint8_t>(undo_.strokes().undoneStrokes());
   tick.restored_total_mm3 = undo_.restoredTotal_mm3();

@@ -12,6 +12,7 @@
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
 #include "haptics/servo/tick.h"
+#include "haptics/servo/tooth_split.h"
 
 namespace haptics {
 
@@ -37,6 +38,7 @@ class Servo {
   Cutting cutting_;
   Delivery delivery_;
   StrokeUndo undo_;
+  ToothSplit split_;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false;
   std::uint64_t last_serial_ = 0;

@@ -44,13 +44,14 @@ class StrokeUndo {
   const StrokeHistory& strokes() const { return strokes_; }
   /// Restored since the start by undo, less what was redone, mm3.
   double restoredTotal_mm3() const { return restored_total_mm3_; }
+  /// The newest stroke was changed by something else than the bur.
+  void keepStrokes() { target_ = strokes_.strokes(); }
+  bool isRunning() const { return target_ != strokes_.strokes() || strokes_.isBetweenStrokes(); }
   /// Last in a tick. `cutting`: the turning bur was in bone, at `bur_P`.
   void update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
               double dt_s) noexcept;
 
  private:
-  bool isRunning() const { return target_ != strokes_.strokes() || strokes_.isBetweenStrokes(); }
-
   StrokeHistory strokes_;
   StrokeExtent extent_;
   Serials last_;

@@ -11,6 +11,7 @@
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/safety_state.h"
 #include "haptics/servo/drill_inhibit.h"
+#include "haptics/servo/tooth_split.h"
 
 namespace haptics {
 
@@ -40,6 +41,8 @@ struct Tick {
   DrillInhibit drill_inhibit = DrillInhibit::none;  ///< why not drilling
   std::uint8_t strokes = 0;                         ///< that can be undone
   std::uint8_t undone_strokes = 0;                  ///< that can be redone
+  std::uint8_t pieces = 0;                          ///< of the tooth; 0: none of its own
+  SplitAnswer split = SplitAnswer::none;            ///< to the newest Command::split
   SafetyState state = SafetyState::off;             ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "haptics/body/piece_split.h"
 #include "haptics/latest.h"
 #include "haptics/servo/tick_log.h"
 #include "tests/app/session/real_session.h"
@@ -91,6 +92,34 @@ TEST(ServoRealTime, NeitherAllocatesNorBlocksWhileTheBurCutsAJawAndAMovedTooth) 
   EXPECT_GT(in_contact, 3'000u);
   EXPECT_GT(removed_mm3(bodies.bones()[0]), 0.5);
   EXPECT_GT(removed_mm3(bodies.bones()[1]), 0.5);
+}
+
+/// It moves from one piece to the other in many ticks.
+TEST(ServoRealTime, NeitherAllocatesNorBlocksWhileAToothIsSplit) {
+  if (ForbidBlocking::countsNothing()) GTEST_SKIP() << "a sanitizer owns malloc: nothing can be counted";
+  const app::test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.grid.voxelCount()), solid = block.solid;
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const double x_mm = block.grid.centre_P_mm(ijk).x;
+    is_tooth[v] = std::abs(x_mm) < 3.0;
+    if (std::abs(x_mm) < 0.3) solid[v] = 0;
+  });
+  haptics::Bodies bodies(block.grid, solid, block.label, is_tooth);
+  haptics::Servo servo(bodies);
+  haptics::Command command = block.start().command;
+  haptics::HandSample hand;
+  hand.X_PT.translation_mm = {0.0, 0.0, 100.0};
+  const haptics::CarvedBone& tooth = bodies.bones()[1];
+  const haptics::SplitPlan plan = haptics::partingPlan({tooth.grid(), tooth.solidInGridOrder()});
+  ASSERT_FALSE(plan.blocks.empty());
+  haptics::Tick tick;
+  const ForbidBlocking guard;
+  command.split = {1, bodies.digest(), 0, &plan};
+  for (int n = 0; n < 400; ++n) tick = servo.step(hand, command, 0.001);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(guard.blockingCalls(), 0u);
+  EXPECT_EQ(tick.split, haptics::SplitAnswer::done);
+  EXPECT_EQ(tick.pieces, 2);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "haptics/body/piece_split.h"
 #include "haptics/bone/stroke_history.h"
 #include "haptics/contact/law.h"
 #include "haptics/contact/overlap.h"
@@ -203,6 +204,111 @@ TEST(Bodies, OneStrokeOverBothIsUndoneAndRedoneWhole) {
   EXPECT_NEAR(undone.volume_mm3, removed[kBone] + removed[kDentine], 1e-9);
   strokes.redo(bodies.bones(), 100'000);
   EXPECT_EQ(bodies.digest(), after);
+}
+
+/// All of the tooth's solid with x < 0.
+SplitPlan leftHalf(const Bodies& bodies) {
+  const CarvedBone& tooth = bodies.bones()[1];
+  std::vector<std::uint8_t> bytes = tooth.solidInGridOrder();
+  assets::forVoxels(tooth.grid(), [&](glm::ivec3 ijk, std::size_t v) {
+    if (tooth.grid().centre_P_mm(ijk).x >= 0.0) bytes[v] = 0;
+  });
+  return splitPlan(tooth.grid(), bytes);
+}
+
+void split(Bodies& bodies, const SplitPlan& plan, StrokeHistory* strokes = nullptr) {
+  for (const SplitPlan::Block& block : plan.blocks) bodies.moveBlock(0, 1, block.block, block.given, strokes);
+}
+
+void cutAt(Bodies& bodies, const glm::dvec3& p_P_mm, std::uint64_t first_tick, StrokeHistory* strokes = nullptr) {
+  for (std::uint64_t tick = first_tick; tick < first_tick + 5; ++tick)
+    carveTool(bodies, {ShapeKind::sphere, 0.8, 0.0}, {{1.0, 0.0, 0.0, 0.0}, p_P_mm}, someStep(), tick, 1, strokes);
+}
+
+TEST(Bodies, PiecesHoldWhatTheToothHeld) {
+  const Site site;
+  Bodies bodies = site.divided();
+  cutAt(bodies, {0.0, 0.0, 1.0}, 1);
+  const std::vector<std::uint8_t> before = bodies.solidInGridOrder(), tooth = bodies.bones()[1].solidInGridOrder();
+  const auto removed_mm3 = bodies.removedByTissue_mm3();
+  split(bodies, leftHalf(bodies));
+  EXPECT_EQ(bodies.pieces(), 2u);
+  EXPECT_EQ(bodies.solidInGridOrder(), before);
+  const auto first = bodies.bones()[1].solidInGridOrder(), second = bodies.bones()[2].solidInGridOrder();
+  const assets::VolumeGrid& grid = bodies.bones()[1].grid();
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const bool is_left = grid.centre_P_mm(ijk).x < 0.0;
+    EXPECT_EQ(is_left ? second[v] : first[v], tooth[v]);
+    EXPECT_EQ(is_left ? first[v] : second[v], 0);
+  });
+  for (std::size_t tissue = 0; tissue < assets::kTissueCount; ++tissue)
+    EXPECT_NEAR(bodies.removedByTissue_mm3()[tissue], removed_mm3[tissue], 1e-9);
+}
+
+/// A voxel goes on losing what it would have lost: the pieces have its history, also of what was cut in part before.
+TEST(Bodies, PiecesAreCutAsTheToothWouldHaveBeen) {
+  const Site site;
+  Bodies whole = site.divided(), parted = site.divided();
+  for (const double x : {-0.9, 0.7}) {
+    cutAt(whole, {x, 0.3, 0.8}, 1);
+    cutAt(parted, {x, 0.3, 0.8}, 1);
+  }
+  split(parted, leftHalf(parted));
+  for (const double x : {-1.2, 0.0, 1.0}) {
+    cutAt(whole, {x, 0.5, 0.4}, 10);
+    cutAt(parted, {x, 0.5, 0.4}, 10);
+    EXPECT_EQ(whole.solidInGridOrder(), parted.solidInGridOrder()) << x;
+  }
+  EXPECT_GT(whole.removedByTissue_mm3()[kDentine], 1.0);
+}
+
+TEST(Bodies, AByteSharedByTwoPiecesIsKeptToTheStep) {
+  const Site site;
+  Bodies bodies = site.divided();
+  cutAt(bodies, {0.0, 0.0, 1.0}, 1);
+  const std::vector<std::uint8_t> before = bodies.solidInGridOrder();
+  std::mt19937 random(3);
+  SplitPlan plan = leftHalf(bodies);
+  for (SplitPlan::Block& block : plan.blocks)
+    for (std::uint8_t& given : block.given) given = static_cast<std::uint8_t>(random() % (given + 1u));
+  split(bodies, plan);
+  EXPECT_EQ(bodies.solidInGridOrder(), before);
+  // A cut that only reaches a corner changes nothing else in its blocks.
+  const std::vector<std::uint8_t> first = bodies.bones()[1].solidInGridOrder();
+  const std::vector<std::uint8_t> second = bodies.bones()[2].solidInGridOrder();
+  cutAt(bodies, {-2.4, 0.0, 1.4}, 30);
+  const assets::VolumeGrid& grid = bodies.bones()[1].grid();
+  const auto now_first = bodies.bones()[1].solidInGridOrder(), now_second = bodies.bones()[2].solidInGridOrder();
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (glm::distance(grid.centre_P_mm(ijk), glm::dvec3(-2.4, 0.0, 1.4)) < 1.1) return;
+    EXPECT_EQ(now_first[v], first[v]);
+    EXPECT_EQ(now_second[v], second[v]);
+  });
+}
+
+TEST(Bodies, AStrokeWithItsSplitIsUndoneAndRedoneWhole) {
+  const Site site;
+  Bodies bodies = site.divided();
+  StrokeHistory strokes(bodies.bones());
+  const std::uint64_t before = bodies.digest();
+  cutAt(bodies, {0.0, 0.0, 0.5}, 1, &strokes);
+  strokes.endStroke();
+  const std::uint64_t cut = bodies.digest();
+  strokes.reopen();
+  split(bodies, leftHalf(bodies), &strokes);
+  strokes.endStroke();
+  const std::uint64_t parted = bodies.digest();
+  EXPECT_NE(parted, cut);
+  EXPECT_EQ(strokes.strokes(), 1u);
+  cutAt(bodies, {-1.0, 0.0, 0.5}, 20, &strokes);
+  strokes.undo(bodies.bones(), 100'000);
+  EXPECT_EQ(bodies.digest(), parted);
+  strokes.undo(bodies.bones(), 100'000);
+  EXPECT_EQ(bodies.digest(), before);
+  EXPECT_EQ(bodies.pieces(), 1u);
+  strokes.redo(bodies.bones(), 100'000);
+  EXPECT_EQ(bodies.digest(), parted);
+  EXPECT_EQ(bodies.pieces(), 2u);
 }
 
 TEST(Bodies, BricksShowJawAndToothAtRest) {

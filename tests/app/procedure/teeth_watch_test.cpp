@@ -1,5 +1,6 @@
 #include "app/procedure/teeth_watch.h"
 
+#include "haptics/body/piece_split.h"
 #include "tests/haptics/tooth_phantom.h"
 
 namespace app {
@@ -46,6 +47,35 @@ TEST(TeethWatch, WhateverTheOrderOfBricksTheFindingsAreThoseOfTheLastBytes) {
   ASSERT_EQ(a.held[0].bridges, b.held[0].bridges);
   EXPECT_EQ(a.held[0].bridge[0].area_mm2, b.held[0].bridge[0].area_mm2);
   EXPECT_EQ(a.held[0].bridge[0].centre_mm, b.held[0].bridge[0].centre_mm);
+}
+
+TEST(TeethWatch, SaysOnceWhatComesOffAndOnlyOfAConfirmedState) {
+  const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false);
+  TeethWatch watch(whole.grid, whole.solid);
+  giveAll(watch, bridged(0.3, 0.0, 1.5, 6.0, true), 6);
+  watch.confirm(6);
+  watch.settle();
+  EXPECT_FALSE(watch.takeParting()) << "held by a bridge";
+  const ToothPhantom parted = bridged(0.3, 0.0, 0.0, 0.0, true);
+  giveAll(watch, parted, 7);
+  watch.settle();
+  EXPECT_FALSE(watch.takeParting()) << "it may still change";
+  watch.confirm(7);
+  watch.settle();
+  const auto parting = watch.takeParting();
+  ASSERT_TRUE(parting);
+  EXPECT_EQ(parting->digest, 7u);
+  EXPECT_EQ(parting->plan, haptics::partingPlan({parted.grid, parted.solid}));
+  EXPECT_FALSE(watch.takeParting());
+  watch.confirm(7);
+  watch.settle();
+  EXPECT_FALSE(watch.takeParting()) << "once for a state";
+  // What is given later makes an older answer void.
+  giveAll(watch, parted, 8);
+  watch.confirm(8);
+  watch.settle();
+  giveAll(watch, parted, 9);
+  EXPECT_FALSE(watch.takeParting());
 }
 
 TEST(TeethWatch, EndsWithBricksNotYetLookedAt) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "haptics/bone/carve.h"
+#include "haptics/servo/servo.h"
 
 namespace app {
 namespace {
@@ -65,11 +68,93 @@ TEST(ToothFollower, ATimeLaterTheWholeToothIsRemembered) {
   EXPECT_EQ(follower.ending().rfind("held by a bridge of ", 0), 0u) << follower.ending();
 }
 
+/// A servo over a tooth, with a tool that is clear of it.
+struct FollowedTooth {
+  FreeTooth tooth;
+  haptics::Bodies bodies{tooth.grid, tooth.solid, tooth.label, tooth.is_tooth};
+  haptics::Servo servo{bodies};
+  ToothFollower follower{bodies};
+  haptics::Command command;
+  haptics::HandSample hand;
+  haptics::Tick tick;
+
+  FollowedTooth() { hand.X_PT.translation_mm = {0.0, 0.0, 30.0}; }
+  void step(int ticks = 1) {
+    for (int n = 0; n < ticks; ++n) tick = servo.step(hand, command, 1e-3);
+  }
+  /// What a rehearsal does once a frame. True: an order was given.
+  bool frame() {
+    follower.followStepped(tick);
+    const auto order = follower.order(tick);
+    if (order) {
+      const std::uint64_t serial = command.split.serial + 1;
+      command.split = *order;
+      command.split.serial = serial;
+    }
+    step(100);
+    return order.has_value();
+  }
+};
+
+TEST(ToothFollower, OrdersASplitOnceForEveryPieceThatFallsOff) {
+  FollowedTooth room;
+  room.step();
+  EXPECT_FALSE(room.frame());
+  section(room.bodies, -1.2);
+  room.step();
+  EXPECT_FALSE(room.frame()) << "held by a bridge";
+  section(room.bodies, -4.0);
+  room.step();
+  EXPECT_TRUE(room.frame());
+  EXPECT_EQ(room.tick.split, haptics::SplitAnswer::done);
+  EXPECT_EQ(room.tick.pieces, 2);
+  const auto line = room.follower.news();
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->rfind("the tooth is in 2 pieces, 1", 0), 0u) << *line;
+  EXPECT_FALSE(room.frame());
+  EXPECT_FALSE(room.follower.news()) << "told once";
+
+  // A piece falls apart again, and is sectioned as the tooth was.
+  haptics::ErosionStep step;
+  step.loss.fill(1.0);
+  std::uint64_t tick = 1000;
+  for (double z = 3.0; z > -4.0; z -= 0.25)
+    for (double x = 0.0; x < 6.0; x += 0.2)
+      for (int n = 0; n < 3; ++n)
+        haptics::carveTool(room.bodies, {haptics::ShapeKind::sphere, 0.7, 0.0}, {{1.0, 0.0, 0.0, 0.0}, {x, 0.2, z}},
+                           step, ++tick);
+  room.step();
+  EXPECT_TRUE(room.frame());
+  EXPECT_EQ(room.tick.pieces, 3);
+  EXPECT_EQ(room.follower.ending().rfind("in 3 pieces, ", 0), 0u) << room.follower.ending();
+}
+
+TEST(ToothFollower, OrdersNothingWhileBricksChange) {
+  FollowedTooth room;
+  section(room.bodies, -4.0);
+  room.step();
+  std::vector<glm::ivec3> bricks;
+  room.bodies.takeDirtyBricks(bricks);
+  room.follower.follow(bricks, room.tick);
+  EXPECT_FALSE(room.follower.order(room.tick));
+  room.follower.follow({}, room.tick);
+  // The look is on another thread.
+  std::optional<haptics::SplitOrder> order;
+  for (int n = 0; n < 2000 && !order; ++n) {
+    order = room.follower.order(room.tick);
+    if (!order) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(order);
+  EXPECT_EQ(order->bodies_digest, room.bodies.digest());
+}
+
 TEST(ToothFollower, SaysNothingOfAJawWithoutTooth) {
   const FreeTooth tooth;
   haptics::Bodies bodies(tooth.grid, tooth.solid, tooth.label);
   ToothFollower follower(bodies);
-  follower.follow(std::vector<glm::ivec3>{{0, 0, 0}}, 1);
+  follower.follow(std::vector<glm::ivec3>{{0, 0, 0}}, haptics::Tick{});
+  follower.followStepped(haptics::Tick{});
+  EXPECT_FALSE(follower.order(haptics::Tick{}));
   EXPECT_FALSE(follower.news());
   EXPECT_EQ(follower.ending(), "");
 }
