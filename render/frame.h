@@ -2,6 +2,7 @@
 // which both eyes show. Frame W unless named. Render thread.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "assets/instrument/handpiece.h"
@@ -49,6 +50,11 @@ inline bool operator==(const RulerLine& a, const RulerLine& b) {
          (!a.to_P || a.to_P->mm == b.to_P->mm);
 }
 
+/// Pieces of tooth that can leave the jaw.
+inline constexpr std::size_t kMostPieces = 4;
+/// The pose of each piece that has left its place in the jaw's volume; none: it lies there, drawn with the jaw.
+using MovedPieces = std::array<std::optional<calibration::Pose<calibration::Patient, calibration::Piece>>, kMostPieces>;
+
 enum class Antialias { none, edges };
 
 /// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
@@ -81,6 +87,7 @@ struct Frame {
   bool tool_visible = true;
   calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< the second instrument
   bool second_visible = false;
+  MovedPieces pieces;           ///< X_PQ of FrameRenderer::setPiece()
   double face_window_mm = 0.0;  ///< the face is cut away within this distance of the line eye-to-site; 0: never
   calibration::Point<calibration::Patient> site_P;
   SurgicalField field;

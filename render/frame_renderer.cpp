@@ -54,6 +54,36 @@ void FrameRenderer::setSecondInstrument(const assets::MeshModel& instrument_O) {
   scene_->setModel(Model::second_instrument, instrument_O);
 }
 
+void FrameRenderer::setPiece(std::size_t piece, const assets::VolumeGrid& grid_Q, std::span<const std::uint8_t> solid) {
+  assert(piece < kMostPieces);
+  fields_.place({}, false);
+  scene_->setModel(pieceModel(piece), {});
+  pieces_[piece] = solid.empty() ? nullptr : std::make_unique<Piece>(grid_Q, solid);
+}
+
+void FrameRenderer::updatePieceBrick(std::size_t piece, glm::ivec3 brick,
+                                     std::span<const std::uint8_t, Occupancy::kBrickValues> solid) {
+  assert(piece < kMostPieces && pieces_[piece]);
+  pieces_[piece]->mesh.updateBrick(brick, solid);
+  pieces_[piece]->gap.touch(brick);
+}
+
+std::optional<BoneGap> FrameRenderer::gap(const Frame& frame) {
+  std::optional<BoneGap> least = gap_.find(frame);
+  for (std::size_t n = 0; n < kMostPieces; ++n) {
+    if (!pieces_[n] || !frame.pieces[n]) continue;
+    // The bur as the piece sees it.
+    Frame in_piece = frame;
+    const auto X_QT = frame.pieces[n]->inverse() * frame.X_PT;
+    in_piece.X_PT = {X_QT.rotation, X_QT.translation_mm};
+    std::optional<BoneGap> gap = pieces_[n]->gap.find(in_piece);
+    if (!gap || (least && least->mm <= gap->mm)) continue;
+    gap->nearest_P = *frame.pieces[n] * calibration::Point<calibration::Piece>{gap->nearest_P.mm};
+    least = gap;
+  }
+  return least;
+}
+
 void FrameRenderer::setGuides(const Guides& guides) {
   const std::vector<glm::dvec3>& canal = guides.mandibular_canal_P_mm;
   const double radius_mm = guides.mandibular_canal_radius_mm;
@@ -156,13 +186,29 @@ void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   drawn(eye) = {frame, px};
 }
 
+// Pieces are brought up to date where they are seen.
+void FrameRenderer::prepare(const Frame& frame) {
+  updateRuler(frame);
+  std::vector<PlacedFields> placed;
+  bool any_changed = false;
+  for (std::size_t n = 0; n < kMostPieces; ++n) {
+    if (!pieces_[n] || !frame.pieces[n]) continue;
+    PieceMesh& mesh = pieces_[n]->mesh;
+    placed.push_back({&mesh.fields(), *frame.pieces[n]});
+    if (!mesh.prepare()) continue;
+    scene_->setModel(pieceModel(n), mesh.model());
+    any_changed = true;
+  }
+  fields_.place(placed, any_changed);
+  scene_->prepare(frame, fields_.prepare());
+}
+
 void FrameRenderer::render(const Frame& frame) {
   const glm::ivec2 full_px = eyeImageSize(frame.display, frame.rig.screen.px);
   const glm::ivec2 eye_px = glm::max((full_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
   const bool mono = frame.display == DisplayMode::mono;
   const Eye left = mono ? Eye::cyclopean : Eye::left, right = mono ? Eye::cyclopean : Eye::right;
-  updateRuler(frame);
-  scene_->prepare(frame, fields_.prepare());
+  prepare(frame);
   updateInsets(frame, eye_px);
   drawEye(frame, left, eye_px);
   if (!mono) drawEye(frame, right, eye_px);
@@ -186,8 +232,7 @@ void FrameRenderer::compose(const Frame& frame) {
 }
 
 void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
-  updateRuler(frame);
-  scene_->prepare(frame, fields_.prepare());
+  prepare(frame);
   updateInsets(frame, frame.rig.screen.px);
   drawEye(frame, eye, frame.rig.screen.px);
 }

@@ -21,6 +21,7 @@
 #include "render/volume/bone_gap.h"
 #include "render/volume/ct_slices.h"
 #include "render/volume/guide_field.h"
+#include "render/volume/piece_mesh.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
@@ -43,6 +44,13 @@ class FrameRenderer {
   void setGingiva(const assets::MeshModel& gum_P);
   void setInstrument(const assets::MeshModel& instrument_T);
   void setSecondInstrument(const assets::MeshModel& instrument_O);
+  /// Piece n of Frame::pieces in its frame Q; `solid` in the order of `grid_Q`. Drawn where a frame gives its pose,
+  /// with the tissue that the volume has there in P; it shades the rest and itself. No values: removes it. Throws
+  /// GpuError.
+  void setPiece(std::size_t piece, const assets::VolumeGrid& grid_Q, std::span<const std::uint8_t> solid);
+  /// As updateBrick(), of a piece that was set.
+  void updatePieceBrick(std::size_t piece, glm::ivec3 brick,
+                        std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
   /// Canal and planned cut, shown by Frame::layers.
   void setGuides(const Guides& guides);
   /// Grey values and canal for the CT slices, as scanned. Throws GpuError if they do not fit the volume.
@@ -53,8 +61,8 @@ class FrameRenderer {
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
 
-  /// Between the bur of `frame` and the bone with all bricks given until now; for Frame::gap.
-  std::optional<BoneGap> gap(const Frame& frame) { return gap_.find(frame); }
+  /// Between the bur of `frame` and the bone with all bricks given until now, moved pieces included; for Frame::gap.
+  std::optional<BoneGap> gap(const Frame& frame);
 
   /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, each output
   /// outputSize(frame.display, frame.rig.screen.px) large.
@@ -100,11 +108,21 @@ class FrameRenderer {
   void updateInsets(const Frame& frame, glm::ivec2 eye_px);
   void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
   void updateRuler(const Frame& frame);
+  void prepare(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
   void compose(const Frame& frame);
 
+  /// A piece of tooth with its part of the gap.
+  struct Piece {
+    Piece(const assets::VolumeGrid& grid_Q, std::span<const std::uint8_t> solid)
+        : mesh(grid_Q, solid), gap(grid_Q, mesh.fields().solid()) {}
+    PieceMesh mesh;
+    GapFinder gap;
+  };
+
   VolumeFields fields_;
   GapFinder gap_;
+  std::array<std::unique_ptr<Piece>, kMostPieces> pieces_;
   std::unique_ptr<WindowUpload> upload_;  ///< for the CPU back-end
   std::unique_ptr<SceneRenderer> scene_;
   std::optional<CtSlices> slices_;

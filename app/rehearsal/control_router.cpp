@@ -158,7 +158,7 @@ void ControlRouter::stopMotors() {
 void ControlRouter::takeSnapshot(const render::Frame& frame) {
   if (plan_.ticking == Ticking::stepped) {
     view_.display().renderer();
-    view_.uploadBone();
+    view_.uploadBone(frame);
     view_.showInstrument();
   }
   try {
@@ -182,7 +182,7 @@ void ControlRouter::takeSnapshot(const render::Frame& frame) {
 void ControlRouter::markRuler(render::Frame& frame) {
   if (plan_.ticking == Ticking::stepped) {
     view_.display();
-    view_.uploadBone();
+    view_.uploadBone(frame);
     frame.gap = view_.gapOf(frame);
   }
   frame.ruler = rulerAfterMark(frame.ruler, markedPoint(frame, active_command_.inForce().tool.head));

@@ -42,6 +42,8 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   return frame;
 }
 
+void placePieces(render::Frame& frame, const PiecePoses& pieces) { frame.pieces = movedPieces(pieces); }
+
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person) {
   render::Frame frame = last;
   frame.tool_visible = frame.tool_visible && (is_moved_by_a_person || tick.depth_mm > 0.0);

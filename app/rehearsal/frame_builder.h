@@ -5,6 +5,7 @@
 #include "app/controls/control.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/session/field_clarity.h"
+#include "app/view/piece_poses.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
@@ -18,6 +19,9 @@ render::Frame openingFrame(const RehearsalPlan& plan);
 /// The tool at the servo's proxy, the ghost tool at the measured pose, the bur rotating while it drills. A pose flagged
 /// bad_pose leaves the rotation unchanged.
 render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, const haptics::Command& command);
+
+/// Pieces of the tooth where they lie; BrickUploader shows the others in the jaw.
+void placePieces(render::Frame& frame, const PiecePoses& pieces);
 
 /// The last frame: a scripted tool that was withdrawn is hidden, as it would cover its work.
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person);

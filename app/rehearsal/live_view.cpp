@@ -122,8 +122,8 @@ void LiveView::waitUntilShown() {
   pose_read_ = Clock::now();
 }
 
-void LiveView::uploadBone() {
-  if (display_ && uploader_.upload(*bodies_, display_->renderer()) > 0) bone_changed_ = true;
+void LiveView::uploadBone(const render::Frame& frame) {
+  if (display_ && uploader_.upload(*bodies_, frame.pieces, display_->renderer()) > 0) bone_changed_ = true;
 }
 
 std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {
@@ -139,6 +139,7 @@ void LiveView::showInstrument() {
 void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {
   const auto renderer = display().newRenderer(
       [&](render::Backend backend) { return newRenderer({.backend = backend, .samples = kSnapshotSamples}, solid); });
+  if (bodies_ != nullptr) setPieces(*bodies_, *renderer);
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
   frame.gap = frame.tool_visible ? renderer->gap(frame) : std::nullopt;

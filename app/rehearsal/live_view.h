@@ -48,8 +48,8 @@ class LiveView {
   void setHeadUp(HeadUpContent content) { head_up_ = std::move(content); }
   /// Until no frame is queued; the pose read next is the newest that can be displayed.
   void waitUntilShown();
-  /// Bricks carved until now, for the next frame.
-  void uploadBone();
+  /// Bricks carved until now, for the frame to show next: its pieces that have left rest are not in the jaw.
+  void uploadBone(const render::Frame& frame);
   /// Of the last uploadBone(), in the jaw's grid.
   const std::vector<glm::ivec3>& uploadedBricks() const { return uploader_.uploaded(); }
   /// Between the bur of `frame` and the bone uploaded last; nothing before a view is open.

@@ -192,8 +192,9 @@ class Rehearsal {
     frame_.field = surgicalField(clarity_);
     frame_.marks = soft_marks_.marks();
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
+    placePieces(frame_, piecePosesOf(station().bodies()));
     if (!pace_.isRealTime()) return;
-    view_.uploadBone();
+    view_.uploadBone(frame_);
     frame_.gap = view_.gapOf(frame_);
   }
 

@@ -1,34 +1,95 @@
 #include "app/view/brick_upload.h"
 
-#include <array>
+#include <algorithm>
 
 #include "haptics/body/bodies.h"
 #include "render/frame_renderer.h"
 
 namespace app {
-
 namespace {
 
-void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) {
-  std::array<std::uint8_t, 512> solid{};
-  from.copyBrick(brick, solid);
-  to.updateBrick(brick, solid);
+using Brick = std::array<std::uint8_t, 512>;
+
+void setPiece(const haptics::Bodies& from, std::size_t piece, render::FrameRenderer& to) {
+  const haptics::CarvedBone& bone = from.bones()[piece + 1];
+  const assets::VolumeGrid& grid = bone.grid();
+  std::vector<std::uint8_t> solid(grid.voxelCount());
+  Brick values{};
+  assets::forVoxels(glm::ivec3(0), grid.bricks(), [&](glm::ivec3 brick) {
+    bone.copyBrick(brick, values);
+    const glm::ivec3 first = assets::kBrickVoxels * brick;
+    assets::forVoxels(glm::ivec3(0), glm::min(glm::ivec3(assets::kBrickVoxels), grid.size - first),
+                      [&](glm::ivec3 ijk) {
+                        solid[grid.index(first + ijk)] = values[assets::indexIn(glm::ivec3(assets::kBrickVoxels), ijk)];
+                      });
+  });
+  to.setPiece(piece, grid, solid);
+}
+
+/// Where the bricks of a piece begin in the jaw's grid.
+glm::ivec3 firstBrick(const haptics::Bodies& of, std::size_t piece) {
+  const glm::dvec3 voxel = of.grid().indexFromPoint(of.bones()[piece + 1].grid().origin_P_mm);
+  return glm::ivec3(glm::round(voxel / static_cast<double>(assets::kBrickVoxels)));
 }
 
 }  // namespace
 
-std::size_t BrickUploader::upload(haptics::Bodies& from, render::FrameRenderer& to) {
+void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) const {
+  Brick solid{};
+  from.jaw().copyBrick(brick, solid);
+  for (std::size_t n = 0; n < std::min(from.pieces(), pieces_.size()); ++n) {
+    const auto own = from.brickOfPiece(n, brick);
+    if (!own) continue;
+    Brick part{};
+    from.bones()[n + 1].copyBrick(*own, part);
+    if (pieces_[n].bricks.x > 0) to.updatePieceBrick(n, *own, part);
+    if (!pieces_[n].at_rest) continue;
+    for (std::size_t v = 0; v < part.size(); ++v)
+      solid[v] = static_cast<std::uint8_t>(std::min(255, solid[v] + part[v]));
+  }
+  to.updateBrick(brick, solid);
+}
+
+std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to) {
   bricks_.clear();
   from.takeDirtyBricks(bricks_);
-  for (const glm::ivec3 brick : bricks_) {
-    uploadBrick(from, brick, to);
-    ever_.insert(brick);
+
+  // Pieces that are new, have gone, or have left rest or come back.
+  std::vector<glm::ivec3> changed_place;
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    Shown& shown = pieces_[n];
+    const bool is_there = n < from.pieces(), at_rest = !is_there || !pieces[n];
+    const glm::ivec3 bricks = is_there ? from.bones()[n + 1].grid().bricks() : glm::ivec3(0);
+    if (shown.bricks != bricks) {
+      if (is_there)
+        setPiece(from, n, to);
+      else
+        to.setPiece(n, {}, {});
+      shown.bricks = bricks;
+    }
+    if (shown.at_rest == at_rest) continue;
+    shown.at_rest = at_rest;
+    if (!is_there) continue;
+    const glm::ivec3 first = firstBrick(from, n);
+    assets::forVoxels(first, first + bricks, [&](glm::ivec3 brick) { changed_place.push_back(brick); });
   }
-  return bricks_.size();
+
+  for (const std::vector<glm::ivec3>* list : {&bricks_, &changed_place})
+    for (const glm::ivec3 brick : *list) {
+      uploadBrick(from, brick, to);
+      ever_.insert(brick);
+    }
+  return bricks_.size() + changed_place.size();
 }
 
 void BrickUploader::uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const {
+  for (std::size_t n = 0; n < std::min(from.pieces(), pieces_.size()); ++n)
+    if (pieces_[n].bricks.x > 0) setPiece(from, n, to);
   for (const glm::ivec3 brick : ever_) uploadBrick(from, brick, to);
+}
+
+void setPieces(const haptics::Bodies& from, render::FrameRenderer& to) {
+  for (std::size_t n = 0; n < std::min(from.pieces(), render::kMostPieces); ++n) setPiece(from, n, to);
 }
 
 }  // namespace app

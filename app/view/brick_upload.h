@@ -1,14 +1,19 @@
 // Copies bricks that the servo has carved to the renderer: the one place where haptics meets render. Render thread,
-// once a frame, before drawing. Pieces at rest are drawn with the jaw. Cost: a 512-byte copy and a small upload per
-// dirty brick.
+// once a frame, before drawing. The bricks of a piece of tooth go with the jaw's where the frame shows it at rest, and
+// to the piece's own mesh always, so that it leaves the jaw in the frame in which it appears beside it. Cost: a
+// 512-byte copy and a small upload per dirty brick; all bricks of a piece when it leaves rest or comes back.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "render/frame.h"
 
 namespace haptics {
 class Bodies;
@@ -21,11 +26,12 @@ namespace app {
 
 class BrickUploader {
  public:
-  /// Bricks changed since the last call. Returns their number.
-  std::size_t upload(haptics::Bodies& from, render::FrameRenderer& to);
-  /// Of the last upload().
+  /// Bricks changed since the last call, and those of pieces that have left rest or come back. `pieces`: of the frame
+  /// to draw. Returns their number.
+  std::size_t upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to);
+  /// Carved, of the last upload().
   const std::vector<glm::ivec3>& uploaded() const { return bricks_; }
-  /// All bricks ever uploaded, to a new renderer of the initial bone.
+  /// All bricks ever uploaded, and the pieces, to a new renderer of the initial bone.
   void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const;
 
  private:
@@ -34,9 +40,19 @@ class BrickUploader {
       return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
     }
   };
+  /// A piece that the renderer has.
+  struct Shown {
+    glm::ivec3 bricks{0};  ///< of its grid; 0: it has none
+    bool at_rest = true;
+  };
+  void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) const;
 
   std::vector<glm::ivec3> bricks_;
   std::set<glm::ivec3, InOrder> ever_;
+  std::array<Shown, render::kMostPieces> pieces_;
 };
+
+/// All pieces as they are, to a renderer of the volume in which those at rest are drawn.
+void setPieces(const haptics::Bodies& from, render::FrameRenderer& to);
 
 }  // namespace app

@@ -55,8 +55,8 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // A new member does not compile until it is compared; quality and display are not the scene's, field
   // and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, window, site, field,
-                                marks] = a;
+                                length, shaft, angle, gap, ruler, slices, tool, X_PO, second, pieces, window, site,
+                                field, marks] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible) return false;
   if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
       a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
@@ -67,6 +67,9 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
   if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;
   if (a.second_visible && !isAtRest(a.X_PO, b.X_PO)) return false;
+  for (std::size_t n = 0; n < a.pieces.size(); ++n)
+    if (a.pieces[n].has_value() != b.pieces[n].has_value() || (a.pieces[n] && !isAtRest(*a.pieces[n], *b.pieces[n])))
+      return false;
   return areSameLayers(a.layers, b.layers) && isSameView(a.rig, b.rig);
 }
 

@@ -15,6 +15,7 @@ bool isOverlay(Model model) {
   return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::ghost;
 }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
+bool isMoving(Model model) { return isInHand(model) || model >= Model::first_piece; }
 
 MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
   MeshBodyPart kept;
@@ -168,20 +169,20 @@ void MeshBodies::place(const Placements& placements, const FaceWindow& window, c
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];
     if (body.scene == nullptr) continue;
-    const bool is_in_hand = isInHand(body.model);
+    const bool is_in_hand = isInHand(body.model), is_moving = isMoving(body.model);
     const Placement& at = placements_[body.model];
     const bool visible = at.opacity > 0.0f, is_transparent = body.transparent || at.opacity < 1.0f;
     const bool is_veil = is_transparent && isVeilWhenFaded(body.model, body.parts.front().material);
     const MeshGroup group = isOverlay(body.model) ? MeshGroup::overlay
                             : is_veil             ? MeshGroup::veil
                             : is_transparent      ? MeshGroup::transparent
-                            : is_in_hand          ? MeshGroup::moving
+                            : is_moving           ? MeshGroup::moving
                                                   : MeshGroup::fixed;
     attach(i, visible ? std::optional(group) : std::nullopt);
     setOccluder(i, guided && visible && !is_transparent && (is_in_hand || body.model == Model::face));
     if (visible) has_[static_cast<std::size_t>(group)] = true;
 
-    if (!is_in_hand && body.model != Model::ghost) continue;
+    if (!is_moving && body.model != Model::ghost) continue;
     const glm::dmat4 rotated = glm::rotate(glm::dmat4(1.0), at.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
     move(body, body.is_bur ? at.P_from_mesh * rotated : at.P_from_mesh);
   }

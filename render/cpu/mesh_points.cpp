@@ -25,7 +25,8 @@ void MeshPoints::makeRoom(int more) {
   if (wanted <= room_) return;
   room_ = wanted + wanted / 2;
   const auto used = static_cast<std::size_t>(count);
-  move({&distance_mm, &nx, &ny, &nz, &r, &g, &b, &a, &roughness, &metallic}, used, room_, values_);
+  move({&distance_mm, &nx, &ny, &nz, &r, &g, &b, &a, &roughness, &metallic, &qx, &qy, &qz, &mx, &my, &mz}, used, room_,
+       values_);
   move({&ray, &finish, &is_cut, &faces_eye}, used, room_, integers_);
 }
 

@@ -37,9 +37,11 @@ struct MeshPoints {
   float *nx = nullptr, *ny = nullptr, *nz = nullptr;             ///< interpolated, not normalised
   float *r = nullptr, *g = nullptr, *b = nullptr, *a = nullptr;  ///< material times vertex colour, linear; opacity
   float *roughness = nullptr, *metallic = nullptr;
-  std::int32_t* finish = nullptr;     ///< FINISH_…
-  std::int32_t* is_cut = nullptr;     ///< 1: cut by the face window
-  std::int32_t* faces_eye = nullptr;  ///< 1: front face
+  float *qx = nullptr, *qy = nullptr, *qz = nullptr;  ///< of a piece of tooth alone: the point in Q
+  float *mx = nullptr, *my = nullptr, *mz = nullptr;  ///< likewise, the normal
+  std::int32_t* finish = nullptr;                     ///< FINISH_…
+  std::int32_t* is_cut = nullptr;                     ///< 1: cut by the face window
+  std::int32_t* faces_eye = nullptr;                  ///< 1: front face
 
   MeshPoints() = default;
   MeshPoints(MeshPoints&&) = default;

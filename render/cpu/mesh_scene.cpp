@@ -84,16 +84,24 @@ void filter(const RTCFilterFunctionNArguments* args) {
 }
 
 // Interpolation in barycentric coordinates, equal to OpenGL's perspective-correct varyings.
-void add(MeshPoints& to, const MeshBody& body, const MeshBodyPart& part, unsigned triangle, float u, float v, int ray,
-         float t, bool faces_eye, float opacity) {
+void add(MeshPoints& to, const RayBatch& rays, const MeshBody& body, const MeshBodyPart& part, unsigned triangle,
+         float u, float v, int ray, float t, bool faces_eye, float opacity) {
   const glm::uvec3 abc = part.triangles[triangle];
   const float w = 1.0f - u - v;
   const auto mixed = [&](const std::vector<glm::vec4>& of) { return w * of[abc.x] + u * of[abc.y] + v * of[abc.z]; };
   glm::vec3 normal(mixed(part.normals));
+  const auto n = static_cast<std::size_t>(to.count++);
+  if (part.finish == Finish::piece) {
+    // Its tissue is looked up where it was scanned.
+    const auto r = static_cast<std::size_t>(ray);
+    const glm::vec3 p_P = rays.origin_P + t * glm::vec3(rays.x[r], rays.y[r], rays.z[r]);
+    const glm::vec3 p_Q = glm::transpose(body.P_from_mesh) * (p_P - glm::vec3(body.pose[3]));
+    to.qx[n] = p_Q.x, to.qy[n] = p_Q.y, to.qz[n] = p_Q.z;
+    to.mx[n] = normal.x, to.my[n] = normal.y, to.mz[n] = normal.z;
+  }
   if (body.has_pose) normal = body.P_from_mesh * normal;
   glm::vec4 colour = part.material.base_colour;
   if (!part.colours.empty()) colour *= mixed(part.colours);
-  const auto n = static_cast<std::size_t>(to.count++);
   to.ray[n] = ray;
   to.distance_mm[n] = t;
   to.nx[n] = normal.x, to.ny[n] = normal.y, to.nz[n] = normal.z;
@@ -232,7 +240,7 @@ void MeshScene::addSeen(const RayBatch& rays, const MeshHits& hits, const float*
   for (int r = 0; r < rays.count; ++r) {
     if (hits.distance_mm[r] == 0.0f || seen_mm[r] < hits.distance_mm[r]) continue;
     const MeshBody& body = all()[hits.body[r]];
-    add(to, body, body.parts[hits.part[r]], hits.triangle[r], hits.u[r], hits.v[r], r, hits.distance_mm[r],
+    add(to, rays, body, body.parts[hits.part[r]], hits.triangle[r], hits.u[r], hits.v[r], r, hits.distance_mm[r],
         hits.faces_eye[r], 1.0f);
   }
 }
@@ -275,7 +283,7 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, const MeshHi
   to.makeRoom(static_cast<int>(met.size()));
   for (const Layer& layer : met) {
     const MeshBody& body = all()[layer.body];
-    add(to, body, body.parts[layer.part], layer.triangle, layer.u, layer.v, layer.ray, layer.distance_mm,
+    add(to, rays, body, body.parts[layer.part], layer.triangle, layer.u, layer.v, layer.ray, layer.distance_mm,
         layer.faces_eye, opacityOf(body.model));
   }
 }

@@ -89,6 +89,21 @@ inline Float rimDistance(const ShadeScene& scene, const Float3& p) {
                  along - (scene.window_reach_mm - RIM_BEHIND));
 }
 
+inline Surface select(Mask mask, const Surface& a, const Surface& b) {
+  return {select(mask, a.albedo, b.albedo), select(mask, a.f0, b.f0), select(mask, a.roughness, b.roughness),
+          select(mask, a.wrap, b.wrap), select(mask, a.scatter, b.scatter)};
+}
+
+// piece.frag.
+inline Surface pieceSurface(const ShadeScene& scene, const MeshPoints& points, int i, Mask outside, const Float3& p_P,
+                            const Float3& normal, Float open, Mask mask) {
+  const Float3 p_Q{load(points.qx + i), load(points.qy + i), load(points.qz + i)};
+  const Float3 normal_Q = normalised({load(points.mx + i), load(points.my + i), load(points.mz + i)});
+  Float enamel;
+  return tissueAt(scene, indexOf(scene, p_Q), select(outside, normal_Q, -normal_Q), p_Q, p_P, normal, open, mask,
+                  enamel);
+}
+
 void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& points, Light light) {
   const EyeBlock& eye = scene.eye;
   for (int i = 0; i < points.count; i += kLanes) {
@@ -136,7 +151,16 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
       s.roughness = select(soft, mark.roughness, s.roughness);
     }
 
-    Visibility visibility = visibilityFromVolume(scene, p_P + MESH_LIFT * normal, normal, mask);
+    // A piece of tooth is shaded as surface() shades it at its first place.
+    const Mask piece = mask & (finish == FINISH_PIECE);
+    const Float lift = select(piece, splat(0.0f), splat(MESH_LIFT));
+    Visibility visibility = visibilityFromVolume(scene, p_P + lift * normal, normal, mask);
+    if (any(piece)) {
+      s = select(piece, pieceSurface(scene, points, i, outside, p_P, normal, visibility.ambient, piece), s);
+      const Visibility hollow = litHollow(scene.eye, visibility);
+      visibility.ambient = select(piece, hollow.ambient, visibility.ambient);
+      visibility.lamp = select(piece, hollow.lamp, visibility.lamp);
+    }
     const auto at_least = [&](float least, Float value) {
       return select(steel, least + (1.0f - least) * value, value);
     };
@@ -147,7 +171,8 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
         at_least(STEEL_MIN_AMBIENT, visibility.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
     visibility.lamp = at_least(STEEL_MIN_LAMP, visibility.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
     Float3 shown = lit(scene, s, p_P, normal, -direction, visibility);
-    shown = select(gingiva, underRing(scene, shown, p_P), shown);
+    if (any(piece)) shown = select(piece, throughSpray(scene.eye, shown, p_P), shown);
+    shown = select(gingiva | piece, underRing(scene, shown, p_P), shown);
     // Guides are unlit: they are not part of the patient and are visible inside the bone.
     const Float facing = absolute(dot(normal, direction));
     put(light, i, select(finish == FINISH_GUIDE, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));

@@ -121,22 +121,28 @@ inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3
   return colour;
 }
 
-inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const Float3& normal, const Float3& p_P,
-                             Float open, Mask mask) {
+inline Surface tissueAt(const ShadeScene& scene, const Float3& index, const Float3& outward, const Float3& grain,
+                        const Float3& p_P, const Float3& normal, Float open, Mask mask, Float& enamel) {
   Float finish;
-  Float3 albedo = appearanceAt(scene, index - static_cast<float>(COLOUR_DEPTH_VOXELS) * normal, mask, finish);
-  const Float enamel = clamp(2.0f * finish - 1.0f, 0.0f, 1.0f), marrow = clamp(1.0f - 2.0f * finish, 0.0f, 1.0f);
+  Float3 albedo = appearanceAt(scene, index - static_cast<float>(COLOUR_DEPTH_VOXELS) * outward, mask, finish);
+  enamel = clamp(2.0f * finish - 1.0f, 0.0f, 1.0f);
+  const Float marrow = clamp(1.0f - 2.0f * finish, 0.0f, 1.0f);
   const Float3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
 
   // Faint mottling, and blood-filled pores in open marrow.
-  const Float mottle = noise(0.9f * p_P) * 0.6f + noise(3.1f * p_P) * 0.4f - 0.5f;
+  const Float mottle = noise(0.9f * grain) * 0.6f + noise(3.1f * grain) * 0.4f - 0.5f;
   albedo = (1.0f + 0.14f * mottle * shine.x) * albedo;
   if (any(mask & (marrow > 0.0f))) {
-    const Float pore = smoothStep(0.42f, 0.68f, noise(2.3f * p_P) * 0.7f + noise(5.7f * p_P) * 0.3f);
+    const Float pore = smoothStep(0.42f, 0.68f, noise(2.3f * grain) * 0.7f + noise(5.7f * grain) * 0.3f);
     albedo = mix(albedo, vec3(0.36f, 0.09f, 0.07f), 0.75f * pore * marrow);
   }
-  Surface surface =
-      covered(scene.eye, {albedo, vec3(shine.y), shine.x, shine.z, albedo}, p_P, normal, marrow, mottle, open);
+  return covered(scene.eye, {albedo, vec3(shine.y), shine.x, shine.z, albedo}, p_P, normal, marrow, mottle, open);
+}
+
+inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const Float3& normal, const Float3& p_P,
+                             Float open, Mask mask) {
+  Float enamel;
+  Surface surface = tissueAt(scene, index, normal, p_P, p_P, normal, open, mask, enamel);
   surface.albedo = guided(scene, surface.albedo, index, p_P, enamel, mask);
   surface.scatter = surface.albedo;
   return surface;

@@ -36,6 +36,12 @@ bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
       mesh.parts_, [opacity](const SceneMesh::Part& part) { return part.material.base_colour.a * opacity < 1.0f; });
 }
 
+Program& MeshPass::programFor(bool transparent, bool is_piece) {
+  if (transparent && !transparent_) transparent_ = Program{"mesh.vert", "mesh_transparent.frag"};
+  if (is_piece && !piece_) piece_ = Program{"mesh.vert", "piece.frag"};
+  return transparent ? *transparent_ : is_piece ? *piece_ : opaque_;
+}
+
 void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placement, bool view_is_mirrored) {
   const bool transparent = parts == Parts::transparent;
   if (placement.opacity <= 0.0f || mesh.parts_.empty() || (transparent && !hasTransparent(mesh, placement.opacity)))
@@ -44,8 +50,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
          .mirrored = view_is_mirrored,
          .write_colour = !transparent,
          .write_distance = !transparent});
-  if (transparent && !transparent_) transparent_ = Program{"mesh.vert", "mesh_transparent.frag"};
-  (transparent ? *transparent_ : opaque_).use();
+  programFor(transparent, mesh.parts_.front().finish == Finish::piece).use();
   const glm::dmat4 rotated =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (const SceneMesh::Part& part : mesh.parts_) {

@@ -51,8 +51,10 @@ class MeshPass {
   static bool hasTransparent(const SceneMesh& mesh, float opacity);
 
  private:
+  Program& programFor(bool transparent, bool is_piece);
+
   Program opaque_{"mesh.vert", "mesh.frag"};
-  std::optional<Program> transparent_;
+  std::optional<Program> transparent_, piece_;
   UniformBlock<PartBlock> block_;
 };
 

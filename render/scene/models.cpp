@@ -18,15 +18,20 @@ float ghostOpacity(const Frame& frame) {
 Placements placementsIn(const Frame& frame) {
   const Layers& layers = frame.layers;
   const auto shown = [](bool is_shown) { return is_shown ? 1.0f : 0.0f; };
-  return {{{{.opacity = layers.face_opacity},
-            {.opacity = shown(layers.gingiva)},
-            {frame.X_PT.matrix(), frame.bur_angle_rad, shown(frame.tool_visible)},
-            {.P_from_mesh = frame.X_PO.matrix(), .opacity = shown(frame.second_visible)},
-            {.opacity = shown(layers.mandibular_canal)},
-            {.opacity = layers.mandibular_canal ? kMandibularCanalOverlay : 0.0f},
-            {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)},
-            {.opacity = shown(frame.ruler.has_value())},
-            {.opacity = frame.ruler ? kRulerOverlay : 0.0f}}}};
+  Placements placements{{{{.opacity = layers.face_opacity},
+                          {.opacity = shown(layers.gingiva)},
+                          {frame.X_PT.matrix(), frame.bur_angle_rad, shown(frame.tool_visible)},
+                          {.P_from_mesh = frame.X_PO.matrix(), .opacity = shown(frame.second_visible)},
+                          {.opacity = shown(layers.mandibular_canal)},
+                          {.opacity = layers.mandibular_canal ? kMandibularCanalOverlay : 0.0f},
+                          {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)},
+                          {.opacity = shown(frame.ruler.has_value())},
+                          {.opacity = frame.ruler ? kRulerOverlay : 0.0f}}}};
+  for (std::size_t n = 0; n < kMostPieces; ++n)
+    placements[static_cast<std::size_t>(pieceModel(n))] = {
+        .P_from_mesh = frame.pieces[n] ? frame.pieces[n]->matrix() : glm::dmat4(1.0),
+        .opacity = shown(frame.pieces[n].has_value())};
+  return placements;
 }
 
 }  // namespace render

@@ -22,9 +22,15 @@ enum class Model {
   mandibular_canal_overlay,
   ghost,
   ruler,
-  ruler_overlay
+  ruler_overlay,
+  first_piece
 };
-inline constexpr std::size_t kModels = 9;
+inline constexpr std::size_t kModels = static_cast<std::size_t>(Model::first_piece) + kMostPieces;
+
+/// Of a moved piece of tooth.
+constexpr Model pieceModel(std::size_t piece) {
+  return static_cast<Model>(static_cast<std::size_t>(Model::first_piece) + piece);
+}
 
 /// How the surface of a mesh is shaded. The values are those of the shaders.
 enum class Finish {
@@ -32,13 +38,14 @@ enum class Finish {
   gingiva = FINISH_GINGIVA,
   instrument = FINISH_INSTRUMENT,
   guide = FINISH_GUIDE,
-  tooth = FINISH_TOOTH
+  tooth = FINISH_TOOTH,
+  piece = FINISH_PIECE
 };
 
 constexpr Finish finishOf(Model model) {
-  constexpr std::array<Finish, kModels> kFinish{Finish::skin,       Finish::gingiva, Finish::instrument,
-                                                Finish::instrument, Finish::guide,   Finish::guide,
-                                                Finish::instrument, Finish::guide,   Finish::guide};
+  constexpr std::array kFinish{Finish::skin,  Finish::gingiva,    Finish::instrument, Finish::instrument, Finish::guide,
+                               Finish::guide, Finish::instrument, Finish::guide,      Finish::guide};
+  if (model >= Model::first_piece) return Finish::piece;
   return kFinish[static_cast<std::size_t>(model)];
 }
 

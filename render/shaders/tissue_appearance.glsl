@@ -25,19 +25,27 @@ float noise(vec3 x) {
 }
 
 // Material of the matter just below a surface point, where the scan has no partial volume, and what covers it.
-// `open`: share of the room that is seen from there.
-Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P, float open) {
-  vec4 appearance = appearanceAt(index - COLOUR_DEPTH_VOXELS * normal);
+// `index`, `outward` and `grain`: the point, its normal and its mm where the matter was scanned; `p_P` and `normal`: where
+// it is now. `open`: share of the room that is seen from there.
+Surface tissueAt(vec3 index, vec3 outward, vec3 grain, vec3 p_P, vec3 normal, float open, out float enamel) {
+  vec4 appearance = appearanceAt(index - COLOUR_DEPTH_VOXELS * outward);
   vec3 albedo = appearance.rgb;
-  float enamel = clamp(2.0 * appearance.a - 1.0, 0.0, 1.0), marrow = clamp(1.0 - 2.0 * appearance.a, 0.0, 1.0);
+  enamel = clamp(2.0 * appearance.a - 1.0, 0.0, 1.0);
+  float marrow = clamp(1.0 - 2.0 * appearance.a, 0.0, 1.0);
   vec3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
 
   // Faint mottling, and blood-filled pores in open marrow.
-  float mottle = noise(p_P * 0.9) * 0.6 + noise(p_P * 3.1) * 0.4 - 0.5;
+  float mottle = noise(grain * 0.9) * 0.6 + noise(grain * 3.1) * 0.4 - 0.5;
   albedo *= 1.0 + 0.14 * mottle * shine.x;
-  float pore = smoothstep(0.42, 0.68, noise(p_P * 2.3) * 0.7 + noise(p_P * 5.7) * 0.3);
+  float pore = smoothstep(0.42, 0.68, noise(grain * 2.3) * 0.7 + noise(grain * 5.7) * 0.3);
   albedo = mix(albedo, vec3(0.36, 0.09, 0.07), 0.75 * pore * marrow);
-  Surface surface = covered(Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo), p_P, normal, marrow, mottle, open);
+  return covered(Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo), p_P, normal, marrow, mottle, open);
+}
+
+// Of what lies where it was scanned, with the guides.
+Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P, float open) {
+  float enamel;
+  Surface surface = tissueAt(index, normal, p_P, p_P, normal, open, enamel);
   surface.albedo = guided(surface.albedo, index, p_P, enamel);
   surface.scatter = surface.albedo;
   return surface;

@@ -3,18 +3,6 @@
 #include "render/gpu/drawing.h"
 
 namespace render {
-namespace {
-
-assets::SolidVoxels voxelsOf(const VolumeFields& fields) {
-  const FieldLayout& layout = fields.solid().layout();
-  return {fields.grid(),
-          {fields.solid().data(), layout.count()},
-          static_cast<std::size_t>(layout.origin),
-          static_cast<std::size_t>(layout.row),
-          static_cast<std::size_t>(layout.slice)};
-}
-
-}  // namespace
 
 void BoneMesh::markChanged(const FieldChanges& changes) {
   if (!surface_) return;
@@ -28,11 +16,11 @@ void BoneMesh::markChanged(const FieldChanges& changes) {
 void BoneMesh::prepare(const VolumeFields& fields) {
   if (surface_) {
     if (changed_.empty()) return;
-    for (const glm::ivec3& brick : surface_->update(voxelsOf(fields), changed_)) upload(brick);
+    for (const glm::ivec3& brick : surface_->update(fields.voxels(), changed_)) upload(brick);
     changed_.clear();
     return;
   }
-  surface_.emplace(voxelsOf(fields));
+  surface_.emplace(fields.voxels());
   const VoxelBox bricks{glm::ivec3(0), fields.grid().bricks()};
   std::size_t vertices = 0, indices = 0;
   forEachIn(bricks, [&](glm::ivec3 brick) {

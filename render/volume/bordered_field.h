@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -41,6 +42,18 @@ class BorderedField {
   FieldLayout layout_;
   std::vector<T> values_;
 };
+
+/// Between the values around `at`, in voxels from -1 to the size.
+inline float trilinear(const BorderedField<std::uint16_t>& field, const glm::vec3& at) {
+  const glm::ivec3 low(glm::floor(at));
+  const glm::vec3 part = at - glm::vec3(low);
+  const std::uint16_t* const from = field.at(low);
+  const auto row = [&](std::ptrdiff_t further) {
+    return glm::mix(static_cast<float>(from[further]), static_cast<float>(from[further + 1]), part.x);
+  };
+  const std::ptrdiff_t j = field.layout().row, k = field.layout().slice;
+  return glm::mix(glm::mix(row(0), row(j), part.y), glm::mix(row(k), row(k + j), part.y), part.z);
+}
 
 /// Size and index of an array without border, i fastest.
 inline std::size_t countIn(glm::ivec3 size) {

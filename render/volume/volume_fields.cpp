@@ -90,6 +90,75 @@ void VolumeFields::meanCells(const VoxelBox& cells) {
               [&](glm::ivec3 voxel) { sum += *solid_.at(voxel); });
     *ambient_.at(cell) = static_cast<std::uint16_t>(sum * 257u / (kEdge * kEdge * kEdge));
   });
+  for (const PlacedFields& piece : pieces_) addPiece(piece, cells);
+}
+
+assets::SolidVoxels VolumeFields::voxels() const {
+  const FieldLayout& layout = solid_.layout();
+  return {grid_,
+          {solid_.data(), layout.count()},
+          static_cast<std::size_t>(layout.origin),
+          static_cast<std::size_t>(layout.row),
+          static_cast<std::size_t>(layout.slice)};
+}
+
+// All that a piece can fill, with its border.
+VoxelBox VolumeFields::cellsOf(const PlacedFields& piece) const {
+  const assets::VolumeGrid& grid = piece.fields->grid();
+  glm::dvec3 low(1e9), high(-1e9);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 ijk = assets::cornerOffset(corner) * (grid.size + 2 * kEdge - 1) - kEdge;
+    const glm::dvec3 p_P_mm = (piece.X_PQ * calibration::Point<calibration::Piece>{grid.centre_P_mm(ijk)}).mm;
+    const glm::dvec3 cell = grid_.indexFromPoint(p_P_mm) / static_cast<double>(kEdge);
+    low = glm::min(low, cell), high = glm::max(high, cell);
+  }
+  const glm::ivec3 cells = ambient_.layout().size;
+  const glm::ivec3 first(glm::floor(glm::clamp(low, -1e6, 1e6))), end(glm::ceil(glm::clamp(high, -1e6, 1e6)));
+  const glm::ivec3 inside = glm::clamp(first, glm::ivec3(0), cells);
+  return {inside, glm::clamp(end + 1, inside, cells) - inside};
+}
+
+// The piece's own means, trilinear at the centre of each cell.
+void VolumeFields::addPiece(const PlacedFields& piece, const VoxelBox& cells) {
+  const BorderedField<std::uint16_t>& means = piece.fields->ambient_;
+  const assets::VolumeGrid& grid = piece.fields->grid();
+  const VoxelBox own = cellsOf(piece);
+  const glm::ivec3 low = glm::max(own.first, cells.first);
+  const VoxelBox both{low, glm::min(own.first + own.extent, cells.first + cells.extent) - low};
+  if (both.empty()) return;
+
+  const auto Q_from_P = piece.X_PQ.inverse();
+  const auto positionOf = [&](glm::ivec3 cell) {
+    const glm::dvec3 centre(glm::dvec3(kEdge * cell) + 0.5 * (kEdge - 1));
+    const glm::dvec3 p_Q_mm =
+        (Q_from_P * calibration::Point<calibration::Patient>{grid_.origin_P_mm + grid_.spacing_mm * centre}).mm;
+    return (grid.indexFromPoint(p_Q_mm) + 0.5) / static_cast<double>(kEdge) - 0.5;
+  };
+  const glm::dvec3 origin = positionOf(both.first), step_x = positionOf(both.first + glm::ivec3(1, 0, 0)) - origin,
+                   step_y = positionOf(both.first + glm::ivec3(0, 1, 0)) - origin,
+                   step_z = positionOf(both.first + glm::ivec3(0, 0, 1)) - origin;
+  const glm::vec3 most(means.layout().size);
+  forEachIn(both, [&](glm::ivec3 cell) {
+    const glm::dvec3 to(cell - both.first);
+    const glm::vec3 at(origin + to.x * step_x + to.y * step_y + to.z * step_z);
+    if (glm::any(glm::lessThanEqual(at, glm::vec3(-1.0f))) || glm::any(glm::greaterThanEqual(at, most))) return;
+    std::uint16_t& mean = *ambient_.at(cell);
+    mean = static_cast<std::uint16_t>(std::min(65535.0f, static_cast<float>(mean) + trilinear(means, at)));
+  });
+}
+
+void VolumeFields::place(std::span<const PlacedFields> pieces, bool changed) {
+  const auto is_same = [](const PlacedFields& a, const PlacedFields& b) {
+    return a.fields == b.fields && a.X_PQ.rotation == b.X_PQ.rotation && a.X_PQ.translation_mm == b.X_PQ.translation_mm;
+  };
+  if (!changed && std::ranges::equal(pieces, pieces_, is_same)) return;
+  // Where they were, and where they are.
+  shaded_.insert(shaded_.end(), piece_cells_.begin(), piece_cells_.end());
+  pieces_.assign(pieces.begin(), pieces.end());
+  piece_cells_.clear();
+  for (const PlacedFields& piece : pieces_) piece_cells_.push_back(cellsOf(piece));
+  shaded_.insert(shaded_.end(), piece_cells_.begin(), piece_cells_.end());
+  std::erase_if(shaded_, [](const VoxelBox& cells) { return cells.empty(); });
 }
 
 const FieldChanges& VolumeFields::prepare() {
@@ -103,6 +172,12 @@ const FieldChanges& VolumeFields::prepare() {
     changes_.ambient.push_back({first, (box.first + box.extent - 1) / kEdge + 1 - first});
     meanCells(changes_.ambient.back());
   }
+  if (shaded_.empty()) return changes_;
+  for (const VoxelBox& cells : gathered(shaded_)) {
+    changes_.ambient.push_back(cells);
+    meanCells(cells);
+  }
+  shaded_.clear();
   return changes_;
 }
 
