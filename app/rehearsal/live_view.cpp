@@ -1,5 +1,6 @@
 #include "app/rehearsal/live_view.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -137,9 +138,12 @@ void LiveView::showInstrument() {
 }
 
 void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {
-  const auto renderer = display().newRenderer(
-      [&](render::Backend backend) { return newRenderer({.backend = backend, .samples = kSnapshotSamples}, solid); });
-  if (bodies_ != nullptr) setPieces(*bodies_, *renderer);
+  // A tooth out of the jaw keeps the colours that were blended with it in the jaw.
+  const bool any_moved = std::ranges::any_of(frame.pieces, [](const auto& X_PQ) { return X_PQ.has_value(); });
+  const auto renderer = display().newRenderer([&](render::Backend backend) {
+    return newRenderer({.backend = backend, .samples = kSnapshotSamples}, any_moved ? plan_.patient.ct.solid : solid);
+  });
+  if (any_moved) BrickUploader().uploadEverything(*bodies_, frame.pieces, *renderer);
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
   frame.gap = frame.tool_visible ? renderer->gap(frame) : std::nullopt;

@@ -1,6 +1,7 @@
 #include "app/view/brick_upload.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "haptics/body/bodies.h"
 #include "render/frame_renderer.h"
@@ -50,12 +51,10 @@ void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, r
   to.updateBrick(brick, solid);
 }
 
-std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to) {
-  bricks_.clear();
-  from.takeDirtyBricks(bricks_);
-
-  // Pieces that are new, have gone, or have left rest or come back.
-  std::vector<glm::ivec3> changed_place;
+/// Pieces that are new, have gone, or have left rest or come back. Returns the bricks of the last two.
+std::vector<glm::ivec3> BrickUploader::followPieces(const haptics::Bodies& from, const render::MovedPieces& pieces,
+                                                    render::FrameRenderer& to) {
+  std::vector<glm::ivec3> changed;
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     Shown& shown = pieces_[n];
     const bool is_there = n < from.pieces(), at_rest = !is_there || !pieces[n];
@@ -67,29 +66,36 @@ std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPiec
         to.setPiece(n, {}, {});
       shown.bricks = bricks;
     }
-    if (shown.at_rest == at_rest) continue;
-    shown.at_rest = at_rest;
-    if (!is_there) continue;
+    if (std::exchange(shown.at_rest, at_rest) == at_rest || !is_there) continue;
     const glm::ivec3 first = firstBrick(from, n);
-    assets::forVoxels(first, first + bricks, [&](glm::ivec3 brick) { changed_place.push_back(brick); });
+    assets::forVoxels(first, first + bricks, [&](glm::ivec3 brick) { changed.push_back(brick); });
   }
+  return changed;
+}
 
-  for (const std::vector<glm::ivec3>* list : {&bricks_, &changed_place})
-    for (const glm::ivec3 brick : *list) {
-      uploadBrick(from, brick, to);
-      ever_.insert(brick);
-    }
-  return bricks_.size() + changed_place.size();
+std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to) {
+  bricks_.clear();
+  from.takeDirtyBricks(bricks_);
+  const std::vector<glm::ivec3> of_pieces = followPieces(from, pieces, to);
+  const auto bring = [&](glm::ivec3 brick) {
+    uploadBrick(from, brick, to);
+    ever_.insert(brick);
+  };
+  std::ranges::for_each(bricks_, bring);
+  std::ranges::for_each(of_pieces, bring);
+  return bricks_.size() + of_pieces.size();
+}
+
+void BrickUploader::uploadEverything(const haptics::Bodies& from, const render::MovedPieces& pieces,
+                                     render::FrameRenderer& to) {
+  followPieces(from, pieces, to);
+  assets::forVoxels(glm::ivec3(0), from.grid().bricks(), [&](glm::ivec3 brick) { uploadBrick(from, brick, to); });
 }
 
 void BrickUploader::uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const {
   for (std::size_t n = 0; n < std::min(from.pieces(), pieces_.size()); ++n)
     if (pieces_[n].bricks.x > 0) setPiece(from, n, to);
   for (const glm::ivec3 brick : ever_) uploadBrick(from, brick, to);
-}
-
-void setPieces(const haptics::Bodies& from, render::FrameRenderer& to) {
-  for (std::size_t n = 0; n < std::min(from.pieces(), render::kMostPieces); ++n) setPiece(from, n, to);
 }
 
 }  // namespace app

@@ -33,6 +33,8 @@ class BrickUploader {
   const std::vector<glm::ivec3>& uploaded() const { return bricks_; }
   /// All bricks ever uploaded, and the pieces, to a new renderer of the initial bone.
   void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const;
+  /// Every brick, and the pieces, to a new renderer of any bone with the tooth in it. Some tenths of a second.
+  void uploadEverything(const haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to);
 
  private:
   struct InOrder {
@@ -45,14 +47,13 @@ class BrickUploader {
     glm::ivec3 bricks{0};  ///< of its grid; 0: it has none
     bool at_rest = true;
   };
+  std::vector<glm::ivec3> followPieces(const haptics::Bodies& from, const render::MovedPieces& pieces,
+                                       render::FrameRenderer& to);
   void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) const;
 
   std::vector<glm::ivec3> bricks_;
   std::set<glm::ivec3, InOrder> ever_;
   std::array<Shown, render::kMostPieces> pieces_;
 };
-
-/// All pieces as they are, to a renderer of the volume in which those at rest are drawn.
-void setPieces(const haptics::Bodies& from, render::FrameRenderer& to);
 
 }  // namespace app

@@ -149,7 +149,7 @@ TEST_P(FeltIsSeen, WithinATwentiethOfAMillimetreBeforeAndAfterCarving) {
   fierce.time.removal_rate_per_s = 500.0;
   for (std::uint64_t tick = 0; tick < 40; ++tick)
     haptics::carveTool(bone, head, X_PT, haptics::phantom::timeErosion(fierce, 0.001), tick);
-  EXPECT_GT(BrickUploader().upload(bone, renderer), 0u);
+  EXPECT_GT(BrickUploader().upload(bone, {}, renderer), 0u);
 
   const render::DistanceImage after = look();
   const SeenPlaces cut(frame, after);

@@ -13,10 +13,12 @@
 
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
+#include "app/view/brick_upload.h"
 #include "app/view/patient_renderer.h"
 #include "assets/instrument/dental_mirror.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
+#include "haptics/body/bodies.h"
 #include "render/frame_renderer.h"
 #include "render/quality_ladder.h"
 #include "tests/bench/cpu_time.h"
@@ -67,6 +69,49 @@ render::SoftMarks manyMarks(const glm::dvec3& site_P_mm, const assets::MeshModel
       if (marks.reddened.size() < render::kMostReddened) marks.reddened.push_back({{place}, 3.5, 0.8});
     }
   return marks;
+}
+
+/// The tooth 6 mm out of the jaw and tilted, lying and moving, against the same view with it at rest, and its first
+/// frame.
+void measurePiece(const assets::Patient& patient, render::FrameRenderer& renderer, render::Frame frame, int frames) {
+  haptics::Bodies bodies(patient.ct.grid, patient.ct.solid, patient.ct.label,
+                         assets::voxelsOfTooth(patient.ct, patient.operatedTooth()));
+  app::BrickUploader uploader;
+  const auto bring = [&] { uploader.upload(bodies, frame.pieces, renderer); };
+  double c = cpu_ms();
+  bring();
+  std::printf("%-34s %6.1f ms CPU\n", "the tooth for the renderer, once", cpu_ms() - c);
+  const glm::dquat tilt = glm::angleAxis(0.35, glm::dvec3(0, 1, 0));
+  const glm::dvec3 site = patient.focus_P_mm();
+  const auto place = [&](double up_mm) { frame.pieces[0] = {tilt, site - tilt * site + glm::dvec3(0, 0, up_mm)}; };
+  std::vector<double> first, lying, out, moving;
+  for (int n = 0; n < frames; ++n) {
+    const auto timed = [&](std::vector<double>& to) {
+      c = cpu_ms();
+      bring();
+      renderer.render(frame);
+      to.push_back(cpu_ms() - c);
+    };
+    frame.pieces[0].reset();
+    bring();
+    renderer.render(frame);
+    timed(lying);
+    place(6.0);
+    timed(first);
+    timed(out);
+    place(6.0 + 0.01 * n);
+    timed(moving);
+  }
+  const double at_rest_ms = median(lying);
+  std::printf("%-34s %6.1f ms CPU\n", "the tooth at rest", at_rest_ms);
+  const auto against = [&](const char* what, const std::vector<double>& cpu) {
+    std::printf("%-34s %6.1f ms CPU  %5.2f of at rest\n", what, median(cpu), median(cpu) / at_rest_ms);
+  };
+  against("the tooth out of the jaw", out);
+  against("the same, moving", moving);
+  against("the frame in which it leaves", first);
+  frame.pieces[0].reset();
+  bring();
 }
 
 }  // namespace
@@ -173,6 +218,7 @@ int main(int count, char** words) {
     f.X_PO = {glm::dquat(1, 0, 0, 0), patient.focus_P_mm() + 20.0 * eye_P.xyz};
   });
   renderer->setSecondInstrument({});
+  measurePiece(patient, *renderer, frame, frames);
   renderer->setGuides({});
   measure("the first again, guides not known", *renderer, frame, frames);
   without("translucent bone", [](render::Frame& f) { f.mode = render::ViewMode::dvr; });

@@ -102,6 +102,56 @@ TEST(VolumeFields, RefuseValuesThatAreNotOnePerVoxel) {
   EXPECT_NO_THROW(VolumeFields(ct.grid, ct.solid, {}));
 }
 
+TEST(VolumeFields, APlacedPieceAddsItsMatterToTheShadeAndTakesItAwayAgain) {
+  // By a whole number of cells: the piece's own means, moved.
+  const assets::VolumeGrid grid = testing::smallGrid(glm::ivec3(48));
+  const assets::CtVolume jaw = testing::ballVolume(grid, {{{0, 0, -9}, 6.0}}),
+                         tooth = testing::ballVolume(testing::smallGrid(glm::ivec3(24)), {{{0, 0, 0}, 4.0}});
+  VolumeFields fields(grid, jaw.solid, jaw.label);
+  const VolumeFields piece(tooth.grid, tooth.solid, {}), alone(grid, jaw.solid, jaw.label);
+  const glm::ivec3 cells(2, -1, 3);
+  const double cell_mm = 2.0 * grid.spacing_mm;
+  const PlacedFields placed{&piece, {{1, 0, 0, 0}, cell_mm * glm::dvec3(cells)}};
+  const glm::ivec3 first = (grid.size - tooth.grid.size) / 4 + cells;
+  const auto expect_shaded = [&](const char* what) {
+    double worst = 0.0;
+    forEachIn({glm::ivec3(0), fields.ambient().layout().size}, [&](glm::ivec3 cell) {
+      const glm::ivec3 own = cell - first;
+      const bool inside = glm::all(glm::greaterThanEqual(own, glm::ivec3(0))) &&
+                          glm::all(glm::lessThan(own, piece.ambient().layout().size));
+      const int sum = *alone.ambient().at(cell) + (inside ? *piece.ambient().at(own) : 0);
+      worst = std::max(worst, std::abs(static_cast<double>(*fields.ambient().at(cell) - std::min(65535, sum))));
+    });
+    EXPECT_LE(worst, 1.0) << what;
+  };
+  fields.place({&placed, 1}, false);
+  EXPECT_FALSE(fields.prepare().ambient.empty());
+  expect_shaded("placed");
+  EXPECT_FALSE(equal(fields.ambient(), alone.ambient()));
+  fields.place({&placed, 1}, false);
+  EXPECT_TRUE(fields.prepare().ambient.empty()) << "nothing is done for a piece that does not move";
+
+  // Turned, it holds as much matter; bone that is carved beneath it keeps its shade.
+  const PlacedFields turned{&piece, {glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))), {0, 1, 5}}};
+  fields.place({&turned, 1}, false);
+  fields.prepare();
+  double matter = 0.0, expected = 0.0;
+  forEachIn({glm::ivec3(0), fields.ambient().layout().size},
+            [&](glm::ivec3 cell) { matter += *fields.ambient().at(cell) - *alone.ambient().at(cell); });
+  forEachIn({glm::ivec3(0), piece.ambient().layout().size},
+            [&](glm::ivec3 cell) { expected += *piece.ambient().at(cell); });
+  EXPECT_NEAR(matter / expected, 1.0, 0.02);
+  fields.place({&placed, 1}, false);
+  fields.updateBrick({2, 2, 2}, std::array<std::uint8_t, 512>{});
+  fields.updateBrick({2, 2, 2}, bricksOwn(jaw, {2, 2, 2}));
+  fields.prepare();
+  expect_shaded("carved and back");
+
+  fields.place({}, false);
+  fields.prepare();
+  EXPECT_TRUE(equal(fields.ambient(), alone.ambient()));
+}
+
 TEST(AppearanceField, IsThatOfTheTissueDeepInside) {
   assets::CtVolume ct = testing::ballVolume(testing::smallGrid(glm::ivec3(20)), {});
   std::ranges::fill(ct.solid, std::uint8_t{255});

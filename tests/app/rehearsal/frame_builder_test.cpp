@@ -84,6 +84,21 @@ TEST(FrameBuilder, KeepsTheLastPositionBeforeATick) {
   EXPECT_EQ(frame.X_PT.translation_mm, before.X_PT.translation_mm);
 }
 
+TEST(FrameBuilder, ShowsThePiecesThatHaveLeftRest) {
+  PiecePoses pieces;
+  pieces.count = 2;
+  pieces.X_PQ[1].translation_mm = {0.0, 0.0, 1e-9};
+  pieces.X_PQ[2].translation_mm = {0.0, 0.0, 5.0};
+  render::Frame frame;
+  placePieces(frame, pieces);
+  EXPECT_FALSE(frame.pieces[0]) << "in the jaw";
+  ASSERT_TRUE(frame.pieces[1]);
+  EXPECT_EQ(frame.pieces[1]->translation_mm, glm::dvec3(0.0, 0.0, 1e-9));
+  EXPECT_FALSE(frame.pieces[2]) << "there are two";
+  placePieces(frame, {});
+  EXPECT_FALSE(frame.pieces[1]);
+}
+
 TEST(FrameBuilder, HidesAWithdrawnToolInTheLastFrame) {
   haptics::Tick tick = tickAt(0.5);
   const render::Frame last = nextFrame(openingFrame(plan()), tick, plan().command);

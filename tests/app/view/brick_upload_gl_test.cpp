@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/rehearsal/frame_builder.h"
 #include "haptics/servo/servo.h"
 #include "render/display/camera.h"
 #include "render/frame_renderer.h"
@@ -56,8 +57,8 @@ TEST(BrickUploader, ShowsTheCutOfOneTickToBothEyesInTheNextFrame) {
     uncut[e] = shown.readEye(kEyes[e]).rgba;
   }
   BrickUploader uploader;
-  EXPECT_GT(uploader.upload(bone, shown), 0u);
-  EXPECT_EQ(BrickUploader().upload(bone, shown), 0u) << "nothing is uploaded twice";
+  EXPECT_GT(uploader.upload(bone, {}, shown), 0u);
+  EXPECT_EQ(BrickUploader().upload(bone, {}, shown), 0u) << "nothing is uploaded twice";
   render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});
   for (int e = 0; e < 2; ++e) {
     shown.renderEye(frame, kEyes[e]);
@@ -73,6 +74,99 @@ TEST(BrickUploader, ShowsTheCutOfOneTickToBothEyesInTheNextFrame) {
   anew.renderEye(frame, render::Eye::left);
   shown.renderEye(frame, render::Eye::left);
   EXPECT_EQ(anew.readEye(render::Eye::left).rgba, shown.readEye(render::Eye::left).rgba);
+}
+
+/// A block of bone with a tooth in it that stands out of it.
+struct Site {
+  std::vector<std::uint8_t> solid = block(), label, is_tooth;
+  haptics::Bodies bodies;
+
+  Site() : label(solid.size(), 1), is_tooth(solid.size(), 0), bodies(divided()) {}
+  haptics::Bodies divided() {
+    assets::forVoxels(glm::ivec3(18, 18, 12), glm::ivec3(30, 30, 28), [&](glm::ivec3 ijk) {
+      const std::size_t v = kGrid.index(ijk);
+      solid[v] = 255, label[v] = 5, is_tooth[v] = 1;
+    });
+    return {kGrid, solid, label, is_tooth};
+  }
+  render::Frame frame() const {
+    render::Frame frame = frameAbove();
+    placePieces(frame, piecePosesOf(bodies));
+    return frame;
+  }
+};
+
+TEST(BrickUploader, ATouchedToothLeavesTheJawInTheFrameThatShowsItAsAPieceAndComesBack) {
+  const render::OffscreenContext context;
+  Site site;
+  ASSERT_EQ(site.bodies.pieces(), 1u);
+  render::FrameRenderer shown(kGrid, site.solid, site.label);
+  BrickUploader uploader;
+  const auto picture = [&] {
+    const render::Frame frame = site.frame();
+    uploader.upload(site.bodies, frame.pieces, shown);
+    shown.renderEye(frame, render::Eye::left);
+    return shown.readEye(render::Eye::left).rgba;
+  };
+  const auto at_rest = picture();
+
+  // The jaw with the socket, and the piece above it.
+  site.bodies.place(0, {glm::angleAxis(0.2, glm::dvec3(0, 1, 0)), {0.5, 0.0, 1.5}});
+  const auto moved = picture();
+  render::FrameRenderer fresh(kGrid, site.solid, site.label);
+  BrickUploader().uploadEverything(site.bodies, site.frame().pieces, fresh);
+  fresh.renderEye(site.frame(), render::Eye::left);
+  EXPECT_EQ(moved, fresh.readEye(render::Eye::left).rgba);
+  EXPECT_NE(moved, at_rest);
+  fresh.renderEye(frameAbove(), render::Eye::left);
+  render::FrameRenderer socket(kGrid, site.solid, site.label);
+  assets::forVoxels(glm::ivec3(0), kGrid.bricks(), [&](glm::ivec3 brick) {
+    std::array<std::uint8_t, 512> solid{};
+    site.bodies.copyBrick(brick, solid);
+    socket.updateBrick(brick, solid);
+  });
+  socket.renderEye(frameAbove(), render::Eye::left);
+  EXPECT_EQ(fresh.readEye(render::Eye::left).rgba, socket.readEye(render::Eye::left).rgba) << "nothing of it is left";
+
+  // To a new renderer of the initial bone as well.
+  render::FrameRenderer anew(kGrid, site.solid, site.label);
+  uploader.uploadAllAgain(site.bodies, anew);
+  anew.renderEye(site.frame(), render::Eye::left);
+  EXPECT_EQ(anew.readEye(render::Eye::left).rgba, moved);
+
+  site.bodies.place(0, {});
+  EXPECT_EQ(picture(), at_rest);
+}
+
+TEST(BrickUploader, ACutOfAMovedToothIsOnThePieceAndStillThereWhenItComesBack) {
+  const render::OffscreenContext context;
+  Site site;
+  render::FrameRenderer shown(kGrid, site.solid, site.label);
+  BrickUploader uploader;
+  const auto picture = [&](render::FrameRenderer& of) {
+    of.renderEye(site.frame(), render::Eye::left);
+    return of.readEye(render::Eye::left).rgba;
+  };
+  site.bodies.place(0, {glm::dquat(1, 0, 0, 0), {0.0, 0.0, 2.0}});
+  uploader.upload(site.bodies, site.frame().pieces, shown);
+  const auto whole = picture(shown);
+  haptics::ErosionStep step;
+  step.loss.fill(1.0);
+  haptics::carveTool(site.bodies, {haptics::ShapeKind::sphere, 1.0, 0.0}, {glm::dquat(1, 0, 0, 0), {-1.0, -1.0, 3.0}},
+                     step, 1);
+  EXPECT_GT(uploader.upload(site.bodies, site.frame().pieces, shown), 0u);
+  EXPECT_NE(picture(shown), whole);
+
+  // Back at rest: as bone that was carved there.
+  site.bodies.place(0, {});
+  uploader.upload(site.bodies, site.frame().pieces, shown);
+  render::FrameRenderer expected(kGrid, site.solid, site.label);
+  assets::forVoxels(glm::ivec3(0), kGrid.bricks(), [&](glm::ivec3 brick) {
+    std::array<std::uint8_t, 512> solid{};
+    site.bodies.copyBrick(brick, solid);
+    expected.updateBrick(brick, solid);
+  });
+  EXPECT_EQ(picture(shown), picture(expected));
 }
 
 }  // namespace

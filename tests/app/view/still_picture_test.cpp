@@ -85,6 +85,14 @@ TEST(StillPicture, DropsBackAtOnceWhateverMoves) {
       {"scrolled slice", [](render::Frame& f) { f.slices_beside_bur_P_mm.z = 0.5; }},
       {"ruler", [](render::Frame& f) { f.ruler = render::RulerLine{}; }},
       {"mirror", [](render::Frame& f) { f.second_visible = true; }},
+      {"tooth",
+       [](render::Frame& f) {
+         f.pieces[0] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.05}};
+       }},
+      {"tooth that turns",
+       [](render::Frame& f) {
+         f.pieces[1] = {glm::angleAxis(0.01, glm::dvec3(1, 0, 0)), {}};
+       }},
   };
   for (const auto& [name, change] : changes) {
     StillPicture still = refinedAt300(at_rest);
@@ -96,6 +104,13 @@ TEST(StillPicture, DropsBackAtOnceWhateverMoves) {
   }
   StillPicture still = refinedAt300(at_rest);
   EXPECT_EQ(still.next(at_rest, true, kStart + milliseconds(310)), Step::live) << "bone or warning";
+
+  render::Frame out = at_rest;
+  out.pieces[0] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 5.0}};
+  StillPicture of_tooth = refinedAt300(out);
+  EXPECT_EQ(of_tooth.next(out, false, kStart + milliseconds(320)), Step::kept);
+  out.pieces[0]->translation_mm.z = 5.1;
+  EXPECT_EQ(of_tooth.next(out, false, kStart + milliseconds(340)), Step::live) << "a piece further out";
 }
 
 TEST(StillPicture, TheTrembleOfARestingHandIsNoMotionButASlowDriftIs) {

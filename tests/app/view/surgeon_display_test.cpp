@@ -125,7 +125,7 @@ TEST(SurgeonDisplay, ShowsTheCutBoneAfterAResetDuringShow) {
   for (int spin_up = 0; spin_up < 2000; ++spin_up) servo.step(hand, command, 0.001);
   hand.X_PT.translation_mm = {0.0, 0.0, 2.4};
   ASSERT_GT(servo.step(hand, command, 0.001).removed_mm3, 0.5);
-  ASSERT_GT(uploader.upload(bone, display.renderer()), 0u);
+  ASSERT_GT(uploader.upload(bone, {}, display.renderer()), 0u);
   display.show(frameAbove());
   const std::vector<std::uint8_t> cut = display.renderer().readImage().rgba;
   ASSERT_NE(cut, whole);
