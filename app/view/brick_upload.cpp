@@ -11,6 +11,9 @@ namespace {
 
 using Brick = std::array<std::uint8_t, 512>;
 
+/// Also of those that hold nothing yet: solid may go over to them at any tick.
+std::size_t placesForPieces(const haptics::Bodies& of) { return std::min(of.bones().size() - 1, render::kMostPieces); }
+
 void setPiece(const haptics::Bodies& from, std::size_t piece, render::FrameRenderer& to) {
   const haptics::CarvedBone& bone = from.bones()[piece + 1];
   const assets::VolumeGrid& grid = bone.grid();
@@ -35,15 +38,19 @@ glm::ivec3 firstBrick(const haptics::Bodies& of, std::size_t piece) {
 
 }  // namespace
 
-void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) const {
+void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) {
   Brick solid{};
   from.jaw().copyBrick(brick, solid);
-  for (std::size_t n = 0; n < std::min(from.pieces(), pieces_.size()); ++n) {
+  for (std::size_t n = 0; n < placesForPieces(from); ++n) {
     const auto own = from.brickOfPiece(n, brick);
     if (!own) continue;
     Brick part{};
     from.bones()[n + 1].copyBrick(*own, part);
-    if (pieces_[n].bricks.x > 0) to.updatePieceBrick(n, *own, part);
+    // A piece that nothing was in yet gets its mesh with its first solid.
+    if (pieces_[n].has_mesh)
+      to.updatePieceBrick(n, *own, part);
+    else if (part != Brick{})
+      setPiece(from, n, to), pieces_[n].has_mesh = true;
     if (!pieces_[n].at_rest) continue;
     for (std::size_t v = 0; v < part.size(); ++v)
       solid[v] = static_cast<std::uint8_t>(std::min(255, solid[v] + part[v]));
@@ -51,24 +58,18 @@ void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, r
   to.updateBrick(brick, solid);
 }
 
-/// Pieces that are new, have gone, or have left rest or come back. Returns the bricks of the last two.
+/// The tooth for the first time, and pieces that have left rest or come back. Returns the bricks of the last two.
 std::vector<glm::ivec3> BrickUploader::followPieces(const haptics::Bodies& from, const render::MovedPieces& pieces,
                                                     render::FrameRenderer& to) {
   std::vector<glm::ivec3> changed;
-  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+  for (std::size_t n = 0; n < placesForPieces(from); ++n) {
     Shown& shown = pieces_[n];
-    const bool is_there = n < from.pieces(), at_rest = !is_there || !pieces[n];
-    const glm::ivec3 bricks = is_there ? from.bones()[n + 1].grid().bricks() : glm::ivec3(0);
-    if (shown.bricks != bricks) {
-      if (is_there)
-        setPiece(from, n, to);
-      else
-        to.setPiece(n, {}, {});
-      shown.bricks = bricks;
-    }
-    if (std::exchange(shown.at_rest, at_rest) == at_rest || !is_there) continue;
+    const haptics::CarvedBone& bone = from.bones()[n + 1];
+    if (n == 0 && !std::exchange(shown.has_mesh, true)) setPiece(from, n, to);
+    const bool at_rest = !pieces[n].has_value();
+    if (std::exchange(shown.at_rest, at_rest) == at_rest) continue;
     const glm::ivec3 first = firstBrick(from, n);
-    assets::forVoxels(first, first + bricks, [&](glm::ivec3 brick) { changed.push_back(brick); });
+    assets::forVoxels(first, first + bone.grid().bricks(), [&](glm::ivec3 brick) { changed.push_back(brick); });
   }
   return changed;
 }
@@ -92,9 +93,9 @@ void BrickUploader::uploadEverything(const haptics::Bodies& from, const render::
   assets::forVoxels(glm::ivec3(0), from.grid().bricks(), [&](glm::ivec3 brick) { uploadBrick(from, brick, to); });
 }
 
-void BrickUploader::uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const {
-  for (std::size_t n = 0; n < std::min(from.pieces(), pieces_.size()); ++n)
-    if (pieces_[n].bricks.x > 0) setPiece(from, n, to);
+void BrickUploader::uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) {
+  for (std::size_t n = 0; n < placesForPieces(from); ++n)
+    if (pieces_[n].has_mesh) setPiece(from, n, to);
   for (const glm::ivec3 brick : ever_) uploadBrick(from, brick, to);
 }
 

@@ -32,7 +32,7 @@ class BrickUploader {
   /// Carved, of the last upload().
   const std::vector<glm::ivec3>& uploaded() const { return bricks_; }
   /// All bricks ever uploaded, and the pieces, to a new renderer of the initial bone.
-  void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to) const;
+  void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to);
   /// Every brick, and the pieces, to a new renderer of any bone with the tooth in it. Some tenths of a second.
   void uploadEverything(const haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to);
 
@@ -42,14 +42,14 @@ class BrickUploader {
       return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
     }
   };
-  /// A piece that the renderer has.
+  /// A piece as the renderer shows it.
   struct Shown {
-    glm::ivec3 bricks{0};  ///< of its grid; 0: it has none
+    bool has_mesh = false;  ///< it has held solid
     bool at_rest = true;
   };
   std::vector<glm::ivec3> followPieces(const haptics::Bodies& from, const render::MovedPieces& pieces,
                                        render::FrameRenderer& to);
-  void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) const;
+  void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to);
 
   std::vector<glm::ivec3> bricks_;
   std::set<glm::ivec3, InOrder> ever_;

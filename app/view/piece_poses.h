@@ -16,10 +16,10 @@ struct PiecePoses {
   std::size_t count = 0;
 };
 
-/// Of the bodies as they lie now; while nothing moves them.
+/// Of the bodies as they lie now, also of pieces that hold nothing yet; while nothing moves them.
 inline PiecePoses piecePosesOf(const haptics::Bodies& bodies) {
   PiecePoses poses;
-  poses.count = std::min(bodies.pieces(), poses.X_PQ.size());
+  poses.count = std::min(bodies.bones().size() - 1, poses.X_PQ.size());
   for (std::size_t n = 0; n < poses.count; ++n) poses.X_PQ[n] = bodies.pose(n);
   return poses;
 }

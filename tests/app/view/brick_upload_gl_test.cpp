@@ -169,5 +169,32 @@ TEST(BrickUploader, ACutOfAMovedToothIsOnThePieceAndStillThereWhenItComesBack) {
   EXPECT_EQ(picture(shown), picture(expected));
 }
 
+TEST(BrickUploader, APieceThatComesOffIsShownOnItsOwn) {
+  const render::OffscreenContext context;
+  Site site;
+  render::FrameRenderer shown(kGrid, site.solid, site.label);
+  BrickUploader uploader;
+  const auto picture = [&] {
+    uploader.upload(site.bodies, site.frame().pieces, shown);
+    shown.renderEye(site.frame(), render::Eye::left);
+    return shown.readEye(render::Eye::left).rgba;
+  };
+  const auto whole = picture();
+  std::array<std::uint8_t, haptics::kBlockVoxels> all{};
+  all.fill(255);
+  for (std::size_t block = 0; block < site.bodies.bones()[1].blocks() / 2; ++block)
+    site.bodies.moveBlock(0, 1, block, all);
+  ASSERT_EQ(site.bodies.pieces(), 2u);
+  EXPECT_EQ(picture(), whole) << "both at rest";
+
+  site.bodies.place(1, {glm::dquat(1, 0, 0, 0), {-3.0, 0.0, 4.0}});
+  const auto apart = picture();
+  EXPECT_NE(apart, whole);
+  render::FrameRenderer fresh(kGrid, site.solid, site.label);
+  BrickUploader().uploadEverything(site.bodies, site.frame().pieces, fresh);
+  fresh.renderEye(site.frame(), render::Eye::left);
+  EXPECT_EQ(fresh.readEye(render::Eye::left).rgba, apart);
+}
+
 }  // namespace
 }  // namespace app
