@@ -20,6 +20,8 @@ class DistanceField {
 
   const assets::VolumeGrid& grid() const { return grid_; }
   float atVoxel(std::size_t v) const { return distance_mm_[v]; }
+  /// In the order of the grid.
+  std::span<const float> voxels_mm() const { return distance_mm_; }
 
   /// Of the nearest voxel: within 0.87 voxels of at(). Beyond the grid that of the nearest place in it.
   float near(const glm::vec3& index) const {

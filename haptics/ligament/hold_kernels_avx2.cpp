@@ -1,0 +1,3 @@
+// Compiled for AVX2; see CMakeLists.txt.
+#define MOLAR_KERNEL_SET avx2
+#include "haptics/ligament/hold_kernels_body.h"

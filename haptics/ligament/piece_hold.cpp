@@ -1,0 +1,241 @@
+#include "haptics/ligament/piece_hold.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "haptics/ligament/series.h"
+
+namespace haptics {
+namespace {
+
+// Longest step of one evaluation: snapping fibres move a piece by at most six of them in a tick.
+constexpr double kMostStep_mm = 0.2, kMostStep_rad = 0.04;
+constexpr double kBalanced_N = 5e-3;
+/// A step too short to matter: the slope of the field has kinks at the faces of its cells, where a residual may stay.
+constexpr double kStill_mm = 1e-6;
+
+float narrow(double value) { return static_cast<float>(value); }
+
+HoldConstants constantsOf(const LigamentLaw& law) {
+  const double wall = law.wall_MPa / law.wall_stiffening, end = exponentialOf(law.wall_stiffening);
+  const double peak = law.peakStress_MPa();
+  HoldConstants c{};
+  c.fibre = narrow(law.fibre_MPa / law.fibre_stiffening);
+  c.stiffening = narrow(law.fibre_stiffening);
+  c.peak_stretch = narrow(law.peak_stretch);
+  c.peak_stress = narrow(peak);
+  c.per_softening = narrow(1.0 / (law.torn_stretch - law.peak_stretch));
+  c.shear = narrow(law.shear_weight);
+  c.wall = narrow(wall);
+  c.wall_stiffening = narrow(law.wall_stiffening);
+  c.wall_slope = narrow(law.wall_MPa);
+  c.wall_end = narrow(wall * (end - 1.0));
+  c.wall_end_slope = narrow(law.wall_MPa * end);
+  c.fluid = narrow(law.fluid_MPa);
+  c.contact = narrow(law.contact_MPa_per_mm);
+  c.creep_floor = narrow(law.creep_floor);
+  c.yield = narrow(law.yield_MPa);
+  return c;
+}
+
+/// Turned about the centre, then moved; the turn is that of a rotation vector to the third order.
+PiecePose moved(const PiecePose& X_PQ, const glm::dvec3& centre_Q_mm, const Six& step) noexcept {
+  const glm::dvec3 centre_P_mm =
+      X_PQ.rotation * centre_Q_mm + X_PQ.translation_mm + glm::dvec3(step[0], step[1], step[2]);
+  const glm::dquat turn(1.0, 0.5 * glm::dvec3(step[3], step[4], step[5]));
+  const glm::dquat turned = turn * X_PQ.rotation;
+  const glm::dquat rotation = turned / std::sqrt(glm::dot(turned, turned));
+  return {rotation, centre_P_mm - rotation * centre_Q_mm};
+}
+
+void limit(Six& step) noexcept {
+  double over = 1.0;
+  for (std::size_t n = 0; n < 6; ++n)
+    over = std::max(over, std::fabs(step[n]) / (n < 3 ? kMostStep_mm : kMostStep_rad));
+  for (double& part : step) part /= over;
+}
+
+double largest(const Six& six, double lever) noexcept {
+  double most = 0.0;
+  for (std::size_t n = 0; n < 6; ++n) most = std::max(most, std::fabs(six[n]) * (n < 3 ? 1.0 : lever));
+  return most;
+}
+
+bool isFinite(const Six& six) noexcept {
+  return std::all_of(six.begin(), six.end(), [](double part) { return std::isfinite(part); });
+}
+
+void copyInto(const std::vector<float>& from, std::vector<float>& to) noexcept {
+  assert(from.size() == to.size());
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+}  // namespace
+
+struct PieceHold::Tried {
+  PiecePose X_PQ;
+  Balance balance{};
+  double residual_N = 0.0, contact_mJ = 0.0;
+  Wrench<calibration::Patient> spring{};
+};
+
+PieceHold::PieceHold(PieceSamples samples, const LigamentLaw& law)
+    : samples_(std::move(samples)),
+      law_(law.sanitised()),
+      constants_(constantsOf(law_)),
+      ligament_area_mm2_(samples_.ligamentArea_mm2()),
+      state_{{}, unworn(samples_)} {
+  assert(samples_.size() <= kMostSamples && samples_.size() % kSampleLanes == 0);
+}
+
+HoldConstants PieceHold::constantsFor(double period_s) const noexcept {
+  HoldConstants c = constants_;
+  c.fluid_kept = narrow(1.0 / (1.0 + period_s / law_.fluid_relaxation_s));
+  c.creep = narrow(period_s / law_.creep_s);
+  c.widening = narrow(period_s / law_.yield_MPa_s_per_mm);
+  return c;
+}
+
+HoldSamples PieceHold::view() const noexcept {
+  const PieceSamples& s = samples_;
+  const LigamentMemory& m = state_.ligament;
+  return {s.place_mm[0].data(),      s.place_mm[1].data(),
+          s.place_mm[2].data(),      s.normal[0].data(),
+          s.normal[1].data(),        s.normal[2].data(),
+          s.area_mm2.data(),         s.width_mm.data(),
+          s.rest_gap_mm.data(),      m.torn.data(),
+          m.fluid_MPa.data(),        m.strain.data(),
+          m.widened_mm.data(),       static_cast<int>(s.ligament),
+          static_cast<int>(s.size())};
+}
+
+HoldPlace PieceHold::placeAt(const PiecePose& X_PQ, const DistanceField* obstacles) const noexcept {
+  const glm::dquat& q = X_PQ.rotation;
+  const glm::dvec3 centre_P_mm = (X_PQ * calibration::Point<calibration::Piece>{samples_.centre_Q_mm}).mm;
+  const glm::dvec3 shift = centre_P_mm - samples_.centre_Q_mm;
+  HoldPlace place{};
+  // Rotation less the unit matrix, without cancellation.
+  const double turn[9] = {
+      -2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y - q.w * q.z),  2.0 * (q.x * q.z + q.w * q.y),
+      2.0 * (q.x * q.y + q.w * q.z),  -2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z - q.w * q.x),
+      2.0 * (q.x * q.z - q.w * q.y),  2.0 * (q.y * q.z + q.w * q.x),  -2.0 * (q.x * q.x + q.y * q.y)};
+  for (int n = 0; n < 9; ++n) place.turn[n] = narrow(turn[n]);
+  for (int axis = 0; axis < 3; ++axis) place.shift[axis] = narrow(shift[axis]);
+  if (obstacles == nullptr) return place;
+
+  const assets::VolumeGrid& grid = obstacles->grid();
+  assert(grid.size.x > 1 && grid.size.y > 1 && grid.size.z > 1);
+  const glm::dvec3 index = grid.indexFromPoint(centre_P_mm);
+  place.distance = obstacles->voxels_mm().data();
+  place.per_mm = narrow(1.0 / grid.spacing_mm);
+  for (int axis = 0; axis < 3; ++axis) {
+    place.size[axis] = grid.size[axis];
+    place.centre[axis] = narrow(index[axis]);
+  }
+  return place;
+}
+
+HoldSums PieceHold::sumsAt(const PiecePose& X_PQ, const DistanceField* obstacles, double period_s) const noexcept {
+  return sumHold(constantsFor(period_s), view(), placeAt(X_PQ, obstacles));
+}
+
+/// `drive` with its load already about the centre.
+PieceHold::Tried PieceHold::tryAt(const PiecePose& X_PQ, const HoldConstants& constants, const DistanceField* obstacles,
+                                  const PieceDrive& drive, double drag_N_per_mm) const noexcept {
+  const HoldSums sums = sumHold(constants, view(), placeAt(X_PQ, obstacles));
+  Tried tried{.X_PQ = X_PQ};
+  Balance& balance = tried.balance;
+  balance.energy_mJ = sums.energy;
+  std::copy(std::begin(sums.gradient), std::end(sums.gradient), balance.gradient.begin());
+  std::copy(std::begin(sums.hessian), std::end(sums.hessian), balance.hessian.upper.begin());
+  tried.contact_mJ = sums.contact_energy;
+
+  // The load's work along the way and, to second order, the turn of this tick.
+  const glm::dvec3& centre_Q_mm = samples_.centre_Q_mm;
+  const calibration::Point<calibration::Piece> centre{centre_Q_mm};
+  const glm::dquat turn = X_PQ.rotation * glm::conjugate(state_.X_PQ.rotation);
+  const glm::dvec3 way_mm = (X_PQ * centre).mm - (state_.X_PQ * centre).mm;
+  balance.energy_mJ -=
+      glm::dot(drive.force_N.xyz, way_mm) + 2.0 * glm::dot(drive.torque_Nmm.xyz, glm::dvec3(turn.x, turn.y, turn.z));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    balance.gradient[axis] -= drive.force_N.xyz[static_cast<int>(axis)];
+    balance.gradient[3 + axis] -= drive.torque_Nmm.xyz[static_cast<int>(axis)];
+  }
+  tried.spring = addSpring(drive.spring, X_PQ, centre_Q_mm, balance);
+  addDrag(state_.X_PQ, X_PQ, centre_Q_mm, drag_N_per_mm, law_.drag_lever_mm, balance);
+  tried.residual_N = largest(balance.gradient, 1.0 / law_.drag_lever_mm);
+  return tried;
+}
+
+PieceHold::Tried PieceHold::settle(const HoldConstants& constants, const DistanceField* obstacles,
+                                   const PieceDrive& drive, double drag_N_per_mm, HoldTick& tick) const noexcept {
+  Tried best = tryAt(state_.X_PQ, constants, obstacles, drive, drag_N_per_mm);
+  tick.evaluations = 1;
+  while (best.residual_N >= kBalanced_N) {
+    Six down{}, step{};
+    for (std::size_t n = 0; n < 6; ++n) down[n] = -best.balance.gradient[n];
+    if (!isFinite(down) || !solve(best.balance.hessian, down, step)) break;
+    if (largest(step, law_.drag_lever_mm) < kStill_mm) return best;
+    limit(step);
+
+    // A step is taken if energy or residual falls, else halved.
+    bool is_taken = false;
+    while (!is_taken && tick.evaluations < kMostEvaluations) {
+      const Tried next =
+          tryAt(moved(best.X_PQ, samples_.centre_Q_mm, step), constants, obstacles, drive, drag_N_per_mm);
+      ++tick.evaluations;
+      is_taken = next.balance.energy_mJ <= best.balance.energy_mJ || next.residual_N < best.residual_N;
+      if (is_taken) best = next;
+      for (double& part : step) part *= 0.5;
+    }
+    if (!is_taken) break;
+  }
+  tick.unsettled = !(best.residual_N < kBalanced_N);
+  return best;
+}
+
+HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles, double period_s) noexcept {
+  HoldTick tick{.X_PQ = state_.X_PQ};
+  tick.refused = !isUsable(drive) || !(period_s > 0.0 && period_s <= kLongestTick_s);
+  if (tick.refused) return tick;
+
+  // The load about the centre where that is as the tick begins.
+  PieceDrive about_centre = drive;
+  const glm::dvec3 centre_P_mm = (state_.X_PQ * calibration::Point<calibration::Piece>{samples_.centre_Q_mm}).mm;
+  about_centre.torque_Nmm.xyz += glm::cross(drive.load_at_P.mm - centre_P_mm, drive.force_N.xyz);
+
+  const HoldConstants constants = constantsFor(period_s);
+  const Tried end = settle(constants, obstacles, about_centre, law_.drag_Ns_per_mm / period_s, tick);
+  if (tick.unsettled) ++unsettled_;
+  state_.X_PQ = tick.X_PQ = end.X_PQ;
+  tick.on_hand = -1.0 * end.spring;
+  tick.residual_N = end.residual_N;
+
+  LigamentMemory& ligament = state_.ligament;
+  const HoldAge age =
+      ageHold(constants, view(), placeAt(end.X_PQ, obstacles),
+              {ligament.torn.data(), ligament.fluid_MPa.data(), ligament.strain.data(), ligament.widened_mm.data()});
+  tick.torn_mJ = age.torn_mJ;
+  tick.stored_mJ = age.stored_mJ + end.contact_mJ;
+  tick.torn_share = ligament_area_mm2_ > 0.0 ? age.torn_area_mm2 / ligament_area_mm2_ : 1.0;
+  return tick;
+}
+
+void PieceHold::restore(const PieceState& state) noexcept {
+  state_.X_PQ = state.X_PQ;
+  copyInto(state.ligament.torn, state_.ligament.torn);
+  copyInto(state.ligament.fluid_MPa, state_.ligament.fluid_MPa);
+  copyInto(state.ligament.strain, state_.ligament.strain);
+  copyInto(state.ligament.widened_mm, state_.ligament.widened_mm);
+}
+
+void PieceHold::meet(const SocketChange& change) noexcept {
+  copyInto(change.rest_gap_mm, samples_.rest_gap_mm);
+  std::vector<float>& torn = state_.ligament.torn;
+  assert(change.torn.size() == torn.size());
+  for (std::size_t n = 0; n < torn.size(); ++n) torn[n] = std::max(torn[n], change.torn[n]);
+}
+
+}  // namespace haptics

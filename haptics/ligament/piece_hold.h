@@ -1,0 +1,76 @@
+// One piece of tooth held in its socket: where it goes in a tick under what drives it, against ligament, bone and
+// neighbours. Quasi-static: the pose of least energy, found by Newton steps with drag; then fibres tear and creep,
+// fluid flows, the socket widens. Frames P (obstacles) and Q (piece; at rest Q lies on P). mm, N, N mm, mJ, s. Servo
+// thread: no allocation, lock or clock in step(); bounded by 6 evaluations of all samples, 15 to 40 µs for 2000. A pure
+// function of state and inputs, the same bits on every machine. Method: reference/extraction 3.2 to 3.4.
+#pragma once
+
+#include "haptics/body/distance_field.h"
+#include "haptics/ligament/hold_kernels.h"
+#include "haptics/ligament/piece_drive.h"
+#include "haptics/ligament/piece_samples.h"
+
+namespace haptics {
+
+/// All that a piece remembers, by value: what undo keeps.
+struct PieceState {
+  PiecePose X_PQ;
+  LigamentMemory ligament;
+};
+
+struct HoldTick {
+  PiecePose X_PQ;
+  Wrench<calibration::Patient> on_hand{};  ///< of the spring, torque about its grip
+  double torn_mJ = 0.0;                    ///< by this tick
+  double stored_mJ = 0.0;                  ///< in ligament and contact, after it
+  double torn_share = 0.0;                 ///< of the ligament's area, 1 without ligament
+  double residual_N = 0.0;                 ///< largest force, or torque over the lever, that is not balanced
+  int evaluations = 0;
+  bool unsettled = false;  ///< not balanced within the evaluations; goes on from here next tick
+  bool refused = false;    ///< input that is no number, or a period outside kLongestTick_s: nothing changed
+};
+
+inline constexpr int kMostEvaluations = 6;
+inline constexpr double kLongestTick_s = 0.05;
+
+class PieceHold {
+ public:
+  /// Allocates.
+  PieceHold(PieceSamples samples, const LigamentLaw& law);
+
+  /// `obstacles` may be null: then each sample of ligament meets the plane of its own socket point and nothing else.
+  HoldTick step(const PieceDrive& drive, const DistanceField* obstacles, double period_s) noexcept;
+
+  const PieceState& state() const noexcept { return state_; }
+  /// A state of this piece (assert). No allocation.
+  void restore(const PieceState& state) noexcept;
+  /// Bone was lost or came back. A change of these samples (assert). No allocation; torn shares only grow.
+  void meet(const SocketChange& change) noexcept;
+
+  const PieceSamples& samples() const noexcept { return samples_; }
+  const LigamentLaw& law() const noexcept { return law_; }
+  /// Ticks that did not settle, since made.
+  int unsettled() const noexcept { return unsettled_; }
+
+  /// The hold alone at a pose, without drive: energy, slope and curvature. For tests and for those that couple pieces.
+  HoldSums sumsAt(const PiecePose& X_PQ, const DistanceField* obstacles, double period_s) const noexcept;
+
+ private:
+  struct Tried;
+  HoldPlace placeAt(const PiecePose& X_PQ, const DistanceField* obstacles) const noexcept;
+  HoldSamples view() const noexcept;
+  HoldConstants constantsFor(double period_s) const noexcept;
+  Tried tryAt(const PiecePose& X_PQ, const HoldConstants& constants, const DistanceField* obstacles,
+              const PieceDrive& drive, double drag_N_per_mm) const noexcept;
+  Tried settle(const HoldConstants& constants, const DistanceField* obstacles, const PieceDrive& drive,
+               double drag_N_per_mm, HoldTick& tick) const noexcept;
+
+  PieceSamples samples_;
+  LigamentLaw law_;
+  HoldConstants constants_;
+  double ligament_area_mm2_;
+  PieceState state_;
+  int unsettled_ = 0;
+};
+
+}  // namespace haptics
