@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "haptics/ligament/series.h"
@@ -13,8 +14,11 @@ namespace {
 // Longest step of one evaluation: snapping fibres move a piece by at most six of them in a tick.
 constexpr double kMostStep_mm = 0.2, kMostStep_rad = 0.04;
 constexpr double kBalanced_N = 5e-3;
-/// A step too short to matter: the slope of the field has kinks at the faces of its cells, where a residual may stay.
-constexpr double kStill_mm = 1e-6;
+// Where the field's slope has kinks, at the faces of its cells, the least energy may lie on one with a residual left.
+/// What a step would still gain there is too little to matter,
+constexpr double kGain_mJ = 5e-7;
+/// or a step as short as this did not halve the residual: the pose is within it.
+constexpr double kKink_mm = 2e-3;
 
 float narrow(double value) { return static_cast<float>(value); }
 
@@ -137,8 +141,9 @@ HoldPlace PieceHold::placeAt(const PiecePose& X_PQ, const DistanceField* obstacl
   return place;
 }
 
-HoldSums PieceHold::sumsAt(const PiecePose& X_PQ, const DistanceField* obstacles, double period_s) const noexcept {
-  return sumHold(constantsFor(period_s), view(), placeAt(X_PQ, obstacles));
+PieceHold::KernelInput PieceHold::inputAt(const PiecePose& X_PQ, const DistanceField* obstacles,
+                                          double period_s) const noexcept {
+  return {constantsFor(period_s), view(), placeAt(X_PQ, obstacles)};
 }
 
 /// `drive` with its load already about the centre.
@@ -177,10 +182,11 @@ PieceHold::Tried PieceHold::settle(const HoldConstants& constants, const Distanc
     Six down{}, step{};
     for (std::size_t n = 0; n < 6; ++n) down[n] = -best.balance.gradient[n];
     if (!isFinite(down) || !solve(best.balance.hessian, down, step)) break;
-    if (largest(step, law_.drag_lever_mm) < kStill_mm) return best;
+    if (0.5 * std::inner_product(down.begin(), down.end(), step.begin(), 0.0) < kGain_mJ) return best;
     limit(step);
 
     // A step is taken if energy or residual falls, else halved.
+    const double length_mm = largest(step, law_.drag_lever_mm), before_N = best.residual_N;
     bool is_taken = false;
     while (!is_taken && tick.evaluations < kMostEvaluations) {
       const Tried next =
@@ -191,6 +197,7 @@ PieceHold::Tried PieceHold::settle(const HoldConstants& constants, const Distanc
       for (double& part : step) part *= 0.5;
     }
     if (!is_taken) break;
+    if (length_mm < kKink_mm && best.residual_N > 0.5 * before_N) return best;
   }
   tick.unsettled = !(best.residual_N < kBalanced_N);
   return best;

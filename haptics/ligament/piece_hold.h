@@ -52,8 +52,13 @@ class PieceHold {
   /// Ticks that did not settle, since made.
   int unsettled() const noexcept { return unsettled_; }
 
-  /// The hold alone at a pose, without drive: energy, slope and curvature. For tests and for those that couple pieces.
-  HoldSums sumsAt(const PiecePose& X_PQ, const DistanceField* obstacles, double period_s) const noexcept;
+  /// What the kernels read of the hold alone, without drive, at a pose; valid until the next change.
+  struct KernelInput {
+    HoldConstants law;
+    HoldSamples samples;
+    HoldPlace place;
+  };
+  KernelInput inputAt(const PiecePose& X_PQ, const DistanceField* obstacles, double period_s) const noexcept;
 
  private:
   struct Tried;

@@ -89,8 +89,10 @@ std::vector<SamplePoint> surfaceSamples(const SolidVoxels& piece, const Distance
 
     const auto around = obstacles.at(glm::vec3(obstacles.grid().indexFromPoint(point.p_Q_mm)));
     const double gap_mm = static_cast<double>(around.distance_mm);
-    const bool faces_bone = glm::dot(point.outward, glm::dvec3(around.gradient)) < -kFacing;
-    point.has_ligament = gap_mm < kLigamentReach_mm && faces_bone && is_root(point.p_Q_mm, point.outward);
+    const bool faces_bone = gap_mm < kLigamentReach_mm &&
+                            glm::dot(point.outward, glm::dvec3(around.gradient)) < -kFacing &&
+                            obstacles.at_mm(point.p_Q_mm + gap_mm * point.outward) < 0.5 * kSocketReach_mm;
+    point.has_ligament = faces_bone && is_root(point.p_Q_mm, point.outward);
     point.rest_gap_mm = point.has_ligament ? gap_mm : std::min(gap_mm, 0.0);
     points.push_back(point);
   }

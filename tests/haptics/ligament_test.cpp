@@ -1,3 +1,5 @@
+#include "haptics/ligament/hold_kernels.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -35,7 +37,7 @@ struct Cylinder {
   double hessian(std::size_t n) const {
     PiecePose by;
     by.translation_mm.x = 1e-5;
-    const HoldSums sums = hold.sumsAt(by, nullptr, kTick_s);
+    const HoldSums sums = phantom::sumsAt(hold, by);
     return sums.hessian[SymmetricSix::at(n, n)];
   }
 };
@@ -110,7 +112,7 @@ TEST(Ligament, KernelIsItsSlowTwin) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const PieceHold hold = wornRoots(seed);
     const PiecePose at = somewhere(seed);
-    const HoldSums fast = hold.sumsAt(at, nullptr, kTick_s);
+    const HoldSums fast = phantom::sumsAt(hold, at);
     const phantom::TwinSums slow = phantom::twinSums(hold, at, nullptr, kTick_s);
     EXPECT_NEAR(fast.energy / slow.energy, 1.0, 1e-5);
     double force = 0.0, stiffness = 0.0;
@@ -143,7 +145,7 @@ TEST(Ligament, GradientIsTheDifferenceOfTheEnergy) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     const PieceHold hold = wornRoots(seed);
     const PiecePose at = somewhere(seed + 100);
-    const HoldSums sums = hold.sumsAt(at, nullptr, kTick_s);
+    const HoldSums sums = phantom::sumsAt(hold, at);
     double largest = 0.0;
     for (const double slope : sums.gradient) largest = std::max(largest, std::abs(slope));
     for (std::size_t axis = 0; axis < 6; ++axis) {
@@ -176,10 +178,46 @@ TEST(Ligament, HalfTheSpacingHoldsTheSame) {
   EXPECT_NEAR(tilt[0], 4250.0, 200.0) << "as the reference has it";
 }
 
+/// Sums and what a tick leaves, as bytes.
+template <class Sum, class Age>
+std::vector<char> bytesOf(Sum sum, Age age, const PieceHold& hold, const PiecePose& at,
+                          const DistanceField* obstacles) {
+  const auto [law, samples, place] = hold.inputAt(at, obstacles, kTick_s);
+  LigamentMemory memory = hold.state().ligament;
+  const HoldSums sums = sum(law, samples, place);
+  const HoldAge aged =
+      age(law, samples, place,
+          {memory.torn.data(), memory.fluid_MPa.data(), memory.strain.data(), memory.widened_mm.data()});
+  std::vector<char> bytes(sizeof sums + sizeof aged);
+  std::memcpy(bytes.data(), &sums, sizeof sums);
+  std::memcpy(bytes.data() + sizeof sums, &aged, sizeof aged);
+  for (const auto* values : {&memory.torn, &memory.fluid_MPa, &memory.strain, &memory.widened_mm}) {
+    const char* first = static_cast<const char*>(static_cast<const void*>(values->data()));
+    bytes.insert(bytes.end(), first, first + values->size() * sizeof(float));
+  }
+  return bytes;
+}
+
 TEST(Ligament, EveryInstructionSetHasTheSameBits) {
-  using Sum = HoldSums (*)(const HoldConstants&, const HoldSamples&, const HoldPlace&) noexcept;
-  (void)static_cast<Sum>(&portable::sumHold);
-  SUCCEED();
+  const phantom::SocketScene scene = phantom::rootInSocket();
+  const DistanceField bone(scene.bone.grid, scene.bone.solid, 1.6);
+  PieceHold in_bone = scene.hold(bone);
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const PieceHold roots = wornRoots(seed);
+    const bool has_field = seed % 2 == 1;
+    const PieceHold& hold = has_field ? in_bone : roots;
+    const DistanceField* obstacles = has_field ? &bone : nullptr;
+    const PiecePose at = somewhere(seed);
+    const std::vector<char> bytes = bytesOf(&portable::sumHold, &portable::ageHold, hold, at, obstacles);
+#if defined(__x86_64__)
+    if (assets::available(assets::InstructionSet::avx2)) {
+      EXPECT_TRUE(bytesOf(&avx2::sumHold, &avx2::ageHold, hold, at, obstacles) == bytes) << seed;
+    }
+    if (assets::available(assets::InstructionSet::avx512)) {
+      EXPECT_TRUE(bytesOf(&avx512::sumHold, &avx512::ageHold, hold, at, obstacles) == bytes) << seed;
+    }
+#endif
+  }
 }
 
 }  // namespace
