@@ -38,8 +38,8 @@ struct HoldSums {
 };
 
 struct HoldAge {
-  double torn_mJ;    ///< by this tick
-  double stored_mJ;  ///< in fibres, wall and fluid
+  double torn_Nmm;    ///< by this tick
+  double stored_Nmm;  ///< in fibres, wall and fluid
   double torn_area_mm2;
 };
 

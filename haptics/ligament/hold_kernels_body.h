@@ -235,8 +235,8 @@ HoldAge ageLigament(const HoldConstants& constants, const HoldSamples& samples, 
   }
   HoldAge age{};
   for (int n = 0; n < kLanes; ++n) {
-    age.torn_mJ += static_cast<double>(torn[n]);
-    age.stored_mJ += static_cast<double>(stored[n]);
+    age.torn_Nmm += static_cast<double>(torn[n]);
+    age.stored_Nmm += static_cast<double>(stored[n]);
     age.torn_area_mm2 += static_cast<double>(torn_area[n]);
   }
   return age;

@@ -38,12 +38,12 @@ glm::dvec3 springForce_N(const PieceSpring& spring, const glm::dvec3& arm_mm, co
                          Balance& balance) noexcept {
   const double k = spring.stiffness_N_per_mm, most = spring.most_force_N, length_mm = glm::length(way_mm);
   if (k * length_mm <= most) {
-    balance.energy_mJ += 0.5 * k * length_mm * length_mm;
+    balance.energy_Nmm += 0.5 * k * length_mm * length_mm;
     balance.addForce(arm_mm, -k * way_mm, glm::dmat3(k));
     return k * way_mm;
   }
   const glm::dvec3 along = way_mm / length_mm;
-  balance.energy_mJ += most * length_mm - 0.5 * most * most / k;
+  balance.energy_Nmm += most * length_mm - 0.5 * most * most / k;
   balance.addForce(arm_mm, -most * along, most / length_mm * acrossOf(along));
   return most * along;
 }
@@ -51,7 +51,7 @@ glm::dvec3 springForce_N(const PieceSpring& spring, const glm::dvec3& arm_mm, co
 glm::dvec3 springTorque_Nmm(const PieceSpring& spring, const HalfTurn& turn, Balance& balance) noexcept {
   const double k = spring.stiffness_Nmm_per_rad, most = spring.most_torque_Nmm, sine = glm::length(turn.sine);
   if (2.0 * k * sine <= most) {
-    balance.energy_mJ += turnEnergy(k, turn);
+    balance.energy_Nmm += turnEnergy(k, turn);
     addTurn(-2.0 * k * turn.sine, glm::dmat3(k * turn.cosine), balance);
     return 2.0 * k * turn.sine;
   }
@@ -59,7 +59,7 @@ glm::dvec3 springTorque_Nmm(const PieceSpring& spring, const HalfTurn& turn, Bal
   const double bound = 0.5 * most / k, bound_cosine = std::sqrt(std::fmax(0.0, 1.0 - bound * bound));
   const double at_bound = 4.0 * k * bound * bound / (1.0 + bound_cosine);
   const glm::dvec3 axis = turn.sine / sine;
-  balance.energy_mJ += at_bound + 2.0 * most * (arcSineOf(std::fmin(1.0, sine)) - arcSineOf(bound));
+  balance.energy_Nmm += at_bound + 2.0 * most * (arcSineOf(std::fmin(1.0, sine)) - arcSineOf(bound));
   addTurn(-most * axis, 0.5 * most * turn.cosine / sine * acrossOf(axis), balance);
   return most * axis;
 }
@@ -104,24 +104,24 @@ void addDrag(const PiecePose& start_X_PQ, const PiecePose& X_PQ, const glm::dvec
              double lever_mm, Balance& balance) noexcept {
   const calibration::Point<calibration::Piece> centre{centre_Q_mm};
   const glm::dvec3 way_mm = (X_PQ * centre).mm - (start_X_PQ * centre).mm;
-  balance.energy_mJ += 0.5 * N_per_mm * glm::dot(way_mm, way_mm);
+  balance.energy_Nmm += 0.5 * N_per_mm * glm::dot(way_mm, way_mm);
   balance.addForce(glm::dvec3(0.0), N_per_mm * way_mm, glm::dmat3(N_per_mm));
 
   const HalfTurn turn = halfTurn(start_X_PQ.rotation, X_PQ.rotation);
-  const double Nmm_per_rad = N_per_mm * lever_mm * lever_mm;
-  balance.energy_mJ += turnEnergy(Nmm_per_rad, turn);
-  addTurn(2.0 * Nmm_per_rad * turn.sine, glm::dmat3(Nmm_per_rad * turn.cosine), balance);
+  const double turn_Nmm_per_rad = N_per_mm * lever_mm * lever_mm;
+  balance.energy_Nmm += turnEnergy(turn_Nmm_per_rad, turn);
+  addTurn(2.0 * turn_Nmm_per_rad * turn.sine, glm::dmat3(turn_Nmm_per_rad * turn.cosine), balance);
 }
 
 bool isUsable(const PieceDrive& drive) noexcept {
   const PieceSpring& spring = drive.spring;
-  const auto notNegative = [](double value) { return value >= 0.0; };  // nor not a number
+  const auto not_negative = [](double value) { return value >= 0.0; };  // nor not a number
   return calibration::isFinite(drive.force_N.xyz) && calibration::isFinite(drive.torque_Nmm.xyz) &&
          calibration::isFinite(drive.load_at_P.mm) && calibration::isFinite(spring.grip_Q.mm) &&
          isFinite(spring.target_X_PQ) && std::isfinite(spring.stiffness_N_per_mm) &&
-         std::isfinite(spring.stiffness_Nmm_per_rad) && notNegative(spring.stiffness_N_per_mm) &&
-         notNegative(spring.stiffness_Nmm_per_rad) && notNegative(spring.most_force_N) &&
-         notNegative(spring.most_torque_Nmm);
+         std::isfinite(spring.stiffness_Nmm_per_rad) && not_negative(spring.stiffness_N_per_mm) &&
+         not_negative(spring.stiffness_Nmm_per_rad) && not_negative(spring.most_force_N) &&
+         not_negative(spring.most_torque_Nmm);
 }
 
 }  // namespace haptics

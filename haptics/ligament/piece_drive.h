@@ -34,7 +34,7 @@ struct PieceDrive {
 
 /// Energy that a drive adds at a pose, its slope and curvature (positive or zero), about the piece's centre.
 struct Balance {
-  double energy_mJ = 0.0;
+  double energy_Nmm = 0.0;
   Six gradient{};
   SymmetricSix hessian;
 

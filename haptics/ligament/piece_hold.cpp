@@ -16,17 +16,17 @@ constexpr double kMostStep_mm = 0.2, kMostStep_rad = 0.04;
 constexpr double kBalanced_N = 5e-3;
 // Where the field's slope has kinks, at the faces of its cells, the least energy may lie on one with a residual left.
 /// What a step would still gain there is too little to matter,
-constexpr double kGain_mJ = 5e-7;
+constexpr double kGain_Nmm = 5e-7;
 /// or a step as short as this did not halve the residual: the pose is within it.
 constexpr double kKink_mm = 2e-3;
 
 float narrow(double value) { return static_cast<float>(value); }
 
 HoldConstants constantsOf(const LigamentLaw& law) {
-  const double wall = law.wall_MPa / law.wall_stiffening, end = exponentialOf(law.wall_stiffening);
-  const double peak = law.peakStress_MPa();
+  const double wall = law.wall_N_per_mm2 / law.wall_stiffening, end = exponentialOf(law.wall_stiffening);
+  const double peak = law.peakStress_N_per_mm2();
   HoldConstants c{};
-  c.fibre = narrow(law.fibre_MPa / law.fibre_stiffening);
+  c.fibre = narrow(law.fibre_N_per_mm2 / law.fibre_stiffening);
   c.stiffening = narrow(law.fibre_stiffening);
   c.peak_stretch = narrow(law.peak_stretch);
   c.peak_stress = narrow(peak);
@@ -34,13 +34,13 @@ HoldConstants constantsOf(const LigamentLaw& law) {
   c.shear = narrow(law.shear_weight);
   c.wall = narrow(wall);
   c.wall_stiffening = narrow(law.wall_stiffening);
-  c.wall_slope = narrow(law.wall_MPa);
+  c.wall_slope = narrow(law.wall_N_per_mm2);
   c.wall_end = narrow(wall * (end - 1.0));
-  c.wall_end_slope = narrow(law.wall_MPa * end);
-  c.fluid = narrow(law.fluid_MPa);
-  c.contact = narrow(law.contact_MPa_per_mm);
+  c.wall_end_slope = narrow(law.wall_N_per_mm2 * end);
+  c.fluid = narrow(law.fluid_N_per_mm2);
+  c.contact = narrow(law.contact_N_per_mm3);
   c.creep_floor = narrow(law.creep_floor);
-  c.yield = narrow(law.yield_MPa);
+  c.yield = narrow(law.yield_N_per_mm2);
   return c;
 }
 
@@ -81,7 +81,7 @@ void copyInto(const std::vector<float>& from, std::vector<float>& to) noexcept {
 struct PieceHold::Tried {
   PiecePose X_PQ;
   Balance balance{};
-  double residual_N = 0.0, contact_mJ = 0.0;
+  double residual_N = 0.0, contact_Nmm = 0.0;
   Wrench<calibration::Patient> spring{};
 };
 
@@ -98,7 +98,7 @@ HoldConstants PieceHold::constantsFor(double period_s) const noexcept {
   HoldConstants c = constants_;
   c.fluid_kept = narrow(1.0 / (1.0 + period_s / law_.fluid_relaxation_s));
   c.creep = narrow(period_s / law_.creep_s);
-  c.widening = narrow(period_s / law_.yield_MPa_s_per_mm);
+  c.widening = narrow(period_s / law_.yield_Ns_per_mm3);
   return c;
 }
 
@@ -110,7 +110,7 @@ HoldSamples PieceHold::view() const noexcept {
           s.normal[1].data(),        s.normal[2].data(),
           s.area_mm2.data(),         s.width_mm.data(),
           s.rest_gap_mm.data(),      m.torn.data(),
-          m.fluid_MPa.data(),        m.strain.data(),
+          m.fluid_N_per_mm2.data(),  m.strain.data(),
           m.widened_mm.data(),       static_cast<int>(s.ligament),
           static_cast<int>(s.size())};
 }
@@ -152,17 +152,17 @@ PieceHold::Tried PieceHold::tryAt(const PiecePose& X_PQ, const HoldConstants& co
   const HoldSums sums = sumHold(constants, view(), placeAt(X_PQ, obstacles));
   Tried tried{.X_PQ = X_PQ};
   Balance& balance = tried.balance;
-  balance.energy_mJ = sums.energy;
+  balance.energy_Nmm = sums.energy;
   std::copy(std::begin(sums.gradient), std::end(sums.gradient), balance.gradient.begin());
   std::copy(std::begin(sums.hessian), std::end(sums.hessian), balance.hessian.upper.begin());
-  tried.contact_mJ = sums.contact_energy;
+  tried.contact_Nmm = sums.contact_energy;
 
   // The load's work along the way and, to second order, the turn of this tick.
   const glm::dvec3& centre_Q_mm = samples_.centre_Q_mm;
   const calibration::Point<calibration::Piece> centre{centre_Q_mm};
   const glm::dquat turn = X_PQ.rotation * glm::conjugate(state_.X_PQ.rotation);
   const glm::dvec3 way_mm = (X_PQ * centre).mm - (state_.X_PQ * centre).mm;
-  balance.energy_mJ -=
+  balance.energy_Nmm -=
       glm::dot(drive.force_N.xyz, way_mm) + 2.0 * glm::dot(drive.torque_Nmm.xyz, glm::dvec3(turn.x, turn.y, turn.z));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     balance.gradient[axis] -= drive.force_N.xyz[static_cast<int>(axis)];
@@ -182,7 +182,7 @@ PieceHold::Tried PieceHold::settle(const HoldConstants& constants, const Distanc
     Six down{}, step{};
     for (std::size_t n = 0; n < 6; ++n) down[n] = -best.balance.gradient[n];
     if (!isFinite(down) || !solve(best.balance.hessian, down, step)) break;
-    if (0.5 * std::inner_product(down.begin(), down.end(), step.begin(), 0.0) < kGain_mJ) return best;
+    if (0.5 * std::inner_product(down.begin(), down.end(), step.begin(), 0.0) < kGain_Nmm) return best;
     limit(step);
 
     // A step is taken if energy or residual falls, else halved.
@@ -192,7 +192,7 @@ PieceHold::Tried PieceHold::settle(const HoldConstants& constants, const Distanc
       const Tried next =
           tryAt(moved(best.X_PQ, samples_.centre_Q_mm, step), constants, obstacles, drive, drag_N_per_mm);
       ++tick.evaluations;
-      is_taken = next.balance.energy_mJ <= best.balance.energy_mJ || next.residual_N < best.residual_N;
+      is_taken = next.balance.energy_Nmm <= best.balance.energy_Nmm || next.residual_N < best.residual_N;
       if (is_taken) best = next;
       for (double& part : step) part *= 0.5;
     }
@@ -221,11 +221,11 @@ HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles
   tick.residual_N = end.residual_N;
 
   LigamentMemory& ligament = state_.ligament;
-  const HoldAge age =
-      ageHold(constants, view(), placeAt(end.X_PQ, obstacles),
-              {ligament.torn.data(), ligament.fluid_MPa.data(), ligament.strain.data(), ligament.widened_mm.data()});
-  tick.torn_mJ = age.torn_mJ;
-  tick.stored_mJ = age.stored_mJ + end.contact_mJ;
+  const HoldAge age = ageHold(
+      constants, view(), placeAt(end.X_PQ, obstacles),
+      {ligament.torn.data(), ligament.fluid_N_per_mm2.data(), ligament.strain.data(), ligament.widened_mm.data()});
+  tick.torn_Nmm = age.torn_Nmm;
+  tick.stored_Nmm = age.stored_Nmm + end.contact_Nmm;
   tick.torn_share = ligament_area_mm2_ > 0.0 ? age.torn_area_mm2 / ligament_area_mm2_ : 1.0;
   return tick;
 }
@@ -233,7 +233,7 @@ HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles
 void PieceHold::restore(const PieceState& state) noexcept {
   state_.X_PQ = state.X_PQ;
   copyInto(state.ligament.torn, state_.ligament.torn);
-  copyInto(state.ligament.fluid_MPa, state_.ligament.fluid_MPa);
+  copyInto(state.ligament.fluid_N_per_mm2, state_.ligament.fluid_N_per_mm2);
   copyInto(state.ligament.strain, state_.ligament.strain);
   copyInto(state.ligament.widened_mm, state_.ligament.widened_mm);
 }

@@ -1,8 +1,9 @@
 // One piece of tooth held in its socket: where it goes in a tick under what drives it, against ligament, bone and
 // neighbours. Quasi-static: the pose of least energy, found by Newton steps with drag; then fibres tear and creep,
-// fluid flows, the socket widens. Frames P (obstacles) and Q (piece; at rest Q lies on P). mm, N, N mm, mJ, s. Servo
-// thread: no allocation, lock or clock in step(); bounded by 6 evaluations of all samples, 15 to 40 µs for 2000. A pure
-// function of state and inputs, the same bits on every machine. Method: reference/extraction 3.2 to 3.4.
+// fluid flows, the socket widens. Frames P (obstacles) and Q (piece; at rest Q lies on P). mm, N, N mm (energies too:
+// mJ), s. Servo thread: no allocation, lock or clock in step(); bounded by 6 evaluations of all samples, 15 to 40 µs
+// for 2000. A pure function of state and inputs, the same bits on every machine. Method: reference/extraction 3.2
+// to 3.4.
 #pragma once
 
 #include "haptics/body/distance_field.h"
@@ -21,8 +22,8 @@ struct PieceState {
 struct HoldTick {
   PiecePose X_PQ;
   Wrench<calibration::Patient> on_hand{};  ///< of the spring, torque about its grip
-  double torn_mJ = 0.0;                    ///< by this tick
-  double stored_mJ = 0.0;                  ///< in ligament and contact, after it
+  double torn_Nmm = 0.0;                   ///< by this tick
+  double stored_Nmm = 0.0;                 ///< in ligament and contact, after it
   double torn_share = 0.0;                 ///< of the ligament's area, 1 without ligament
   double residual_N = 0.0;                 ///< largest force, or torque over the lever, that is not balanced
   int evaluations = 0;

@@ -46,15 +46,15 @@ PieceSamples arranged(const std::vector<SamplePoint>& points) {
   if (area_mm2 > 0.0) samples.centre_Q_mm /= area_mm2;
 
   // Padding lies at the centre, where no bone is, and has no area.
-  const auto addGroup = [&](bool has_ligament) {
+  const auto add_group = [&](bool has_ligament) {
     for (const SamplePoint& point : points)
       if (point.has_ligament == has_ligament) append(samples, point);
     const SamplePoint padding{.p_Q_mm = samples.centre_Q_mm, .rest_gap_mm = -1e3};
     while (samples.size() % kSampleLanes != 0) append(samples, padding);
   };
-  addGroup(true);
+  add_group(true);
   samples.ligament = samples.size();
-  addGroup(false);
+  add_group(false);
   assert(samples.size() <= kMostSamples);
   return samples;
 }

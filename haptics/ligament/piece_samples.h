@@ -35,10 +35,10 @@ struct PieceSamples {
 
 /// What the ligament's samples remember, beside the pose of the piece. 0 at rest.
 struct LigamentMemory {
-  std::vector<float> torn;        ///< share 0..1; only grows
-  std::vector<float> fluid_MPa;   ///< stress of the Maxwell branch
-  std::vector<float> strain;      ///< along the normal at the last tick
-  std::vector<float> widened_mm;  ///< the socket's wall, for good
+  std::vector<float> torn;             ///< share 0..1; only grows
+  std::vector<float> fluid_N_per_mm2;  ///< stress of the Maxwell branch
+  std::vector<float> strain;           ///< along the normal at the last tick
+  std::vector<float> widened_mm;       ///< the socket's wall, for good
 };
 
 struct SamplePoint {

@@ -47,9 +47,9 @@ TEST(LigamentContact, BoxOnAPlaneSinksByForceOverStiffness) {
   for (int n = 0; n < 300; ++n) tick = hold.step(drive, &plane, kTick_s);
   const double rest_z_mm = plane.at_mm({0.1, 0.1, -3.0});
   EXPECT_NEAR(rest_z_mm, 0.0, 1e-3) << "the plane lies where it was said to";
-  const double depth_mm = 10.0 / (LigamentLaw{}.contact_MPa_per_mm * 16.0);
+  const double depth_mm = 10.0 / (LigamentLaw{}.contact_N_per_mm3 * 16.0);
   EXPECT_NEAR(-tick.X_PQ.translation_mm.z / depth_mm, 1.0, 0.01);
-  EXPECT_NEAR(tick.stored_mJ, 0.5 * 10.0 * depth_mm, 0.01 * depth_mm * 10.0);
+  EXPECT_NEAR(tick.stored_Nmm, 0.5 * 10.0 * depth_mm, 0.01 * depth_mm * 10.0);
 }
 
 TEST(LigamentContact, SlotCentresAPieceThatIsTooWide) {
@@ -66,7 +66,7 @@ TEST(LigamentContact, SlotCentresAPieceThatIsTooWide) {
   EXPECT_NEAR(tick.X_PQ.translation_mm.x, 0.0, 0.02 * kOver_mm);
   // Both walls press alike: energy of two springs.
   const double depth_mm = kOver_mm / 2.0, stiffness = 50.0 * 16.0;
-  EXPECT_NEAR(tick.stored_mJ / (stiffness * depth_mm * depth_mm), 1.0, 0.05);
+  EXPECT_NEAR(tick.stored_Nmm / (stiffness * depth_mm * depth_mm), 1.0, 0.05);
 }
 
 TEST(LigamentContact, RestIsFreeOfForceWithBoneAllAround) {

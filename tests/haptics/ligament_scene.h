@@ -130,10 +130,10 @@ class RandomHand {
 };
 
 /// A hold that pulls towards z without a turn.
-inline PieceDrive pulledUp(double to_mm, double N_per_mm = 5e3, double Nmm_per_rad = 1e7) {
+inline PieceDrive pulledUp(double to_mm, double N_per_mm = 5e3, double turn_Nmm_per_rad = 1e7) {
   PieceDrive drive;
   drive.spring.stiffness_N_per_mm = N_per_mm;
-  drive.spring.stiffness_Nmm_per_rad = Nmm_per_rad;
+  drive.spring.stiffness_Nmm_per_rad = turn_Nmm_per_rad;
   drive.spring.target_X_PQ.translation_mm.z = to_mm;
   return drive;
 }

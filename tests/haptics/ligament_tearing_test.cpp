@@ -14,15 +14,15 @@ PieceHold freshRoots(const LigamentLaw& law = {}) { return {arranged(phantom::tw
 /// Neither fluid nor creep nor yield.
 LigamentLaw elasticLaw() {
   LigamentLaw law;
-  law.fluid_MPa = 0.0;
+  law.fluid_N_per_mm2 = 0.0;
   law.creep_s = 1e9;
-  law.yield_MPa = 1e9;
+  law.yield_N_per_mm2 = 1e9;
   law.drag_Ns_per_mm = 1e-4;
   return law;
 }
 
 struct Pull {
-  double most_N = 0.0, work_mJ = 0.0, torn_mJ = 0.0, stored_mJ = 0.0;
+  double most_N = 0.0, work_Nmm = 0.0, torn_Nmm = 0.0, stored_Nmm = 0.0;
 };
 
 /// Straight up at 0.5 mm/s to 0.9 mm, guided.
@@ -32,12 +32,12 @@ Pull pulled(PieceHold hold, double period_s) {
   for (double to_mm = 0.0; to_mm < 0.9; to_mm += 0.5 * period_s) {
     const HoldTick tick = hold.step(phantom::pulledUp(to_mm), nullptr, period_s);
     const double now_N = -tick.on_hand.force_N.xyz.z;
-    pull.work_mJ += 0.5 * (now_N + force_N) * (tick.X_PQ.translation_mm.z - z_mm);
+    pull.work_Nmm += 0.5 * (now_N + force_N) * (tick.X_PQ.translation_mm.z - z_mm);
     force_N = now_N;
     z_mm = tick.X_PQ.translation_mm.z;
     pull.most_N = std::max(pull.most_N, now_N);
-    pull.torn_mJ += tick.torn_mJ;
-    pull.stored_mJ = tick.stored_mJ;
+    pull.torn_Nmm += tick.torn_Nmm;
+    pull.stored_Nmm = tick.stored_Nmm;
   }
   return pull;
 }
@@ -46,14 +46,14 @@ TEST(LigamentTearing, TakesTheEnergyOfItsLawAndOfItsHand) {
   const PieceHold hold = freshRoots(elasticLaw());
   const double area_mm2 = hold.samples().ligamentArea_mm2();
   const Pull pull = pulled(hold, 1e-3);
-  EXPECT_NEAR((pull.torn_mJ + pull.stored_mJ) / pull.work_mJ, 1.0, 0.01);
-  EXPECT_NEAR(pull.torn_mJ / (LigamentLaw{}.tearEnergy_mJ_per_mm2(0.2) * area_mm2), 1.0, 0.01);
+  EXPECT_NEAR((pull.torn_Nmm + pull.stored_Nmm) / pull.work_Nmm, 1.0, 0.01);
+  EXPECT_NEAR(pull.torn_Nmm / (LigamentLaw{}.tearEnergy_Nmm_per_mm2(0.2) * area_mm2), 1.0, 0.01);
   EXPECT_NEAR(area_mm2, 248.0, 1.5);
 }
 
 TEST(LigamentTearing, HoldsItsPeakStressOverItsArea) {
   const PieceHold hold = freshRoots(elasticLaw());
-  const double most_N = LigamentLaw{}.peakStress_MPa() * hold.samples().ligamentArea_mm2();
+  const double most_N = LigamentLaw{}.peakStress_N_per_mm2() * hold.samples().ligamentArea_mm2();
   EXPECT_NEAR(pulled(hold, 1e-3).most_N / most_N, 1.0, 0.01);
 }
 
@@ -62,8 +62,8 @@ TEST(LigamentTearing, IsTheSameCurveAtEveryRate) {
   for (const double period_s : {4e-3, 2e-3, 0.5e-3, 0.25e-3}) {
     const Pull pull = pulled(freshRoots(), period_s);
     EXPECT_NEAR(pull.most_N / usual.most_N, 1.0, 0.02) << period_s;
-    EXPECT_NEAR(pull.torn_mJ / usual.torn_mJ, 1.0, 0.02) << period_s;
-    EXPECT_NEAR(pull.work_mJ / usual.work_mJ, 1.0, 0.02) << period_s;
+    EXPECT_NEAR(pull.torn_Nmm / usual.torn_Nmm, 1.0, 0.02) << period_s;
+    EXPECT_NEAR(pull.work_Nmm / usual.work_Nmm, 1.0, 0.02) << period_s;
   }
 }
 
@@ -125,7 +125,7 @@ TEST(LigamentTearing, NoClosedWayOfTheHandGainsEnergy) {
   const phantom::SocketScene scene = phantom::rootInSocket();
   const DistanceField bone(scene.bone.grid, scene.bone.solid, 1.6);
   std::mt19937 random(11);
-  double least_mJ = 0.0;
+  double least_Nmm = 0.0;
   int ticks = 0, unsettled = 0;
   for (int loop = 0; loop < 60; ++loop) {
     const bool in_bone = loop % 2 == 1;
@@ -135,7 +135,7 @@ TEST(LigamentTearing, NoClosedWayOfTheHandGainsEnergy) {
     PieceDrive drive;
     drive.spring.stiffness_N_per_mm = 300.0;
     drive.spring.stiffness_Nmm_per_rad = 1e4;
-    double work_mJ = 0.0, torn_mJ = 0.0;
+    double work_Nmm = 0.0, torn_Nmm = 0.0;
     Wrench<calibration::Patient> before{};
     constexpr int kTicks = 400;
     for (int n = 1; n <= kTicks; ++n, ++ticks) {
@@ -144,17 +144,17 @@ TEST(LigamentTearing, NoClosedWayOfTheHandGainsEnergy) {
       const HoldTick tick = hold.step(drive, in_bone ? &bone : nullptr, 1e-3);
       const glm::dquat turn = drive.spring.target_X_PQ.rotation * glm::conjugate(from.rotation);
       // What the hand does on the spring's other end.
-      work_mJ -= 0.5 * glm::dot(tick.on_hand.force_N.xyz + before.force_N.xyz,
-                                drive.spring.target_X_PQ.translation_mm - from.translation_mm) +
-                 glm::dot(tick.on_hand.torque_Nmm.xyz + before.torque_Nmm.xyz, glm::dvec3(turn.x, turn.y, turn.z));
+      work_Nmm -= 0.5 * glm::dot(tick.on_hand.force_N.xyz + before.force_N.xyz,
+                                 drive.spring.target_X_PQ.translation_mm - from.translation_mm) +
+                  glm::dot(tick.on_hand.torque_Nmm.xyz + before.torque_Nmm.xyz, glm::dvec3(turn.x, turn.y, turn.z));
       before = tick.on_hand;
-      torn_mJ += tick.torn_mJ;
+      torn_Nmm += tick.torn_Nmm;
       unsettled += tick.unsettled ? 1 : 0;
-      EXPECT_GE(tick.torn_mJ, 0.0);
+      EXPECT_GE(tick.torn_Nmm, 0.0);
     }
-    least_mJ = std::min(least_mJ, work_mJ - 0.95 * torn_mJ);
+    least_Nmm = std::min(least_Nmm, work_Nmm - 0.95 * torn_Nmm);
   }
-  EXPECT_GE(least_mJ, -0.05);
+  EXPECT_GE(least_Nmm, -0.05);
   EXPECT_LE(unsettled, ticks / 1000) << "of " << ticks;
 }
 
@@ -229,7 +229,7 @@ TEST(LigamentTearing, RestoredStateGoesOnWithTheSameBits) {
   const HoldTick again = hold.step(phantom::pulledUp(0.25), nullptr, 1e-3);
   EXPECT_EQ(once.X_PQ.translation_mm, again.X_PQ.translation_mm);
   EXPECT_EQ(once.X_PQ.rotation, again.X_PQ.rotation);
-  EXPECT_EQ(once.torn_mJ, again.torn_mJ);
+  EXPECT_EQ(once.torn_Nmm, again.torn_Nmm);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ constexpr double kTick_s = 1e-3;
 /// Linear about rest, and alike for pulling and pressing.
 LigamentLaw linearLaw() {
   LigamentLaw law;
-  law.wall_MPa = law.fibre_MPa;
-  law.fluid_MPa = 0.0;
+  law.wall_N_per_mm2 = law.fibre_N_per_mm2;
+  law.fluid_N_per_mm2 = 0.0;
   law.shear_weight = 0.4;
   law.drag_Ns_per_mm = 1e-4;
   return law;
@@ -29,7 +29,7 @@ struct Cylinder {
   static constexpr double kRadius_mm = 3.0, kLength_mm = 12.0, kWidth_mm = 0.2;
   PieceHold hold{arranged(phantom::cylinder(kRadius_mm, kLength_mm, 0.25, kWidth_mm)), linearLaw()};
   double area_mm2 = 2.0 * std::numbers::pi * kRadius_mm * kLength_mm;
-  double normal = hold.law().fibre_MPa / kWidth_mm, shear = normal * hold.law().shear_weight;
+  double normal = hold.law().fibre_N_per_mm2 / kWidth_mm, shear = normal * hold.law().shear_weight;
   double lateral = area_mm2 * (normal + shear) / 2.0;
   double tilt =
       area_mm2 * ((normal + shear) / 2.0 * kLength_mm * kLength_mm / 12.0 + shear * kRadius_mm * kRadius_mm / 2.0);
@@ -44,18 +44,18 @@ struct Cylinder {
 
 TEST(Ligament, LawHasTheClosedFormsOfItsReference) {
   const LigamentLaw law;
-  EXPECT_NEAR(law.peakStress_MPa(), 2.436, 1e-3);
-  EXPECT_NEAR(law.tearEnergy_mJ_per_mm2(0.2), 0.367, 1e-3);
+  EXPECT_NEAR(law.peakStress_N_per_mm2(), 2.436, 1e-3);
+  EXPECT_NEAR(law.tearEnergy_Nmm_per_mm2(0.2), 0.367, 1e-3);
 }
 
 TEST(Ligament, LawBringsWhatItCannotBearWithinBounds) {
   LigamentLaw law;
-  law.fibre_MPa = std::nan("");
+  law.fibre_N_per_mm2 = std::nan("");
   law.wall_stiffening = 1e9;
   law.peak_stretch = -3.0;
   law.torn_stretch = 0.0;
   const LigamentLaw tamed = law.sanitised();
-  EXPECT_EQ(tamed.fibre_MPa, LigamentLaw{}.fibre_MPa);
+  EXPECT_EQ(tamed.fibre_N_per_mm2, LigamentLaw{}.fibre_N_per_mm2);
   EXPECT_LE(tamed.wall_stiffening, 8.0);
   EXPECT_GT(tamed.torn_stretch, tamed.peak_stretch);
   EXPECT_EQ(LigamentLaw{}.sanitised(), LigamentLaw{}) << "the defaults are within";
@@ -94,7 +94,7 @@ PieceHold wornRoots(unsigned seed) {
   PieceHold hold(arranged(phantom::twoRoots(0.6)), LigamentLaw{});
   PieceState state = hold.state();
   for (float& torn : state.ligament.torn) torn = share(random);
-  for (float& fluid : state.ligament.fluid_MPa) fluid = small(random);
+  for (float& fluid : state.ligament.fluid_N_per_mm2) fluid = small(random);
   for (float& strain : state.ligament.strain) strain = small(random);
   for (float& widened : state.ligament.widened_mm) widened = std::abs(small(random));
   hold.restore(state);
@@ -187,11 +187,11 @@ std::vector<char> bytesOf(Sum sum, Age age, const PieceHold& hold, const PiecePo
   const HoldSums sums = sum(law, samples, place);
   const HoldAge aged =
       age(law, samples, place,
-          {memory.torn.data(), memory.fluid_MPa.data(), memory.strain.data(), memory.widened_mm.data()});
+          {memory.torn.data(), memory.fluid_N_per_mm2.data(), memory.strain.data(), memory.widened_mm.data()});
   std::vector<char> bytes(sizeof sums + sizeof aged);
   std::memcpy(bytes.data(), &sums, sizeof sums);
   std::memcpy(bytes.data() + sizeof sums, &aged, sizeof aged);
-  for (const auto* values : {&memory.torn, &memory.fluid_MPa, &memory.strain, &memory.widened_mm}) {
+  for (const auto* values : {&memory.torn, &memory.fluid_N_per_mm2, &memory.strain, &memory.widened_mm}) {
     const char* first = static_cast<const char*>(static_cast<const void*>(values->data()));
     bytes.insert(bytes.end(), first, first + values->size() * sizeof(float));
   }

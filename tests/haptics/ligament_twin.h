@@ -49,7 +49,7 @@ inline TwinSums twinSums(const PieceHold& hold, const PiecePose& X_PQ, const Dis
     }
     if (n >= s.ligament) {
       if (obstacles == nullptr || depth <= 0.0) continue;
-      const double k = law.contact_MPa_per_mm * A;
+      const double k = law.contact_N_per_mm3 * A;
       sums.energy += 0.5 * k * depth * depth;
       addTwinForce(sums, r, k * depth * in, k * glm::outerProduct(in, in));
       continue;
@@ -57,27 +57,27 @@ inline TwinSums twinSums(const PieceHold& hold, const PiecePose& X_PQ, const Dis
 
     const double whole = 1.0 - wide(memory.torn[n]);
     const double un = glm::dot(u, normal), open = un < 0.0 ? 1.0 : 0.0;
-    const glm::dmat3 P2 = law.shear_weight * (glm::dmat3(1.0) - glm::outerProduct(normal, normal)) +
-                          open * glm::outerProduct(normal, normal);
-    const double way = std::sqrt(std::max(glm::dot(u, P2 * u), 1e-12)), stretch = way / t;
+    const glm::dmat3 projection = law.shear_weight * (glm::dmat3(1.0) - glm::outerProduct(normal, normal)) +
+                                  open * glm::outerProduct(normal, normal);
+    const double way = std::sqrt(std::max(glm::dot(u, projection * u), 1e-12)), stretch = way / t;
     const double low = std::min(stretch, law.peak_stretch), e = std::exp(law.fibre_stiffening * low);
-    const double scale = law.fibre_MPa / law.fibre_stiffening, stress = scale * (e - 1.0);
-    const double slope = stretch > low ? 0.0 : law.fibre_MPa * e;
+    const double scale = law.fibre_N_per_mm2 / law.fibre_stiffening, stress = scale * (e - 1.0);
+    const double slope = stretch > low ? 0.0 : law.fibre_N_per_mm2 * e;
     sums.energy += A * t * whole * (scale * ((e - 1.0) / law.fibre_stiffening - low) + stress * (stretch - low));
-    const glm::dvec3 m = P2 * u / way;
+    const glm::dvec3 m = projection * u / way;
     addTwinForce(sums, r, A * whole * stress * m,
-                 A * whole * (stress / way * P2 + (slope / t - stress / way) * glm::outerProduct(m, m)));
+                 A * whole * (stress / way * projection + (slope / t - stress / way) * glm::outerProduct(m, m)));
 
     const double kept = whole / (1.0 + period_s / law.fluid_relaxation_s), change = un / t - wide(memory.strain[n]);
-    const double q = wide(memory.fluid_MPa[n]);
-    sums.energy += A * t * kept * (q + 0.5 * law.fluid_MPa * change) * change;
-    addTwinForce(sums, r, A * kept * (q + law.fluid_MPa * change) * normal,
-                 A * kept * law.fluid_MPa / t * glm::outerProduct(normal, normal));
+    const double q = wide(memory.fluid_N_per_mm2[n]);
+    sums.energy += A * t * kept * (q + 0.5 * law.fluid_N_per_mm2 * change) * change;
+    addTwinForce(sums, r, A * kept * (q + law.fluid_N_per_mm2 * change) * normal,
+                 A * kept * law.fluid_N_per_mm2 / t * glm::outerProduct(normal, normal));
 
     const double strain = (depth - wide(memory.widened_mm[n])) / t;
     if (strain <= 0.0) continue;
     const double within = std::min(strain, 1.0), past = strain - within, w = std::exp(law.wall_stiffening * within);
-    const double wall = law.wall_MPa / law.wall_stiffening, end_slope = law.wall_MPa * w;
+    const double wall = law.wall_N_per_mm2 / law.wall_stiffening, end_slope = law.wall_N_per_mm2 * w;
     const double pressure = wall * (w - 1.0) + (past > 0.0 ? end_slope * past : 0.0);
     sums.energy +=
         A * t *
