@@ -29,6 +29,7 @@ double p10_us(int times, Work work) {
   return us[us.size() / 10];
 }
 
+void benchLigament();
 void benchPieces();
 void benchWayOut();
 
@@ -36,7 +37,8 @@ struct ExtractionPart {
   std::string_view name;
   void (*run)();
 };
-inline constexpr std::array kExtractionParts{ExtractionPart{"pieces", benchPieces},
+inline constexpr std::array kExtractionParts{ExtractionPart{"ligament", benchLigament},
+                                             ExtractionPart{"pieces", benchPieces},
                                              ExtractionPart{"way-out", benchWayOut}};
 
 }  // namespace bench
