@@ -39,10 +39,19 @@ void lookAround(const HoldPlace& place, Row& __restrict row) {
     y[n] = cell.y;
     z[n] = cell.z;
   }
-  for (int c = 0; c < 8; ++c) {
-    const float* distance = place.distance + (c & 1) + place.size[0] * ((c >> 1 & 1) + place.size[1] * (c >> 2));
-    for (int n = 0; n < kLanes; ++n) corner[c][n] = distance[at[n]];
-  }
+  const int row_step = place.size[0], layer_step = place.size[0] * place.size[1];
+  const auto gather = [&](int offset, float* __restrict to) {
+    const float* distance = place.distance + offset;
+    for (int n = 0; n < kLanes; ++n) to[n] = distance[at[n]];
+  };
+  gather(0, corner[0]);
+  gather(1, corner[1]);
+  gather(row_step, corner[2]);
+  gather(row_step + 1, corner[3]);
+  gather(layer_step, corner[4]);
+  gather(layer_step + 1, corner[5]);
+  gather(layer_step + row_step, corner[6]);
+  gather(layer_step + row_step + 1, corner[7]);
   for (int n = 0; n < kLanes; ++n) {
     const Nearby near = nearbyIn(place.per_mm, {at[n], x[n], y[n], z[n]}, corner[0][n], corner[1][n], corner[2][n],
                                  corner[3][n], corner[4][n], corner[5][n], corner[6][n], corner[7][n]);
@@ -190,56 +199,72 @@ void sumContact(const HoldConstants& law, const HoldSamples& samples, const Hold
   sums.contact_energy = sums.energy - before;
 }
 
+/// What sixteen samples remember, and what they add to the sums.
+struct RowAge {
+  float torn[kLanes], fluid[kLanes], strain[kLanes], widened[kLanes];
+  float torn_Nmm[kLanes], stored_Nmm[kLanes], torn_area[kLanes];
+};
+
 template <bool kHasField>
-HoldAge ageLigament(const HoldConstants& constants, const HoldSamples& samples, const HoldPlace& where,
-                    const HoldMemory& memory) {
-  const HoldConstants law = constants;
-  const HoldSamples s = samples;
-  const HoldPlace place = where;
+void ageRow(const HoldConstants& law, const HoldSamples& s, int first, const Row& row, RowAge& __restrict age) {
   const float per_peak = 1.0f / law.peak_stress, per_fluid = law.fluid > 0.0f ? 0.5f / law.fluid : 0.0f;
-  alignas(64) float torn[kLanes] = {}, stored[kLanes] = {}, torn_area[kLanes] = {};
+  const float* __restrict nx = s.nx + first, * __restrict ny = s.ny + first, * __restrict nz = s.nz + first;
+  const float* __restrict areas = s.area + first, * __restrict widths = s.width + first;
+  const float* __restrict rest_gap = s.rest_gap + first;
+  const float creep = law.creep, creep_floor = law.creep_floor;
+  for (int n = 0; n < kLanes; ++n) {
+    const float x = row.by[0][n], y = row.by[1][n], z = row.by[2][n];
+    const float per_width = 1.0f / widths[n], area = areas[n], volume = area * widths[n];
+    const float along = x * nx[n] + y * ny[n] + z * nz[n], open = lesser(along, 0.0f);
+    const float across2 = x * x + y * y + z * z - along * along;
+    const float stretch = __builtin_sqrtf(greater(law.shear * across2 + open * open, 0.0f)) * per_width;
+
+    // Torn by stretch beyond the peak, or in time below it.
+    const Stressed fibre = fibresAt(law, stretch);
+    const float load = fibre.stress * per_peak, load2 = load * load;
+    const float crept = (load > creep_floor ? creep : 0.0f) * (load2 * load2 * load2);
+    const float before = age.torn[n];
+    const float after = lesser(greater(before, (stretch - law.peak_stretch) * law.per_softening) + crept, 1.0f);
+    age.torn_Nmm[n] += volume * fibre.energy * (after - before);
+    age.torn_area[n] += area * after;
+    age.torn[n] = after;
+
+    const float strain = along * per_width;
+    const float fluid = (age.fluid[n] + law.fluid * (strain - age.strain[n])) * law.fluid_kept * (1.0f - before);
+    age.fluid[n] = fluid;
+    age.strain[n] = strain;
+
+    const float depth = (kHasField ? rest_gap[n] - row.gap[n] : along) - age.widened[n];
+    const Stressed wall = wallAt(law, depth * per_width);
+    age.widened[n] += law.widening * greater(wall.stress - law.yield, 0.0f);
+    age.stored_Nmm[n] += volume * ((1.0f - after) * fibre.energy + wall.energy + per_fluid * fluid * fluid);
+  }
+}
+
+template <bool kHasField>
+HoldAge ageLigament(const HoldConstants& law, const HoldSamples& s, const HoldPlace& place, const HoldMemory& memory) {
   alignas(64) Row row;
+  alignas(64) RowAge age{};
   for (int first = 0; first < s.ligament; first += kLanes) {
     place16(s, place, first, row);
     if constexpr (kHasField) lookAround(place, row);
-    float* __restrict torn_to = memory.torn + first, * __restrict fluid_to = memory.fluid + first;
-    float* __restrict strain_to = memory.strain + first, * __restrict widened_to = memory.widened + first;
-    for (int n = 0; n < kLanes; ++n) {
-      const int v = first + n;
-      const Three u = {row.by[0][n], row.by[1][n], row.by[2][n]};
-      const float per_width = 1.0f / s.width[v], area = s.area[v], volume = area * s.width[v];
-      const float along = u.x * s.nx[v] + u.y * s.ny[v] + u.z * s.nz[v], open = lesser(along, 0.0f);
-      const float across2 = u.x * u.x + u.y * u.y + u.z * u.z - along * along;
-      const float stretch = __builtin_sqrtf(greater(law.shear * across2 + open * open, 0.0f)) * per_width;
-
-      // Torn by stretch beyond the peak, or in time below it.
-      const Stressed fibre = fibresAt(law, stretch);
-      const float load = fibre.stress * per_peak, load2 = load * load;
-      const float crept = (load > law.creep_floor ? law.creep : 0.0f) * (load2 * load2 * load2);
-      const float before = torn_to[n];
-      const float after = lesser(greater(before, (stretch - law.peak_stretch) * law.per_softening) + crept, 1.0f);
-      torn[n] += volume * fibre.energy * (after - before);
-      torn_area[n] += area * after;
-      torn_to[n] = after;
-
-      const float strain = along * per_width;
-      const float fluid = (fluid_to[n] + law.fluid * (strain - strain_to[n])) * law.fluid_kept * (1.0f - before);
-      fluid_to[n] = fluid;
-      strain_to[n] = strain;
-
-      const float depth = (kHasField ? s.rest_gap[v] - row.gap[n] : along) - widened_to[n];
-      const Stressed wall = wallAt(law, depth * per_width);
-      widened_to[n] += law.widening * greater(wall.stress - law.yield, 0.0f);
-      stored[n] += volume * ((1.0f - after) * fibre.energy + wall.energy + per_fluid * fluid * fluid);
-    }
+    for (int n = 0; n < kLanes; ++n) age.torn[n] = memory.torn[first + n];
+    for (int n = 0; n < kLanes; ++n) age.fluid[n] = memory.fluid[first + n];
+    for (int n = 0; n < kLanes; ++n) age.strain[n] = memory.strain[first + n];
+    for (int n = 0; n < kLanes; ++n) age.widened[n] = memory.widened[first + n];
+    ageRow<kHasField>(law, s, first, row, age);
+    for (int n = 0; n < kLanes; ++n) memory.torn[first + n] = age.torn[n];
+    for (int n = 0; n < kLanes; ++n) memory.fluid[first + n] = age.fluid[n];
+    for (int n = 0; n < kLanes; ++n) memory.strain[first + n] = age.strain[n];
+    for (int n = 0; n < kLanes; ++n) memory.widened[first + n] = age.widened[n];
   }
-  HoldAge age{};
+  HoldAge sums{};
   for (int n = 0; n < kLanes; ++n) {
-    age.torn_Nmm += static_cast<double>(torn[n]);
-    age.stored_Nmm += static_cast<double>(stored[n]);
-    age.torn_area_mm2 += static_cast<double>(torn_area[n]);
+    sums.torn_Nmm += static_cast<double>(age.torn_Nmm[n]);
+    sums.stored_Nmm += static_cast<double>(age.stored_Nmm[n]);
+    sums.torn_area_mm2 += static_cast<double>(age.torn_area[n]);
   }
-  return age;
+  return sums;
 }
 
 }  // namespace

@@ -72,19 +72,19 @@ void benchLigament() {
   for (const double spacing_mm : {0.75, 0.5, 0.41}) {
     const PieceHold hold = holdIn(bone, spacing_mm);
     const haptics::PiecePose at{glm::normalize(glm::dquat(1.0, 0.004, 0.003, 0.002)), {0.05, 0.03, 0.06}};
-    const auto [law, samples, place] = hold.inputAt(at, &bone, 1e-3);
-    std::printf("  %d samples, %d of them with ligament; one sum, µs:", samples.all, samples.ligament);
+    const PieceHold::KernelInput in = hold.inputAt(at, &bone, 1e-3);
+    std::printf("  %d samples, %d of them with ligament; one sum, µs:", in.samples.all, in.samples.ligament);
     double energy = 0.0;
     const auto print = [&](const char* name, int times, auto sum) {
       std::printf(" %s %.2f", name, p10_us(times, [&] { energy += sum(); }));
     };
     print("twin", 20, [&] { return haptics::phantom::twinSums(hold, at, &bone, 1e-3).energy; });
-    print("portable", 500, [&] { return haptics::portable::sumHold(law, samples, place).energy; });
+    print("portable", 500, [&] { return haptics::portable::sumHold(in.law, in.samples, in.place).energy; });
 #if defined(__x86_64__)
     if (assets::available(assets::InstructionSet::avx2))
-      print("avx2", 500, [&] { return haptics::avx2::sumHold(law, samples, place).energy; });
+      print("avx2", 500, [&] { return haptics::avx2::sumHold(in.law, in.samples, in.place).energy; });
     if (assets::available(assets::InstructionSet::avx512))
-      print("avx512", 500, [&] { return haptics::avx512::sumHold(law, samples, place).energy; });
+      print("avx512", 500, [&] { return haptics::avx512::sumHold(in.law, in.samples, in.place).energy; });
 #endif
     std::printf("  (%.3f)\n", energy);
     printTicks(hold, bone);
