@@ -158,24 +158,21 @@ TEST(LigamentTearing, NoClosedWayOfTheHandGainsEnergy) {
   EXPECT_LE(unsettled, ticks / 1000) << "of " << ticks;
 }
 
-TEST(LigamentTearing, RandomHandsSettleButWhereFibresSnap) {
+TEST(LigamentTearing, RandomHandsAlwaysSettle) {
   const PieceHold fresh = freshRoots();
-  int while_whole = 0, unsettled = 0, torn_out = 0;
+  int unsettled = 0, torn_out = 0;
   constexpr int kHands = 20, kTicks = 1000;
   for (unsigned seed = 0; seed < kHands; ++seed) {
     PieceHold hold = fresh;
     phantom::RandomHand hand(seed, 0.1 + 0.05 * seed, 0.01 + 0.005 * seed);
     double torn = 0.0;
     for (int n = 0; n < kTicks; ++n) {
-      const HoldTick tick = hold.step(hand.next(), nullptr, 1e-3);
-      while_whole += tick.unsettled && torn < 0.1 ? 1 : 0;
-      torn = tick.torn_share;
+      torn = hold.step(hand.next(), nullptr, 1e-3).torn_share;
     }
     torn_out += torn > 0.9 ? 1 : 0;
     unsettled += hold.unsettled();
   }
-  EXPECT_EQ(while_whole, 0);
-  EXPECT_LT(unsettled, kHands * kTicks / 400);
+  EXPECT_EQ(unsettled, 0) << "of " << kHands * kTicks;
   EXPECT_GT(torn_out, 0);
   EXPECT_LT(torn_out, kHands);
 }
