@@ -1,5 +1,6 @@
 #include "app/view/patient_renderer.h"
 
+#include "assets/instrument/forceps.h"
 #include "assets/instrument/handpiece.h"
 
 namespace app {
@@ -38,6 +39,10 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
+}
+
+void showForceps(render::FrameRenderer& renderer, double opening_mm) {
+  renderer.setInstrument(assets::forceps(opening_mm));
 }
 
 }  // namespace app

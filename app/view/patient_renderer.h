@@ -27,4 +27,7 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 /// The drawn instrument has the shape of the tool that is felt and cuts.
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool);
 
+/// Instead of a bur: forceps, open by `opening_mm` between the tips; for a tool whose beaks grip.
+void showForceps(render::FrameRenderer& renderer, double opening_mm);
+
 }  // namespace app
