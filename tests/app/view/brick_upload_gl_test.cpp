@@ -179,7 +179,14 @@ TEST(BrickUploader, APieceThatComesOffIsShownOnItsOwn) {
     shown.renderEye(site.frame(), render::Eye::left);
     return shown.readEye(render::Eye::left).rgba;
   };
+  const auto nearest_mm = [&] {
+    float least = 1e9f;
+    for (const float mm : shown.readDistance(render::Eye::left).mm)
+      if (mm > 0.0f) least = std::min(least, mm);
+    return least;
+  };
   const auto whole = picture();
+  const float whole_mm = nearest_mm();
   std::array<std::uint8_t, haptics::kBlockVoxels> all{};
   all.fill(255);
   for (std::size_t block = 0; block < site.bodies.bones()[1].blocks() / 2; ++block)
@@ -187,9 +194,10 @@ TEST(BrickUploader, APieceThatComesOffIsShownOnItsOwn) {
   ASSERT_EQ(site.bodies.pieces(), 2u);
   EXPECT_EQ(picture(), whole) << "both at rest";
 
-  site.bodies.place(1, {glm::dquat(1, 0, 0, 0), {-3.0, 0.0, 4.0}});
+  site.bodies.place(1, {glm::dquat(1, 0, 0, 0), {-3.0, 0.0, 8.0}});
   const auto apart = picture();
   EXPECT_NE(apart, whole);
+  EXPECT_LT(nearest_mm(), whole_mm - 1.0f) << "it is above the rest";
   render::FrameRenderer fresh(kGrid, site.solid, site.label);
   BrickUploader().uploadEverything(site.bodies, site.frame().pieces, fresh);
   fresh.renderEye(site.frame(), render::Eye::left);
