@@ -84,7 +84,7 @@ glm::vec3 colourOfGap(double gap_mm) {
 ToolBlock toolBlock(const Frame& frame) {
   ToolBlock block;
   if (!frame.tool_visible) return block;
-  if (frame.quality.tool_shadow) addParts(frame, block);
+  if (frame.quality.tool_shadow && frame.tool_shades) addParts(frame, block);
   if (frame.layers.gap_ring && frame.gap) addRing(frame, block);
   return block;
 }

@@ -245,11 +245,9 @@ int run(RehearseOptions& options) {
   plan.device = withSessionNamed(plan.device);
   plan.second_hand.device = withSessionNamed(plan.second_hand.device);
   std::optional<Continuation> former;
-  const auto tool_of = [&](const std::string& text) {
-    const haptics::BurShape head = headFrom(text);
-    return haptics::Tool{head, options.shaft.empty() ? haptics::standardShaft(head) : shaftFrom(options.shaft)};
-  };
+  const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
   plan.command.tool = tool_of(options.tools.front());
+  if (plan.command.tool.grips) throw UsageError("--tool forceps: the first tool is a bur, name one before it");
   for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
     plan.other_tools.push_back(tool_of(*other));
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);

@@ -51,7 +51,9 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .oneOf({kPatientPositions.begin(), kPatientPositions.end()});
   command.optionGroup("Hand and instruments");
   command.option("--device", options.plan.device, poseSourceHelp()).showsDefault();
-  command.option("--tool", options.tools, headHelp() + "; give several to change between them by key T or pedal")
+  command
+      .option("--tool", options.tools,
+              headHelp() + "; or forceps, closed with the pedal; give several to change between them by key T or pedal")
       .repeated()
       .showsDefault();
   command.option("--shaft", options.shaft,

@@ -18,6 +18,7 @@ void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.undo_serial = from.undo_serial;
   to.redo_serial = from.redo_serial;
   to.split = from.split;
+  to.site = from.site;
   to.rearm = from.rearm;
 }
 
@@ -144,7 +145,7 @@ void ActiveCommand::changeTool(int to, const std::string& where) {
                   fmt::format("there is no tool {}, the tray holds {}, name more with --tool", next + 1, tray_.size()));
   haptics::Command wanted = command_;
   wanted.tool = tray_[next];
-  const std::string name = burName(wanted.tool.head);
+  const std::string name = toolName(wanted.tool);
   if (!changeLowered(wanted, where, "the old tool stays in the hand", name)) return;
   in_hand_ = next;
   say(name);
@@ -188,6 +189,13 @@ void ActiveCommand::split(const haptics::SplitOrder& order) {
   const std::uint64_t serial = command_.split.serial + 1;
   command_.split = order;
   command_.split.serial = serial;
+  workstation_->change(command_);
+}
+
+void ActiveCommand::makeReady(const haptics::SiteOrder& order) {
+  const std::uint64_t serial = command_.site.serial + 1;
+  command_.site = order;
+  command_.site.serial = serial;
   workstation_->change(command_);
 }
 

@@ -38,7 +38,9 @@ class ActiveCommand {
   void pollSettingsFile(LiveParameters::Clock::time_point now);
   /// Makes a piece of tooth that has fallen apart two; its serial is set here. Unreported.
   void split(const haptics::SplitOrder& order);
-  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split and rearm stay as they are.
+  /// Makes a piece ready for the forceps, alike.
+  void makeReady(const haptics::SiteOrder& order);
+  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, site and rearm stay as they are.
   void adopt(const haptics::Command& command);
 
   /// Tools to change between, in order.

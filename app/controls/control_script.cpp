@@ -27,8 +27,9 @@ int onTray(const std::vector<haptics::Tool>& tray, int index, const std::string&
 
 int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
   if (const auto number = parseNumber<int>(text)) return onTray(tray, *number - 1, text);
-  const haptics::BurShape head = headFrom(text);
-  const auto found = std::ranges::find(tray, head, &haptics::Tool::head);
+  const haptics::Tool wanted = toolFrom(text, {});
+  const auto found = std::ranges::find_if(
+      tray, [&](const haptics::Tool& tool) { return tool.head == wanted.head && tool.grips == wanted.grips; });
   if (found == tray.end()) throw UsageError("tool " + text + ": it is not on the tray, name it with --tool");
   return static_cast<int>(found - tray.begin());
 }

@@ -107,7 +107,7 @@ void drawState(const RehearsalStatus& s) {
 void drawTool(const RehearsalStatus& s) {
   heading("Tool");
   const double force_N = glm::length(s.tick.commanded_force_P_N.xyz), peak_N = s.command.safety.peak_force_N;
-  row("Bur", burName(s.command.tool.head));
+  row("Bur", toolName(s.command.tool));
   row("Irrigation", s.command.irrigating ? "on" : "off", s.command.irrigating ? kInk : kWarn);
   row("Force on the hand", fmt::format("{:.2f} of {:.1f} N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
   bar(force_N / peak_N, force_N > 0.95 * peak_N ? kWarn : kAccent);

@@ -22,4 +22,6 @@ std::string burName(const haptics::BurShape& head) {
   return fmt::format("{} {:.1f} mm, ISO {:03}", shape, diameter_mm, std::lround(tenths));
 }
 
+std::string toolName(const haptics::Tool& tool) { return tool.grips ? "extraction forceps" : burName(tool.head); }
+
 }  // namespace app

@@ -5,11 +5,13 @@
 
 #include <string>
 
-#include "haptics/tool/bur_shape.h"
+#include "haptics/tool/tool.h"
 
 namespace app {
 
 /// "round 2.3 mm, ISO 023"; without ISO size where the diameter is no tenth of a millimetre.
 std::string burName(const haptics::BurShape& head);
+/// "extraction forceps", or the bur's.
+std::string toolName(const haptics::Tool& tool);
 
 }  // namespace app

@@ -101,6 +101,12 @@ BurShape headFrom(const std::string& text) {
   throw UsageError("--tool " + text + ": no such head, give " + headForms() + " in mm");
 }
 
+haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
+  if (text == "forceps") return haptics::forcepsTool();
+  const BurShape head = headFrom(text);
+  return {head, shaft.empty() ? haptics::standardShaft(head) : shaftFrom(shaft)};
+}
+
 haptics::Shaft shaftFrom(const std::string& text) {
   if (text == "none") return {};
   const auto values =

@@ -37,7 +37,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   const haptics::Command& command = values.situation.command;
   HeadUpContent content;
   content.line_shown = line_shown_;
-  content.bur = burName(command.tool.head);
+  content.bur = toolName(command.tool);
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
   content.drive = driveText(rpm, command.drill_enabled);
   content.turning = rpm >= kTurning_rpm;

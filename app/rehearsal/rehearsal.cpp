@@ -9,6 +9,7 @@
 #include "app/case/enamel_exposure.h"
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
+#include "app/procedure/site_desk.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
@@ -69,6 +70,7 @@ class Rehearsal {
     active_command_.speakTo([this](const std::string& line) { head_up_.say(line); });
     view_.attach(station().bodies());
     tooth_.emplace(station().bodies(), wholeTooth(plan_));
+    sites_.emplace(station().bodies());
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
@@ -192,7 +194,7 @@ class Rehearsal {
     frame_.field = surgicalField(clarity_);
     frame_.marks = soft_marks_.marks();
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
-    placePieces(frame_, piecePosesOf(station().bodies()));
+    placePieces(frame_, piecePosesOf(newest_));
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
     frame_.gap = view_.gapOf(frame_);
@@ -203,11 +205,19 @@ class Rehearsal {
       tooth_->follow(view_.uploadedBricks(), newest_);
     else
       tooth_->followStepped(newest_);
+    if (station().isApplied(newest_)) followForceps();
     if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {
       head_up_.say(*line);
       event_log_.note("tooth", *line);
     }
+  }
+
+  /// Pieces are made ready while forceps are in the hand.
+  void followForceps() {
+    const bool gripping_tool = active_command_.inForce().tool.grips;
+    if (const auto order = sites_->follow(newest_, gripping_tool, !pace_.isRealTime()))
+      active_command_.makeReady(*order);
   }
 
   /// Some tenths of a second: once, at the end.
@@ -273,6 +283,7 @@ class Rehearsal {
   std::optional<StatusReporter> status_reporter_;  // destroyed before view_
   render::Frame frame_;
   std::optional<ToothFollower> tooth_;
+  std::optional<SiteDesk> sites_;
   haptics::Tick newest_;
   FieldClarity clarity_;
 };

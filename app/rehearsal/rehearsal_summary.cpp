@@ -55,7 +55,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
     if (!words.empty()) text += fmt::format("  {:16} {}\n", name, words);
   };
   line("patient", f.last.patient_title);
-  line("bur", burName(f.last.command.tool.head));
+  line("bur", toolName(f.last.command.tool));
   const std::string cutting =
       f.times.cutting_s < 1.0 ? ""
       : f.times.dry_s < 1.0

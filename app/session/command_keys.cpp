@@ -43,12 +43,12 @@ void visitByTissue(const std::string& key, auto& factors, Visit&& visit) {
 
 template <class Visit>
 void visitTool(auto& tool, Visit&& visit) {
-  auto& [head, shaft, handpiece] = tool;
+  auto& [head, shaft, handpiece, grips] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("tool.head.kind", kind), visit("tool.head.radius_mm", radius_mm), visit("tool.head.length_mm", length_mm);
   visit("tool.shaft.radius_mm", shaft_radius_mm), visit("tool.shaft.length_mm", shaft_length_mm);
-  visit("tool.handpiece", handpiece);
+  visit("tool.handpiece", handpiece), visit("tool.grips", grips);
 }
 
 /// The plan follows from the bodies.
@@ -56,6 +56,13 @@ template <class Visit>
 void visitSplit(auto& split, Visit&& visit) {
   auto& [serial, bodies_digest, piece, plan] = split;
   visit("split.serial", serial), visit("split.bodies_digest", bodies_digest), visit("split.piece", piece);
+}
+
+/// The site follows from the bodies, too.
+template <class Visit>
+void visitSite(auto& order, Visit&& visit) {
+  auto& [serial, bodies_digest, piece, site] = order;
+  visit("site.serial", serial), visit("site.bodies_digest", bodies_digest), visit("site.piece", piece);
 }
 
 template <class Visit>
@@ -157,13 +164,14 @@ void visitSafety(auto& safety, Visit&& visit) {
 
 template <class Visit>
 void forEachKey(auto& command, Visit&& visit) {
-  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, law, erosion, spindle, safety,
+  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, site, law, erosion, spindle, safety,
          rearm] = command;
   visit("serial", serial);
   visitTool(tool, visit);
   visit("drill_enabled", drill_enabled), visit("irrigating", irrigating), visit("undo_serial", undo_serial);
   visit("redo_serial", redo_serial);
   visitSplit(split, visit);
+  visitSite(site, visit);
   visitLaw(law, visit);
   visitErosion(erosion, visit);
   visitSpindle(spindle, visit);

@@ -1,9 +1,11 @@
 #include "app/session/replay.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <fmt/core.h>
@@ -11,6 +13,7 @@
 #include "app/session/session_error.h"
 #include "app/text/version.h"
 #include "haptics/body/piece_split.h"
+#include "haptics/ligament/piece_site.h"
 #include "haptics/servo/servo.h"
 
 namespace app {
@@ -48,6 +51,13 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.strokes != again.strokes || recorded.undone_strokes != again.undone_strokes)
     return "the strokes to undo or redo differ";
   if (recorded.split != again.split) return "the splitting of the tooth differs";
+  if (recorded.site != again.site || recorded.gripped != again.gripped || recorded.set_aside != again.set_aside)
+    return "the grip of the forceps differs";
+  if (!same(recorded.grip_force_P_N.xyz, again.grip_force_P_N.xyz) ||
+      !same(recorded.grip_torque_P_Nmm.xyz, again.grip_torque_P_Nmm.xyz))
+    return "the force of the forceps differs";
+  if (!same(recorded.torn_share, again.torn_share) || !same(recorded.torn_total_Nmm, again.torn_total_Nmm))
+    return "the tearing of the ligament differs";
   if (!same(recorded.restored_total_mm3, again.restored_total_mm3)) return "the restored volume differs";
   if (recorded.state != again.state) return "the state of the safety layer differs";
   if (recorded.faults != again.faults) return "the faults differ";
@@ -59,22 +69,28 @@ class Rerun {
  public:
   /// Borrows bodies and soft tissue.
   Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands)
-      : bodies_(bodies), servo_(bodies, &soft_tissue), commands_(std::move(commands)) {}
+      : bodies_(bodies), sockets_(bodies), servo_(bodies, &soft_tissue), commands_(std::move(commands)) {}
 
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded) {
     const std::uint64_t lost = recorded.index - std::exchange(next_index_, recorded.index + 1);
     while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index) {
-      const haptics::SplitOrder before = command_.split;
+      const haptics::Command before = command_;
       command_ = commands_[next_++].command;
-      command_.split.plan = before.plan;
-      if (command_.split.serial != before.serial) command_.split.plan = planFor(command_.split);
+      command_.split.plan = before.split.plan;
+      command_.site.site = before.site.site;
+      if (command_.split.serial != before.split.serial) command_.split.plan = planFor(command_.split);
+      if (command_.site.serial != before.site.serial) command_.site.site = siteFor(command_.site);
     }
     if (lost > 0) return std::to_string(lost) + " ticks before it were lost";
     if (command_.serial != recorded.command_serial) return "its command was not recorded";
     return std::nullopt;
   }
-  haptics::Tick step(const haptics::Tick& recorded) { return servo_.step(recorded.hand, command_, recorded.dt_s); }
+  haptics::Tick step(const haptics::Tick& recorded) {
+    const haptics::Tick tick = servo_.step(recorded.hand, command_, recorded.dt_s);
+    grips_ = tick.gripped != 0;
+    return tick;
+  }
   const haptics::Command& command() const { return command_; }
 
  private:
@@ -86,13 +102,27 @@ class Rerun {
     return &plans_.back();
   }
 
+  haptics::PieceSite* siteFor(const haptics::SiteOrder& order) {
+    if (order.piece >= bodies_.pieces() || order.bodies_digest != bodies_.digest() || grips_) return nullptr;
+    std::array<haptics::PiecePose, haptics::kMaxPieces> X_PQ;
+    for (std::size_t n = 0; n < X_PQ.size(); ++n) X_PQ[n] = bodies_.pose(n);
+    // The servo takes over every order that gets here, and needs the one before until then.
+    std::deque<std::unique_ptr<haptics::PieceSite>>& sites = sites_[order.piece];
+    sites.push_back(haptics::makePieceSite(sockets_.scene(order.piece, X_PQ)));
+    if (sites.size() > 2) sites.pop_front();
+    return sites.back().get();
+  }
+
   haptics::Bodies& bodies_;
+  haptics::SocketSource sockets_;
+  std::array<std::deque<std::unique_ptr<haptics::PieceSite>>, haptics::kMaxPieces> sites_;
   haptics::Servo servo_;
   std::vector<SessionCommand> commands_;
   std::deque<haptics::SplitPlan> plans_;
   haptics::Command command_;
   std::size_t next_ = 0;
   std::uint64_t next_index_ = 0;
+  bool grips_ = false;
 };
 
 /// Compares what is stored apart from the ticks: the removed volume by tissue after a block, and the final bone.

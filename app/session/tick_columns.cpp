@@ -1,5 +1,6 @@
 #include "app/session/tick_columns.h"
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <string_view>
@@ -19,6 +20,11 @@ constexpr std::string_view kRests = "none 0, undoing 1, caught 2, pedal 3";
 constexpr std::string_view kStates = "off 0, calibrate 1, ready 2, armed 3, active 4, fault 5";
 constexpr std::string_view kSoftMeaning = "none 0, gingiva 1, flap 2, lip 3, cheek 4, tongue 5, mucosa 6";
 constexpr std::string_view kSoftSetMeaning = "gingiva 2, flap 4, lip 8, cheek 16, tongue 32, mucosa 64; their sum";
+constexpr std::array<std::string_view, haptics::kMaxPieces> kPieceRotation{"piece_0.rotation", "piece_1.rotation",
+                                                                           "piece_2.rotation", "piece_3.rotation"};
+constexpr std::array<std::string_view, haptics::kMaxPieces> kPieceTranslation{
+    "piece_0.translation_mm", "piece_1.translation_mm", "piece_2.translation_mm", "piece_3.translation_mm"};
+constexpr std::string_view kSiteMeaning = "none 0, ready 1, refused 2";
 constexpr std::string_view kSplitMeaning = "none 0, waiting 1, running 2, done 3, refused 4";
 constexpr std::string_view kFaults =
     "bad_pose 1, bad_force 2, clamped 4, slewed 8, device 16, joints 32, hot 64, stale 128, resumed 256, braked 512, "
@@ -77,7 +83,8 @@ void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
          bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
-         split, state, faults, work_us] = tick;
+         split, site, gripped, set_aside, unsettled, X_PQ, grip_force_P_N, grip_torque_P_Nmm, torn_share,
+         torn_total_Nmm, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -103,6 +110,19 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"undone_strokes"}, undone_strokes);
   visit(Text{"pieces"}, pieces);
   visit(Text{"split", "", "", "", kSplitMeaning}, split);
+  visit(Text{"site", "", "", "", kSiteMeaning}, site);
+  visit(Text{"gripped", "", "", "", "none 0, else 1 + piece"}, gripped);
+  visit(Text{"set_aside"}, set_aside);
+  visit(Text{"unsettled"}, unsettled);
+  for (std::size_t n = 0; n < X_PQ.size(); ++n) {
+    visit(Text{kPieceRotation[n], ".w", "", "P"}, X_PQ[n].rotation.w);
+    visitXyz(Text{kPieceRotation[n], "", "", "P"}, X_PQ[n].rotation, visit);
+    visitXyz(Text{kPieceTranslation[n], "", "mm", "P"}, X_PQ[n].translation_mm, visit);
+  }
+  visitXyz(Text{"grip_force_P_N", "", "N", "P"}, grip_force_P_N.xyz, visit);
+  visitXyz(Text{"grip_torque_P_Nmm", "", "N mm", "P"}, grip_torque_P_Nmm.xyz, visit);
+  visit(Text{"torn_share"}, torn_share);
+  visit(Text{"torn_total_Nmm", "", "N mm"}, torn_total_Nmm);
   visit(Text{"state", "", "", "", kStates}, state);
   visit(Text{"faults", "", "", "", kFaults}, faults);
   visit(Text{"work_us", "", "us"}, work_us);

@@ -17,6 +17,9 @@ assets::HandpieceParameters drawnAs(const haptics::Tool& tool) {
 }
 static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));
 
+/// A little wider than what they grip (haptics::forcepsTool).
+constexpr double kOpenBeaks_mm = 8.0;
+
 }  // namespace
 
 render::Guides guidesFor(const assets::Patient& patient, const std::optional<assets::PlannedCut>& cut) {
@@ -38,6 +41,7 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 }
 
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
+  if (tool.grips) return showForceps(renderer, kOpenBeaks_mm);
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "haptics/body/bodies.h"
+#include "haptics/servo/tick.h"
 #include "render/frame.h"
 
 namespace app {
@@ -23,6 +24,9 @@ inline PiecePoses piecePosesOf(const haptics::Bodies& bodies) {
   for (std::size_t n = 0; n < poses.count; ++n) poses.X_PQ[n] = bodies.pose(n);
   return poses;
 }
+
+/// As a tick left them.
+inline PiecePoses piecePosesOf(const haptics::Tick& tick) { return {tick.X_PQ, tick.pieces}; }
 
 /// For a frame: those that have left rest.
 inline render::MovedPieces movedPieces(const PiecePoses& poses) {

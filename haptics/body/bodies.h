@@ -41,6 +41,10 @@ class Bodies {
   void place(std::size_t piece, const PiecePose& X_PQ);
   const PiecePose& pose(std::size_t piece) const { return X_PQ_[piece]; }
   bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
+  /// Out of the mouth for good: far from everything, no longer met nor seen. Writer only.
+  void setAside(std::size_t piece) { place(piece, {{1.0, 0.0, 0.0, 0.0}, glm::dvec3(kAside_mm)}); }
+  bool isSetAside(std::size_t piece) const { return X_PQ_[piece].translation_mm.x >= kAside_mm; }
+  static constexpr double kAside_mm = 10'000.0;
 
   /// Moves up to `given` of each voxel of a block of the tooth's grid from a piece to another that is where it is
   /// (CarvedBone::moveBlock). Writer only.

@@ -238,6 +238,30 @@ void PieceHold::restore(const PieceState& state) noexcept {
   copyInto(state.ligament.widened_mm, state_.ligament.widened_mm);
 }
 
+void PieceHold::takeOver(const PieceHold* before, const PiecePose& X_PQ) noexcept {
+  const bool at_rest = X_PQ.rotation == glm::dquat(1.0, 0.0, 0.0, 0.0) && X_PQ.translation_mm == glm::dvec3(0.0);
+  std::vector<float>& torn = state_.ligament.torn;
+  if (before != nullptr && before->samples_.size() == samples_.size() &&
+      before->samples_.ligament == samples_.ligament) {
+    const LigamentMemory& former = before->state_.ligament;
+    for (std::size_t n = 0; n < torn.size(); ++n) torn[n] = std::max(torn[n], former.torn[n]);
+    copyInto(former.fluid_N_per_mm2, state_.ligament.fluid_N_per_mm2);
+    copyInto(former.strain, state_.ligament.strain);
+    copyInto(former.widened_mm, state_.ligament.widened_mm);
+  } else if (before != nullptr || !at_rest) {
+    const float least = before == nullptr ? 1.0F : narrow(before->tornShare());
+    for (float& share : torn) share = std::max(share, least);
+  }
+  state_.X_PQ = X_PQ;
+}
+
+double PieceHold::tornShare() const noexcept {
+  double torn_mm2 = 0.0;
+  for (std::size_t n = 0; n < samples_.ligament; ++n)
+    torn_mm2 += static_cast<double>(samples_.area_mm2[n]) * static_cast<double>(state_.ligament.torn[n]);
+  return ligament_area_mm2_ > 0.0 ? torn_mm2 / ligament_area_mm2_ : 1.0;
+}
+
 void PieceHold::meet(const SocketChange& change) noexcept {
   copyInto(change.rest_gap_mm, samples_.rest_gap_mm);
   std::vector<float>& torn = state_.ligament.torn;

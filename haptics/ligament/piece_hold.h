@@ -45,11 +45,16 @@ class PieceHold {
   const PieceState& state() const noexcept { return state_; }
   /// A state of this piece (assert). No allocation.
   void restore(const PieceState& state) noexcept;
+  /// The same piece as another hold, in a socket that has changed since: its memory and pose; with other samples, as
+  /// much torn everywhere. Null: a piece at this pose; all is torn unless it is at rest. No allocation.
+  void takeOver(const PieceHold* before, const PiecePose& X_PQ) noexcept;
   /// Bone was lost or came back. A change of these samples (assert). No allocation; torn shares only grow.
   void meet(const SocketChange& change) noexcept;
 
   const PieceSamples& samples() const noexcept { return samples_; }
   const LigamentLaw& law() const noexcept { return law_; }
+  /// Of the ligament's area, 1 without ligament.
+  double tornShare() const noexcept;
   /// Ticks that did not settle, since made.
   int unsettled() const noexcept { return unsettled_; }
 

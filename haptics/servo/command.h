@@ -7,6 +7,7 @@
 #include "haptics/bone/erosion.h"
 #include "haptics/contact/law.h"
 #include "haptics/safety/safety_limits.h"
+#include "haptics/servo/forceps.h"
 #include "haptics/servo/tooth_split.h"
 #include "haptics/tool/spindle.h"
 #include "haptics/tool/tool.h"
@@ -21,6 +22,7 @@ struct Command {
   std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo
   std::uint64_t redo_serial = 0;  ///< rises by one for every stroke to redo
   SplitOrder split;
+  SiteOrder site;
   LawSettings law;
   ErosionSettings erosion;
   SpindleSettings spindle;

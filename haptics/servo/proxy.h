@@ -51,6 +51,13 @@ class Proxy {
                     const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                     const ToolMotion& motion) noexcept;
 
+  /// The next update() starts there: where something else has held the tool.
+  void startAt(const calibration::Point<calibration::Patient>& p_P) {
+    release();
+    proxy_P_ = p_P;
+    placed_ = true;
+    head_ = shaft_ = {};
+  }
   /// The next update() starts at the hand.
   void release() { placed_ = false; }
 

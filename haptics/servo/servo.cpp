@@ -40,13 +40,15 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
-  const double restored_mm3 = split_.isRunning() ? 0.0
-                                                 : undo_.restore(bodies_, {command.undo_serial, command.redo_serial},
-                                                                 command.tool, at_proxy_X_PT_);
+  forceps_.receive(bodies_, command.site);
+  const double restored_mm3 =
+      split_.isRunning() || forceps_.holds()
+          ? 0.0
+          : undo_.restore(bodies_, {command.undo_serial, command.redo_serial}, command.tool, at_proxy_X_PT_);
   const bool embedded = undo_.isToolEmbedded();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
-  const bool foot = valid.drill_pedal && command.drill_enabled;
+  const bool foot = valid.drill_pedal && command.drill_enabled && !command.tool.grips;
   tick.drill_inhibit = undo_.inhibitFor(foot || !admitted.mayDrill());
   tick.drilling = foot && admitted.mayDrill() && tick.drill_inhibit == DrillInhibit::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
@@ -57,14 +59,31 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
       soft_hold_.update(soft_tissue_, command.tool, valid.X_PT, valid.velocity_P_mm_per_s, tick.drilling);
   tick.soft = soft.touch;
 
+  // A piece that forceps hold leads the tool.
+  const bool closed = command.tool.grips && valid.drill_pedal && admitted.mayDrill();
+  const bool held_before = forceps_.holds();
+  if (held_before) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
   const SolidBodies bodies = bodies_.view();
-  const Proxy::State proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)
-                                      : proxy_.update(bodies, command.law, command.tool, soft.X_PT, motion,
-                                                      command.safety.max_stiffness_N_per_mm);
-  if (embedded && !proxy.touches()) undo_.release();
-  at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
+  Proxy::State proxy;
+  if (!forceps_.holds()) {
+    proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)
+                     : proxy_.update(bodies, command.law, command.tool, soft.X_PT, motion,
+                                     command.safety.max_stiffness_N_per_mm);
+    if (embedded && !proxy.touches()) undo_.release();
+    at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
+    if (!held_before && !embedded) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+  }
+  const Forceps::Held& held = forceps_.held();
+  if (held.holds) {
+    at_proxy_X_PT_ = held.X_PT;
+    proxy = {};
+    proxy.proxy_P.mm = held.X_PT.translation_mm;
+    proxy_.startAt(proxy.proxy_P);
+    tick.soft.turn_P = held.X_PT.rotation * glm::conjugate(valid.X_PT.rotation);
+  }
   tick.proxy_P = proxy.proxy_P;
   tick.overlap_mm3 = proxy.head.volume_mm3;
   tick.depth_mm = proxy.head.depth_mm;
@@ -74,13 +93,25 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // The law's wrench, then the commanded one.
   tick.law_force_P_N = proxy.force_P_N() + dampingForce_N(command.law, proxy.touching(), valid.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = proxy.torque_P_Nmm();
+  if (held.holds) {
+    tick.law_force_P_N = held.felt_N.force_N;
+    tick.law_torque_P_Nmm = held.felt_N.torque_Nmm;
+    tick.grip_force_P_N = held.on_piece.force_N;
+    tick.grip_torque_P_Nmm = held.on_piece.torque_Nmm;
+    tick.gripped = static_cast<std::uint8_t>(held.piece + 1);
+  }
+  tick.set_aside = held.set_aside;
+  tick.unsettled = held.unsettled;
+  tick.torn_share = held.torn_share;
+  tick.torn_total_Nmm = torn_total_Nmm_ += held.torn_Nmm;
   const SafetyLayer::Request law{
       {tick.law_force_P_N + tick.soft.force_P_N, tick.law_torque_P_Nmm + tick.soft.torque_P_Nmm},
       proxy.head.vibration_P_N,
       {},
-      proxy.maxStored_Nmm() + soft.max_stored_Nmm,
-      proxy.touches()};
-  const Delivery::Changes changes{command.serial != last_serial_ || embedded != was_embedded_, admitted.relocated};
+      proxy.maxStored_Nmm() + soft.max_stored_Nmm + held.max_stored_Nmm,
+      proxy.touches() || held.holds};
+  const Delivery::Changes changes{
+      command.serial != last_serial_ || embedded != was_embedded_ || held.holds != held_before, admitted.relocated};
   last_serial_ = command.serial;
   was_embedded_ = embedded;
   const SafetyFilter::Delivered delivered = delivery_.deliver(law, changes, valid, safety_, command.safety, tick.dt_s);
@@ -97,9 +128,12 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // A piece that has fallen apart becomes two.
-  if (split_.step(bodies_, !proxy.touches() && !embedded && !undo_.isRunning(), undo_.strokes())) undo_.keepStrokes();
+  if (split_.step(bodies_, !proxy.touches() && !held.holds && !embedded && !undo_.isRunning(), undo_.strokes()))
+    undo_.keepStrokes();
   tick.split = split_.answer();
+  tick.site = forceps_.answer();
   tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());
+  for (std::size_t n = 0; n < bodies_.pieces(); ++n) tick.X_PQ[n] = bodies_.pose(n);
   tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());
   tick.undone_strokes = static_cast<std::uint8_t>(undo_.strokes().undoneStrokes());
   tick.restored_total_mm3 = undo_.restoredTotal_mm3();

@@ -8,6 +8,7 @@
 #include "haptics/servo/command.h"
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
+#include "haptics/servo/forceps.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
@@ -39,6 +40,8 @@ class Servo {
   Delivery delivery_;
   StrokeUndo undo_;
   ToothSplit split_;
+  Forceps forceps_;
+  double torn_total_Nmm_ = 0.0;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false;
   std::uint64_t last_serial_ = 0;

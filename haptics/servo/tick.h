@@ -11,6 +11,7 @@
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/safety_state.h"
 #include "haptics/servo/drill_inhibit.h"
+#include "haptics/servo/forceps.h"
 #include "haptics/servo/tooth_split.h"
 
 namespace haptics {
@@ -38,16 +39,25 @@ struct Tick {
   std::uint8_t contact_tissue = 0;  ///< label with the largest overlap
   SoftTouch soft;                   ///< lip, cheek, tongue, gingiva: assets::kSoftTissues
   bool drilling = false;
-  DrillInhibit drill_inhibit = DrillInhibit::none;  ///< why not drilling
-  std::uint8_t strokes = 0;                         ///< that can be undone
-  std::uint8_t undone_strokes = 0;                  ///< that can be redone
-  std::uint8_t pieces = 0;                          ///< of the tooth; 0: none of its own
-  SplitAnswer split = SplitAnswer::none;            ///< to the newest Command::split
-  SafetyState state = SafetyState::off;             ///< force in `active` alone
+  DrillInhibit drill_inhibit = DrillInhibit::none;              ///< why not drilling
+  std::uint8_t strokes = 0;                                     ///< that can be undone
+  std::uint8_t undone_strokes = 0;                              ///< that can be redone
+  std::uint8_t pieces = 0;                                      ///< of the tooth; 0: none of its own
+  SplitAnswer split = SplitAnswer::none;                        ///< to the newest Command::split
+  SiteAnswer site = SiteAnswer::none;                           ///< to the newest Command::site
+  std::uint8_t gripped = 0;                                     ///< 1 + the piece that the forceps hold; 0: none
+  bool set_aside = false;                                       ///< a piece was let go of outside, in this tick
+  bool unsettled = false;                                       ///< the piece's balance was not found in this tick
+  std::array<PiecePose, kMaxPieces> X_PQ{};                     ///< of the pieces, after this tick
+  calibration::Vector<calibration::Patient> grip_force_P_N;     ///< on the piece, of the model
+  calibration::Vector<calibration::Patient> grip_torque_P_Nmm;  ///< the same, about T's origin
+  double torn_share = 0.0;                                      ///< of the ligament of the piece held, or last held
+  double torn_total_Nmm = 0.0;                                  ///< since the start, of all pieces
+  SafetyState state = SafetyState::off;                         ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
 
-  /// Attitude of the tool as held by soft tissue, drawn, felt and cut with at proxy_P.
+  /// Attitude of the tool as held by soft tissue or by the piece it grips, drawn, felt and cut with at proxy_P.
   glm::dquat heldRotation() const { return soft.turn_P * hand.X_PT.rotation; }
 };
 

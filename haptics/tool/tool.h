@@ -18,11 +18,15 @@ struct Tool {
   BurShape head;
   Shaft shaft;
   bool handpiece = true;  ///< false: the bur alone, for a hand that cannot turn it out of the way
+  bool grips = false;     ///< forceps: the head is the place between the beaks, the pedal closes them, nothing turns
   bool operator==(const Tool&) const = default;
 };
 
 /// Head and shaft within their ranges; no shaft if it is invalid.
 Tool sanitised(const Tool& tool) noexcept;
+
+/// Extraction forceps: they meet bone and tooth between their beaks alone.
+Tool forcepsTool() noexcept;
 
 /// The usual shaft of a bur: a shank of 2.35 mm (ISO 1797, type 2), or a neck narrower than the head that lets chips
 /// out; 25 mm long, as far as it stands out of a handpiece.

@@ -1,0 +1,54 @@
+// A piece of tooth made ready to be moved: what is around it as a distance field, and its hold in the socket. Made on a
+// worker from a copy of the bodies, used by the servo. The same bytes give the same bits. Frame P, mm.
+// SocketSource: main thread or a replay; copying the surroundings takes about 5 ms. makePieceSite(): any thread, 150 to
+// 400 ms; allocates.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "haptics/body/bodies.h"
+#include "haptics/body/distance_field.h"
+#include "haptics/ligament/piece_hold.h"
+
+namespace haptics {
+
+struct PieceSite {
+  DistanceField obstacles;  ///< jaw, its other teeth, the other pieces
+  PieceHold hold;           ///< unworn, at rest; fibres whose bone is gone are torn
+  double volume_mm3 = 0.0;
+};
+
+/// Bytes of the bodies around the tooth, in the order of their grids.
+struct SocketScene {
+  assets::VolumeGrid around_grid;
+  std::vector<std::uint8_t> bone_at_first, around;  ///< jaw when the rehearsal began; all but the piece now
+  assets::VolumeGrid piece_grid;
+  std::vector<std::uint8_t> piece, label;  ///< of the piece
+};
+
+class SocketSource {
+ public:
+  static constexpr double kMargin_mm = 5.0;  ///< around the tooth
+
+  /// Before the first cut. Borrows the bodies. Without a tooth: scene() must not be called.
+  explicit SocketSource(const Bodies& bodies);
+
+  /// As the bodies are, or as a reading thread sees them: whole only if nothing wrote meanwhile. The other pieces lie
+  /// where `X_PQ` says.
+  SocketScene scene(std::size_t piece, std::span<const PiecePose, kMaxPieces> X_PQ) const;
+
+ private:
+  void addPiece(std::size_t piece, const PiecePose& X_PQ, SocketScene& scene) const;
+
+  const Bodies& bodies_;
+  assets::VolumeGrid grid_;
+  glm::ivec3 first_brick_{0};
+  std::vector<std::uint8_t> bone_at_first_;
+};
+
+std::unique_ptr<PieceSite> makePieceSite(const SocketScene& scene, const LigamentLaw& law = {});
+
+}  // namespace haptics

@@ -1,0 +1,237 @@
+#include "haptics/servo/forceps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "haptics/servo/servo.h"
+#include "tests/haptics/phantom.h"
+
+namespace haptics {
+namespace {
+
+using namespace phantom;
+
+/// A conical root in a socket of bone up to z = 0, its crown above; forceps in a hand over it.
+struct Mouth {
+  Phantom phantom = filled(
+      8.0, 0.25, [](const glm::dvec3& p) { return std::min(inTooth_mm(p), std::max(p.z, 0.25 - inTooth_mm(p))); });
+  std::vector<std::uint8_t> label, is_tooth;
+  Bodies bodies;
+  SocketSource sockets{bodies};
+  Servo servo{bodies};
+  std::vector<std::unique_ptr<PieceSite>> sites;
+  Command command;
+  HandSample hand;
+  Tick tick;
+  double work_Nmm = 0.0;  ///< of the hand on the tool, of the model
+
+  /// Signed distance, roughly: below 0 inside.
+  static double inTooth_mm(const glm::dvec3& p) {
+    const double radius_mm = p.z < 0.0 ? 2.6 + 0.1 * p.z : 2.8;
+    return std::max(std::hypot(p.x, p.y) - radius_mm, std::max(p.z - 3.5, -5.5 - p.z));
+  }
+
+  Mouth()
+      : label(phantom.solid.size(), 1), is_tooth(phantom.solid.size(), 0), bodies([this] {
+          assets::forVoxels(phantom.grid, [&](glm::ivec3 ijk, std::size_t v) {
+            if (inTooth_mm(phantom.grid.centre_P_mm(ijk)) > 0.12) return;
+            is_tooth[v] = 1;
+            label[v] = static_cast<std::uint8_t>(assets::Tissue::dentine);
+          });
+          return Bodies(phantom.grid, phantom.solid, label, is_tooth);
+        }()) {
+    command.tool = forcepsTool();
+    hand.X_PT.translation_mm = {6.0, 0.0, 2.0};
+    step();
+  }
+
+  void step(int ticks = 1) {
+    for (int n = 0; n < ticks; ++n) tick = servo.step(hand, command, 1e-3);
+  }
+  void makeReady(std::size_t piece = 0) {
+    std::array<PiecePose, kMaxPieces> X_PQ;
+    for (std::size_t n = 0; n < X_PQ.size(); ++n) X_PQ[n] = bodies.pose(n);
+    sites.push_back(makePieceSite(sockets.scene(piece, X_PQ)));
+    command.site = {command.site.serial + 1, bodies.digest(), piece, sites.back().get()};
+    step();
+  }
+  void go(const glm::dvec3& to_mm, double seconds, const glm::dquat& turned = {1.0, 0.0, 0.0, 0.0}) {
+    const glm::dvec3 from_mm = hand.X_PT.translation_mm;
+    const glm::dquat from = hand.X_PT.rotation;
+    const int steps = static_cast<int>(seconds / 1e-3 + 0.5);
+    for (int n = 1; n <= steps; ++n) {
+      const double u = static_cast<double>(n) / steps;
+      hand.X_PT = {glm::slerp(from, turned, u), glm::mix(from_mm, to_mm, u)};
+      hand.velocity_P_mm_per_s.xyz = (to_mm - from_mm) / seconds;
+      step();
+    }
+    hand.velocity_P_mm_per_s = {};
+  }
+  void grip() {
+    go({4.2, 0.0, 2.0}, 0.2);
+    hand.drill_pedal = true;
+    step();
+  }
+  /// To both sides until it is loose, then out.
+  void rockOut(double rad) {
+    const glm::dvec3 at_mm = hand.X_PT.translation_mm;
+    for (int n = 0; n < 40 && tick.torn_share < 0.999; ++n)
+      go(at_mm, 0.5, glm::angleAxis(n % 2 == 0 ? rad : -rad, glm::dvec3(0.0, 1.0, 0.0)));
+    go(at_mm, 0.3);
+    go(at_mm + glm::dvec3(0.0, 0.0, 9.0), 1.5);
+  }
+};
+
+double model_N(const Tick& tick) { return glm::length(tick.grip_force_P_N.xyz); }
+
+TEST(Forceps, GripOnlyAPieceThatIsReadyAndBetweenTheBeaks) {
+  Mouth mouth;
+  mouth.grip();
+  EXPECT_EQ(mouth.tick.gripped, 0) << "not ready";
+  mouth.hand.drill_pedal = false;
+  mouth.step();
+  mouth.makeReady();
+  ASSERT_EQ(mouth.tick.site, SiteAnswer::ready);
+  mouth.hand.drill_pedal = true;
+  mouth.step();
+  EXPECT_EQ(mouth.tick.gripped, 1);
+  EXPECT_FALSE(mouth.tick.drilling);
+  EXPECT_EQ(mouth.tick.spindle_rad_per_s, 0.0);
+  mouth.hand.drill_pedal = false;
+  mouth.step();
+  EXPECT_EQ(mouth.tick.gripped, 0);
+  // In the air, with the pedal down beforehand, and with a bur.
+  mouth.go({12.0, 0.0, 2.0}, 0.2);
+  mouth.hand.drill_pedal = true;
+  mouth.step();
+  EXPECT_EQ(mouth.tick.gripped, 0);
+  mouth.go({4.2, 0.0, 2.0}, 0.2);
+  EXPECT_EQ(mouth.tick.gripped, 0) << "the beaks were closed before";
+}
+
+TEST(Forceps, AnOrderHoldsForTheBodiesItWasMadeFrom) {
+  Mouth mouth;
+  mouth.makeReady();
+  ASSERT_EQ(mouth.tick.site, SiteAnswer::ready);
+  mouth.command.site.bodies_digest ^= 1;
+  ++mouth.command.site.serial;
+  mouth.step();
+  EXPECT_EQ(mouth.tick.site, SiteAnswer::refused);
+  mouth.command.site = {mouth.command.site.serial + 1, mouth.bodies.digest(), 0, nullptr};
+  mouth.step();
+  EXPECT_EQ(mouth.tick.site, SiteAnswer::refused);
+  mouth.command.site = {mouth.command.site.serial + 1, mouth.bodies.digest(), 3, mouth.sites.back().get()};
+  mouth.step();
+  EXPECT_EQ(mouth.tick.site, SiteAnswer::refused);
+}
+
+TEST(Forceps, AFirmToothHoldsAndSpringsBack) {
+  Mouth mouth;
+  mouth.makeReady();
+  mouth.grip();
+  ASSERT_EQ(mouth.tick.gripped, 1);
+  mouth.go({4.2, 0.0, 6.0}, 0.5);
+  // 4 mm of the hand, less what the tooth yields: 100 N of the model, 2 N felt.
+  EXPECT_NEAR(model_N(mouth.tick), 100.0, 8.0);
+  EXPECT_NEAR(mouth.tick.law_force_P_N.xyz.z, -2.0, 0.16);
+  EXPECT_LT(glm::length(mouth.tick.X_PQ[0].translation_mm), 0.2);
+  EXPECT_LT(mouth.tick.torn_share, 0.1);
+  EXPECT_LT(glm::distance(mouth.tick.proxy_P.mm, glm::dvec3(4.2, 0.0, 2.0)), 1.0) << "the tool stays at the tooth";
+  mouth.hand.drill_pedal = false;
+  mouth.step(400);
+  EXPECT_LT(glm::length(mouth.tick.X_PQ[0].translation_mm), 0.05);
+  EXPECT_EQ(mouth.tick.gripped, 0);
+}
+
+TEST(Forceps, RockingTearsTheLigamentThenTheToothComesOutAndIsSetAside) {
+  Mouth mouth;
+  mouth.makeReady();
+  mouth.grip();
+  mouth.rockOut(0.6);
+  EXPECT_GE(mouth.tick.torn_share, 0.999);
+  EXPECT_GT(mouth.tick.X_PQ[0].translation_mm.z, ForcepsLaw::kClear_mm);
+  // At least what tears an area of fibres: 0.367 N mm a mm2; the root has some 70 mm2.
+  EXPECT_GT(mouth.tick.torn_total_Nmm, 15.0);
+  EXPECT_LT(mouth.tick.torn_total_Nmm, 45.0);
+  bool was_set_aside = false;
+  mouth.hand.drill_pedal = false;
+  for (int n = 0; n < 5; ++n) {
+    mouth.step();
+    was_set_aside = was_set_aside || mouth.tick.set_aside;
+  }
+  EXPECT_TRUE(was_set_aside);
+  EXPECT_TRUE(mouth.bodies.isSetAside(0));
+  // Its place is empty: the tool goes in without touching.
+  mouth.go({0.0, 0.0, 10.0}, 0.2);
+  mouth.go({0.0, 0.0, -1.0}, 0.5);
+  EXPECT_EQ(mouth.tick.depth_mm, 0.0);
+}
+
+TEST(Forceps, AToothUnderALedgeOfBoneStays) {
+  Mouth mouth;
+  // Bone over the crown's edge: half of the phantom's top.
+  Phantom& phantom = mouth.phantom;
+  std::vector<std::uint8_t> solid = phantom.solid;
+  assets::forVoxels(phantom.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = phantom.grid.centre_P_mm(ijk);
+    if (p.z > 3.8 && p.z < 5.5 && p.x < 1.0) solid[v] = 255;
+  });
+  Bodies bodies(phantom.grid, solid, mouth.label, mouth.is_tooth);
+  const SocketSource sockets(bodies);
+  std::array<PiecePose, kMaxPieces> X_PQ;
+  const auto site = makePieceSite(sockets.scene(0, X_PQ));
+  PieceDrive drive;
+  drive.spring = {{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 12.0}}, {{0.0, 0.0, 2.0}}, 25.0, 8000.0, 165.0, 3000.0};
+  for (int n = 0; n < 3000; ++n) site->hold.step(drive, &site->obstacles, 1e-3);
+  EXPECT_LT(site->hold.state().X_PQ.translation_mm.z, 1.0);
+}
+
+TEST(Forceps, ForceIsBoundedWhateverTheHandDoes) {
+  Mouth mouth;
+  mouth.makeReady();
+  mouth.grip();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> jump(-30.0, 30.0), turn(-1.0, 1.0);
+  for (int n = 0; n < 4000; ++n) {
+    if (n % 40 == 0) {
+      mouth.hand.X_PT.translation_mm = glm::dvec3(4.0, 0.0, 2.0) + glm::dvec3(jump(random), jump(random), jump(random));
+      mouth.hand.X_PT.rotation = glm::normalize(glm::dquat(1.0, turn(random), turn(random), turn(random)));
+    }
+    if (n % 900 == 899) mouth.hand.X_PT.translation_mm.x = std::nan("");
+    mouth.hand.drill_pedal = n % 700 < 600;
+    mouth.step();
+    ASSERT_LE(glm::length(mouth.tick.commanded_force_P_N.xyz), mouth.command.safety.peak_force_N + 1e-9);
+    ASSERT_LE(model_N(mouth.tick), ForcepsLaw::kMost_N + 1e-6);
+    ASSERT_TRUE(calibration::isFinite(mouth.tick.X_PQ[0].translation_mm));
+    ASSERT_TRUE(calibration::isFinite(mouth.tick.commanded_force_P_N.xyz));
+  }
+}
+
+TEST(Forceps, AToothInANewSocketRemembersWhatIsTorn) {
+  Mouth mouth;
+  mouth.makeReady();
+  mouth.grip();
+  const glm::dvec3 at_mm = mouth.hand.X_PT.translation_mm;
+  for (int n = 0; n < 60 && mouth.tick.torn_share < 0.3; ++n) {
+    mouth.go(at_mm, 0.25, glm::angleAxis(0.3 + 0.02 * n, glm::dvec3(0.0, 1.0, 0.0)));
+    mouth.go(at_mm, 0.25, glm::angleAxis(-0.3 - 0.02 * n, glm::dvec3(0.0, 1.0, 0.0)));
+  }
+  const double torn = mouth.tick.torn_share;
+  ASSERT_GT(torn, 0.3);
+  mouth.hand.drill_pedal = false;
+  mouth.step(500);
+  const auto X_PQ = mouth.tick.X_PQ[0];
+  mouth.makeReady();
+  ASSERT_EQ(mouth.tick.site, SiteAnswer::ready);
+  mouth.hand.X_PT = {{1.0, 0.0, 0.0, 0.0}, mouth.tick.proxy_P.mm};
+  mouth.step(5);
+  mouth.grip();
+  ASSERT_EQ(mouth.tick.gripped, 1);
+  EXPECT_GE(mouth.tick.torn_share, torn - 1e-6);
+  EXPECT_NEAR(mouth.tick.X_PQ[0].translation_mm.z, X_PQ.translation_mm.z, 0.1);
+}
+
+}  // namespace
+}  // namespace haptics
