@@ -25,6 +25,7 @@ constexpr double kCervixShare = 0.05;      ///< of the enamel that lies below th
 constexpr double kBoneReach_mm = 22.0;     ///< of the bone that is looked at
 constexpr double kLeastDepth_mm = 0.15, kMostDepth_mm = 10.0, kRamusDepth_mm = 13.0;
 constexpr double kSightStep_mm = 0.5, kSightLength_mm = 26.0;
+constexpr double kForwardUpright = 0.3, kForwardPerLean = 0.9, kMostForward = 0.75;  ///< of the way in
 constexpr std::size_t kLeastColumns = 40;
 
 /// The crown of the operated tooth.
@@ -66,12 +67,16 @@ std::optional<Crown> crownOf(const CtVolume& ct, const assets::OperativeSite& si
   return crown;
 }
 
-/// Up, to the cheek and to the front: between the surgeon's line of sight and the tooth.
+/// Up, to the cheek and to the front: between the surgeon's line of sight and the tooth. The farther the crown leans,
+/// the more to the front: a more upright shaft would stand in bone, behind a mesio-angular crown or before a
+/// disto-angular one. Beside an upright crown a way from far in front would not reach the distal side.
 WayIn wayIn(const CtVolume& ct, const assets::OperativeSite& site, const glm::dvec3& middle_P_mm) {
   const glm::dvec3 distal = archDirection_P(ct, site), up = assets::occlusalDirection_P(site.fdi);
   glm::dvec3 buccal = glm::cross(up, distal);
   if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
-  const glm::dvec3 outward = glm::normalize(up + 0.45 * buccal - 0.3 * distal);
+  const double lean = std::abs(glm::dot(glm::normalize(site.axis_P), distal));
+  const double forward = std::min(kForwardUpright + kForwardPerLean * lean, kMostForward);
+  const glm::dvec3 outward = glm::normalize(up + 0.45 * buccal - forward * distal);
   const glm::dvec3 along = glm::normalize(distal - glm::dot(distal, outward) * outward);
   glm::dvec3 across = glm::cross(outward, along);
   if (glm::dot(across, buccal) < 0.0) across = -across;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "assets/cut_field.h"
@@ -12,6 +13,8 @@ namespace app {
 namespace {
 
 constexpr std::size_t kPlaces = 48;           // of the cut at which the outline is laid
+constexpr int kEdges = 8;                     // sides of the cut whose outermost place counts as well
+constexpr double kOver_mm = 2.0;              // above all places, on the way from stroke to stroke
 constexpr double kLeastOutward = 0.2;         // cosine of the angle to the way out of the bone
 constexpr int kDirections = 2000;             // on the whole sphere
 constexpr double kCloser = 0.035;             // 2 degrees, between directions around the best
@@ -26,7 +29,14 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return calibration::degreesFromRad(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-/// Places all over the cut, the outline of the tool and the bone that stays.
+/// Two directions square to a direction and to each other.
+std::pair<glm::dvec3, glm::dvec3> besides(const glm::dvec3& direction_P) {
+  const glm::dvec3 aside = glm::normalize(
+      glm::cross(direction_P, std::abs(direction_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  return {aside, glm::cross(direction_P, aside)};
+}
+
+/// Places all over the cut and at its edges, the outline of the tool and the bone that stays.
 class Mouth {
  public:
   Mouth(const assets::PlannedCut& cut, const assets::CtVolume& ct, const assets::SoftTissueField& soft,
@@ -36,27 +46,47 @@ class Mouth {
     for (const auto& stroke : cut.strokes_P_mm) all.insert(all.end(), stroke.begin(), stroke.end());
     const std::size_t count = std::min(all.size(), kPlaces);
     for (std::size_t n = 0; n < count; ++n) places_P_mm_.push_back(all[n * all.size() / count]);
+    const double out_length = glm::length(cut.outward_P);
+    if (all.empty() || !(out_length > 0.0)) return;
+
+    // The edges, and how high above them the bur goes from stroke to stroke.
+    outward_ = cut.outward_P / out_length;
+    const auto [aside, across] = besides(outward_);
+    for (const glm::dvec3& p : all) over_mm_ = std::max(over_mm_, glm::dot(p, outward_) + kOver_mm);
+    for (int n = 0; n < kEdges; ++n) {
+      const double turn_rad = 2.0 * calibration::kPi * n / kEdges;
+      const glm::dvec3 side = std::cos(turn_rad) * aside + std::sin(turn_rad) * across;
+      edges_P_mm_.push_back(*std::ranges::max_element(all, {}, [&](const glm::dvec3& p) { return glm::dot(p, side); }));
+    }
   }
 
   bool isEmpty() const { return places_P_mm_.empty(); }
 
   HandpieceRoom room(const glm::dvec3& direction_P) const {
     HandpieceRoom room{assets::SoftTissueField::kOutside_mm, 0.0};
-    const glm::dvec3 aside = glm::normalize(
-        glm::cross(direction_P, std::abs(direction_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
-    const glm::dvec3 across = glm::cross(direction_P, aside);
+    const auto [aside, across] = besides(direction_P);
     int in_bone = 0;
     for (const glm::dvec3& place : places_P_mm_) {
       bool meets_bone = false;
       for (std::size_t n = outline_.head_count; n < outline_.count; ++n) {
         const glm::dvec3 centre = place + outline_.balls[n].z_mm * direction_P;
         const double radius_mm = outline_.balls[n].radius_mm;
-        room.soft_mm = std::min(room.soft_mm, soft_.at(centre).distance_mm - radius_mm);
+        room.soft_mm = std::min(room.soft_mm, softRoom_mm(centre, radius_mm));
         if (meets_bone || outline_.balls[n].z_mm > kBoneWithin_mm) continue;
         for (const glm::dvec3& side : {glm::dvec3(0.0), aside, -aside, across, -across})
           meets_bone = meets_bone || isInBone(centre + radius_mm * side);
       }
       in_bone += meets_bone;
+    }
+    // Half way between shaft and way out, as scripted hands lift the bur.
+    const glm::dvec3 lift = glm::normalize(outward_ + direction_P);
+    const double per_height = 1.0 / std::max(glm::dot(lift, outward_), kLeastOutward);
+    for (const glm::dvec3& edge : edges_P_mm_) {
+      const glm::dvec3 over = edge + (over_mm_ - glm::dot(edge, outward_)) * per_height * lift;
+      for (std::size_t n = outline_.head_count; n < outline_.count; ++n)
+        for (const glm::dvec3& place : {edge, over})
+          room.soft_mm = std::min(
+              room.soft_mm, softRoom_mm(place + outline_.balls[n].z_mm * direction_P, outline_.balls[n].radius_mm));
     }
     room.in_bone_share = in_bone / static_cast<double>(std::max<std::size_t>(places_P_mm_.size(), 1));
     return room;
@@ -64,6 +94,10 @@ class Mouth {
 
  private:
   static constexpr double kBoneWithin_mm = 25.0;  ///< of the bur; farther up is the handpiece, wider than the mouth
+
+  double softRoom_mm(const glm::dvec3& centre_P_mm, double radius_mm) const {
+    return soft_.at(centre_P_mm).distance_mm - radius_mm;
+  }
 
   bool isInBone(const glm::dvec3& p_P_mm) const {
     const glm::ivec3 ijk(glm::round(ct_.grid.indexFromPoint(p_P_mm)));
@@ -74,7 +108,9 @@ class Mouth {
   const assets::SoftTissueField& soft_;
   assets::CutField removed_;
   haptics::InstrumentOutline outline_;
-  std::vector<glm::dvec3> places_P_mm_;
+  std::vector<glm::dvec3> places_P_mm_, edges_P_mm_;
+  glm::dvec3 outward_{0.0};
+  double over_mm_ = -1e9;  ///< along outward_
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // How a straight handpiece lies while the planned cut is made: the direction from the bur to the handpiece that keeps
 // shaft and handpiece clear of lips, cheek, tongue and gingiva, and the shaft of bone and teeth that stay, without
-// standing in the surgeon's line of sight. The outline is laid at places all over the cut and the directions of the
-// half space outside the bone are compared, first 4.5 degrees apart, then closer around the best. Frame P, mm.
-// Start-up, any thread; about 0.1 s.
+// standing in the surgeon's line of sight. The outline is laid at places all over the cut, at its edges and above them,
+// where the bur goes from stroke to stroke, and the directions of the half space outside the bone are compared, first
+// 4.5 degrees apart, then closer around the best. Frame P, mm. Start-up, any thread; about 0.1 s.
 #pragma once
 
 #include "assets/ct_volume.h"
@@ -14,7 +14,7 @@ namespace app {
 
 /// What a handpiece in that direction meets.
 struct HandpieceRoom {
-  double soft_mm = 0.0;        ///< least distance to soft tissue anywhere in the cut; negative: in it
+  double soft_mm = 0.0;        ///< least distance to soft tissue anywhere in the cut or over it; negative: in it
   double in_bone_share = 0.0;  ///< of the places in the cut at which the shaft is in bone or a tooth
 };
 HandpieceRoom handpieceRoom(const assets::PlannedCut& cut, const assets::CtVolume& ct,

@@ -13,16 +13,20 @@
 #include <span>
 #include <vector>
 
+#include "assets/cut_field.h"
 #include "assets/load_error.h"
 #include "assets/scenery/reflected_flap.h"
 #include "assets/smooth_distance.h"
 #include "assets/surface_smoothing.h"
+#include "assets/trilinear.h"
 #include "assets/vertex_normals.h"
 
 namespace assets {
 namespace {
 
 constexpr double kWoundReach_mm = 10.0;  // of its distances beyond the cut
+constexpr double kWoundSpacing_mm = 0.5;
+constexpr double kPapilla_mm = 8.0;  // height that is raised above the cut's front, at most
 constexpr double kSightStep_mm = 1.0, kSight_mm = 14.0;
 constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
@@ -165,19 +169,42 @@ MeshModel split(const MeshPart& whole, const IsOnFlap& is_on_flap) {
 
 }  // namespace
 
-Wound::Wound(const PlannedCut& cut)
-    : field_(cut, kWoundReach_mm, true, 0.5),
-      sight_P_(cut.sight_P),
-      low_P_mm_(glm::min(field_.low_P_mm(), field_.low_P_mm() + kSight_mm * cut.sight_P)),
-      high_P_mm_(glm::max(field_.high_P_mm(), field_.high_P_mm() + kSight_mm * cut.sight_P)) {}
+Wound::Wound(const PlannedCut& cut) {
+  const CutField field(cut, kWoundReach_mm, true, kWoundSpacing_mm);
+  const glm::dvec3 low = field.low_P_mm(), high = field.high_P_mm(), to_eye = kSight_mm * cut.sight_P;
+  grid_.spacing_mm = kWoundSpacing_mm;
+  grid_.origin_P_mm = glm::min(low, low + to_eye);
+  grid_.size = glm::ivec3(glm::ceil((glm::max(high, high + to_eye) - grid_.origin_P_mm) / kWoundSpacing_mm)) + 1;
+  mm_.resize(grid_.voxelCount());
+  const double sight_mm = cut.sight_P == glm::dvec3(0.0) ? 0.0 : kSight_mm;
+  forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p_P = grid_.centre_P_mm(ijk);
+    double mm = kWoundReach_mm;
+    for (double way_mm = 0.0; way_mm <= sight_mm; way_mm += kSightStep_mm)
+      mm = std::min(mm, field.distance_mm(p_P - way_mm * cut.sight_P));
+    mm_[v] = static_cast<float>(mm - kFlapMargin_mm);
+  });
+  if (cut.outward_P.z != 0.0 && !cut.strokes_P_mm.empty()) sweepUp(cut.outward_P.z, middleOf_P_mm(cut).y);
+}
+
+// Away from the bone, up in the lower jaw: the higher the farther forwards of the middle. There papillae stand over the
+// cut, behind it the ramus.
+void Wound::sweepUp(double up, double middle_y_P_mm) {
+  const std::vector<float> below = mm_;
+  forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
+    const double high_mm = std::clamp(middle_y_P_mm - grid_.centre_P_mm(ijk).y, 0.0, kPapilla_mm);
+    const int steps = static_cast<int>(high_mm / kWoundSpacing_mm);
+    for (int n = 1; n <= steps; ++n) {
+      const glm::ivec3 at(ijk.x, ijk.y, up > 0.0 ? ijk.z - n : ijk.z + n);
+      if (grid_.contains(at)) mm_[v] = std::min(mm_[v], below[grid_.index(at)]);
+    }
+  });
+}
 
 double Wound::distance_mm(const glm::dvec3& p_P_mm) const {
-  // Swept from the cut towards the eye.
-  double mm = field_.distance_mm(p_P_mm);
-  if (sight_P_ != glm::dvec3(0.0))
-    for (double way_mm = kSightStep_mm; way_mm <= kSight_mm; way_mm += kSightStep_mm)
-      mm = std::min(mm, field_.distance_mm(p_P_mm - way_mm * sight_P_));
-  return mm - kFlapMargin_mm;
+  const glm::ivec3 base(glm::floor(grid_.indexFromPoint(p_P_mm)));
+  if (!grid_.contains(base) || !grid_.contains(base + 1)) return kWoundReach_mm - kFlapMargin_mm;
+  return trilinearAt(grid_, p_P_mm, [&](glm::ivec3 ijk) { return double{mm_[grid_.index(ijk)]}; });
 }
 
 MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cut) {

@@ -6,11 +6,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "assets/ct_volume.h"
-#include "assets/cut_field.h"
 #include "assets/mesh.h"
 #include "assets/planned_cut.h"
+#include "assets/volume_grid.h"
 
 namespace assets {
 
@@ -19,19 +20,22 @@ inline constexpr double kFlapMargin_mm = 2.0;
 /// Of the folded flap; mucoperiosteum is 1.5 to 2 mm thick.
 inline constexpr double kFlapThickness_mm = 1.7;
 
-/// Where the flap is raised for a planned cut.
+/// Where the flap is raised for a planned cut: over the cut, between it and the eye, and in front above that too, so
+/// that no papilla is left without the gingiva it stood on.
 class Wound {
  public:
   explicit Wound(const PlannedCut& cut);
 
   /// Signed distance, negative where gingiva is removed; at most some millimetres.
   double distance_mm(const glm::dvec3& p_P_mm) const;
-  glm::dvec3 low_P_mm() const { return low_P_mm_; }
-  glm::dvec3 high_P_mm() const { return high_P_mm_; }
+  glm::dvec3 low_P_mm() const { return grid_.origin_P_mm; }
+  glm::dvec3 high_P_mm() const { return grid_.centre_P_mm(grid_.size - 1); }
 
  private:
-  CutField field_;
-  glm::dvec3 sight_P_, low_P_mm_, high_P_mm_;
+  void sweepUp(double up, double middle_y_P_mm);
+
+  VolumeGrid grid_;
+  std::vector<float> mm_;  ///< in the order of the grid
 };
 
 /// "Gum" and, where there is a cut, the flap raised for it as "Gum flap"; no part where nothing is labelled gingiva.

@@ -12,7 +12,7 @@
 namespace assets {
 
 /// Part of the cache name; to be incremented with any change of the generated jaw, gingiva or face.
-inline constexpr int kSyntheticPatientRevision = 14;
+inline constexpr int kSyntheticPatientRevision = 16;
 
 struct JawParameters {
   bool right_side = true;

@@ -75,6 +75,18 @@ TEST(GutterPlan, KeepsTheLingualSide) {
   alongStrokes(*cut, [](const glm::dvec3& p) { EXPECT_LT(p.x, -20.0 + 4.0); });
 }
 
+TEST(GutterPlan, ComesFartherFromTheFrontToACrownThatLeans) {
+  const auto forward = [](const glm::dvec3& axis_P) {
+    assets::Patient patient = blockWithMolar();
+    patient.site->axis_P = glm::normalize(axis_P);
+    const glm::dvec3 outward = planGutter(patient, kUsualBurRadius_mm).value().outward_P;
+    return -outward.y / outward.z;  // anterior is -y
+  };
+  EXPECT_NEAR(forward({0.0, 0.0, 1.0}), 0.3, 0.05);
+  EXPECT_NEAR(forward({0.0, -1.0, 4.0}), 0.52, 0.05);
+  for (const double lean : {-1.0, 1.0}) EXPECT_NEAR(forward({0.0, lean, 1.0}), 0.75, 0.05) << lean;
+}
+
 TEST(GutterPlan, IsNoneWithoutBoneOrMolar) {
   assets::Patient no_site = blockWithMolar();
   no_site.site.reset();

@@ -59,8 +59,25 @@ TEST_F(HandpieceDirection, KeepsTheShaftOutOfBoneAndOutOfTheLineOfSight) {
   EXPECT_LT(glm::dot(handpieceDirection_P(seen_along_it, patient.ct, {}, tool), direction), kHiddenWithin);
 }
 
+/// Under a roof: as little room as two millimetres over the highest place of the cut.
+TEST_F(HandpieceDirection, CountsTheWayOverTheBoneFromStrokeToStroke) {
+  const auto soft = mouth([&](const glm::dvec3& p) { return 34.0 - p.z; });
+  haptics::Tool alone = tool;
+  alone.handpiece = false;
+  const glm::dvec3 out = glm::normalize(cut.outward_P);
+  assets::PlannedCut over = cut;
+  over.strokes_P_mm = {{cut.strokes_P_mm.front().front()}};
+  for (const auto& stroke : cut.strokes_P_mm)
+    for (const glm::dvec3& p : stroke)
+      if (glm::dot(p - over.strokes_P_mm[0][0], out) > 0.0) over.strokes_P_mm[0][0] = p;
+  over.strokes_P_mm[0][0] += 2.0 * out;
+  over.outward_P = glm::dvec3(0.0);
+  EXPECT_LE(handpieceRoom(cut, patient.ct, soft, alone, out).soft_mm,
+            handpieceRoom(over, patient.ct, soft, alone, out).soft_mm + 0.3);
+}
+
 TEST_F(HandpieceDirection, ABurAloneHasMoreRoom) {
-  const auto soft = mouth([&](const glm::dvec3& p) { return 30.0 - p.z; });
+  const auto soft = mouth([&](const glm::dvec3& p) { return 40.0 - p.z; });
   haptics::Tool alone = tool;
   alone.handpiece = false;
   EXPECT_LT(handpieceRoom(cut, patient.ct, soft, tool, cut.outward_P).soft_mm, 0.0);

@@ -87,6 +87,18 @@ TEST(Wound, ReachesFromTheCutTowardsTheEye) {
   EXPECT_GT(wound.distance_mm({20.0, 13.0, 6.4}), 0.0) << "the other way";
 }
 
+/// Where a papilla stands higher than what is between the cut and the eye.
+TEST(Wound, ReachesUpFromThereInFrontAndNotBehind) {
+  PlannedCut cut = cutAlongTheCrest();
+  const Wound wound(cut);
+  EXPECT_LT(wound.distance_mm({20.0, -8.0, 17.0}), -1.0) << "above the way to the eye";
+  EXPECT_GT(wound.distance_mm({20.0, -8.0, -5.0}), 1.0) << "below";
+  EXPECT_GT(wound.distance_mm({20.0, 6.0, 6.0}), 0.5) << "at the ramus";
+  cut.outward_P.z = -1.0;
+  cut.sight_P.z = -0.8;
+  EXPECT_LT(Wound(cut).distance_mm({20.0, -8.0, -17.0}), -1.0) << "in the upper jaw";
+}
+
 TEST(GingivaSurface, IsDarkerAtTheWoundsEdge) {
   const Wound wound(cutAlongTheCrest());
   const MeshModel model = gingivaSurface(ridge(), cutAlongTheCrest());
