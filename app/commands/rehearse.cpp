@@ -311,6 +311,12 @@ int run(RehearseOptions& options) {
     return 0;
   }
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
+  // Whoever named no tools finds forceps beside the bur.
+  const auto grips = [](const haptics::Tool& tool) { return tool.grips; };
+  static const RehearseOptions kUntouched;
+  if (options.tools == kUntouched.tools && plan.patient.site &&
+      std::none_of(plan.other_tools.begin(), plan.other_tools.end(), grips))
+    plan.other_tools.push_back(haptics::forcepsTool());
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) {

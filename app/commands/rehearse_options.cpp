@@ -53,7 +53,9 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.option("--device", options.plan.device, poseSourceHelp()).showsDefault();
   command
       .option("--tool", options.tools,
-              headHelp() + "; or forceps, closed with the pedal; give several to change between them by key T or pedal")
+              headHelp() +
+                  "; or forceps, which the pedal closes on a tooth. Give several to change between them by key T or "
+                  "pedal; without any, forceps lie beside the bur where a tooth is to be removed")
       .repeated()
       .showsDefault();
   command.option("--shaft", options.shaft,

@@ -26,6 +26,8 @@ class SiteDesk {
   std::optional<haptics::SiteOrder> follow(const haptics::Tick& newest, bool gripping_tool, bool waits);
   /// Every piece is ready in the state of the newest tick that was followed.
   bool isReady() const { return ready_; }
+  /// As it was made ready last; 0: never.
+  double volume_mm3(std::size_t piece) const { return given_[piece].empty() ? 0.0 : given_[piece].back()->volume_mm3; }
 
  private:
   struct Job {

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/options/bur_name.h"
+#include "app/rehearsal/grip_log.h"
 #include "haptics/tool/spindle.h"
 
 namespace app {
@@ -39,7 +40,8 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.line_shown = line_shown_;
   content.bur = toolName(command.tool);
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
-  content.drive = driveText(rpm, command.drill_enabled);
+  content.drive =
+      command.tool.grips ? forcepsText(tick, values.forceps_ready) : driveText(rpm, command.drill_enabled);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
   content.force_N = glm::length(tick.commanded_force_P_N.xyz);

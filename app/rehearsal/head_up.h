@@ -38,6 +38,7 @@ class HeadUp {
     std::optional<double> gap_mm;
     std::string task;   ///< of a procedure
     std::string ruler;  ///< rulerText()
+    bool forceps_ready = false;
   };
   HeadUpContent content(const Values& values, Time now);
 

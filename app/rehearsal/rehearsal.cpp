@@ -13,6 +13,7 @@
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
+#include "app/rehearsal/grip_log.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
 #include "app/rehearsal/soft_mark_trail.h"
@@ -174,11 +175,21 @@ class Rehearsal {
     if (ticks.empty()) return;
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
+    followGrip(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
     for (const Touch& touch : touches_.follow(ticks, command.tool.head)) event_log_.note(kTouchEvent, touchText(touch));
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  void followGrip(std::span<const haptics::Tick> ticks) {
+    const auto volume_mm3 = [this](std::size_t piece) { return sites_->volume_mm3(piece); };
+    for (const GripLog::Told& told :
+         grips_.follow(ticks, active_command_.inForce().tool.grips, sites_->isReady(), volume_mm3)) {
+      head_up_.say(told.line);
+      if (told.is_event) event_log_.note("forceps", told.line);
+    }
   }
 
   void countSoftTouches(const std::vector<haptics::Tick>& ticks) {
@@ -234,7 +245,8 @@ class Rehearsal {
     return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                         monitor_.recordingEnded()),
             frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
-            plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question(), rulerText(frame_.ruler)};
+            plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question(), rulerText(frame_.ruler),
+            sites_->isReady()};
   }
 
   void draw() {
@@ -259,6 +271,7 @@ class Rehearsal {
     figures.times = head_up_.times();
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.tooth = tooth_->ending();
+    figures.forceps = grips_.summary();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
@@ -284,6 +297,7 @@ class Rehearsal {
   render::Frame frame_;
   std::optional<ToothFollower> tooth_;
   std::optional<SiteDesk> sites_;
+  GripLog grips_;
   haptics::Tick newest_;
   FieldClarity clarity_;
 };

@@ -55,7 +55,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
     if (!words.empty()) text += fmt::format("  {:16} {}\n", name, words);
   };
   line("patient", f.last.patient_title);
-  line("bur", toolName(f.last.command.tool));
+  line("instrument", toolName(f.last.command.tool));
   const std::string cutting =
       f.times.cutting_s < 1.0 ? ""
       : f.times.dry_s < 1.0
@@ -70,6 +70,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
   line("other removed", removedText(f, is_soft));
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("tooth", f.tooth);
+  line("forceps", f.forceps);
   line("touched", f.touched.empty() ? "no tooth, no canal" : touchesText(f.touched));
   line("soft tissue", softTouchesText(f.soft_touches.touched));
   line("bur turned on", softTouchesText(f.soft_touches.cut));

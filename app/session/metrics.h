@@ -34,6 +34,7 @@ struct SessionMetrics {
   double duration_s = 0.0, contact_s = 0.0, drill_on_s = 0.0, drill_in_contact_s = 0.0, dry_drilling_s = 0.0,
          obscured_s = 0.0;
   double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
+  double grip_s = 0.0, max_grip_N = 0.0, ligament_torn_Nmm = 0.0, pieces_out = 0.0;  ///< by forceps; N of the model
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
   std::vector<MeasuredWay> measured;
@@ -61,6 +62,10 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"max_force_N", "N", "largest force on the hand", &SessionMetrics::max_force_N},
     {"mean_contact_force_N", "N", "mean force in contact", &SessionMetrics::mean_contact_force_N},
     {"max_depth_mm", "mm", "largest equivalent depth of the force law", &SessionMetrics::max_depth_mm},
+    {"grip_s", "s", "time with the forceps closed on a piece of tooth", &SessionMetrics::grip_s},
+    {"max_grip_N", "N", "largest force of the forceps on a piece, in the model", &SessionMetrics::max_grip_N},
+    {"ligament_torn_Nmm", "N mm", "energy that tore ligament", &SessionMetrics::ligament_torn_Nmm},
+    {"pieces_out", "pieces", "pieces of tooth taken out", &SessionMetrics::pieces_out},
     {"limited_s", "s", "time with the force clamped or slew-limited", &SessionMetrics::limited_s},
     {"faulty_s", "s", "time with an invalid pose or force or a device fault", &SessionMetrics::faulty_s},
     {"removed_mm3", "mm3", "removed volume, without undone strokes", &SessionMetrics::removed_mm3},

@@ -66,7 +66,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
-  const SolidBodies bodies = bodies_.view();
+  // The beaks go round a tooth: between them is room for it.
+  const SolidBodies bodies = command.tool.grips ? SolidBodies(bodies_.jaw().field()) : bodies_.view();
   Proxy::State proxy;
   if (!forceps_.holds()) {
     proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)

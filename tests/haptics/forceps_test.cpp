@@ -70,7 +70,7 @@ struct Mouth {
     hand.velocity_P_mm_per_s = {};
   }
   void grip() {
-    go({4.2, 0.0, 2.0}, 0.2);
+    go({2.0, 0.0, 2.0}, 0.2);
     hand.drill_pedal = true;
     step();
   }
@@ -107,7 +107,7 @@ TEST(Forceps, GripOnlyAPieceThatIsReadyAndBetweenTheBeaks) {
   mouth.hand.drill_pedal = true;
   mouth.step();
   EXPECT_EQ(mouth.tick.gripped, 0);
-  mouth.go({4.2, 0.0, 2.0}, 0.2);
+  mouth.go({2.0, 0.0, 2.0}, 0.2);
   EXPECT_EQ(mouth.tick.gripped, 0) << "the beaks were closed before";
 }
 
@@ -132,13 +132,13 @@ TEST(Forceps, AFirmToothHoldsAndSpringsBack) {
   mouth.makeReady();
   mouth.grip();
   ASSERT_EQ(mouth.tick.gripped, 1);
-  mouth.go({4.2, 0.0, 6.0}, 0.5);
+  mouth.go({2.0, 0.0, 6.0}, 0.5);
   // 4 mm of the hand, less what the tooth yields: 100 N of the model, 2 N felt.
   EXPECT_NEAR(model_N(mouth.tick), 100.0, 8.0);
   EXPECT_NEAR(mouth.tick.law_force_P_N.xyz.z, -2.0, 0.16);
   EXPECT_LT(glm::length(mouth.tick.X_PQ[0].translation_mm), 0.2);
   EXPECT_LT(mouth.tick.torn_share, 0.1);
-  EXPECT_LT(glm::distance(mouth.tick.proxy_P.mm, glm::dvec3(4.2, 0.0, 2.0)), 1.0) << "the tool stays at the tooth";
+  EXPECT_LT(glm::distance(mouth.tick.proxy_P.mm, glm::dvec3(2.0, 0.0, 2.0)), 1.0) << "the tool stays at the tooth";
   mouth.hand.drill_pedal = false;
   mouth.step(400);
   EXPECT_LT(glm::length(mouth.tick.X_PQ[0].translation_mm), 0.05);

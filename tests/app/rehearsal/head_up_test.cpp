@@ -14,12 +14,25 @@ struct Picture {
   haptics::Tick tick;
   haptics::Command command;
   HeadUp::Time now{};
+  bool ready = false;
 
   Picture() { tick.dt_s = 0.001; }
   HeadUpContent at(milliseconds later, bool has_motors = false) {
-    return head_up.content({{tick, command, has_motors, false, {}, {}}, 3.0, "", ""}, now + later);
+    return head_up.content({{tick, command, has_motors, false, {}, {}}, 3.0, "", "", ready}, now + later);
   }
 };
+
+TEST(HeadUp, ShowsWhatTheForcepsDoWhereADrillHasItsSpeed) {
+  Picture picture;
+  picture.command.tool = haptics::forcepsTool();
+  EXPECT_EQ(picture.at(milliseconds(0)).bur, "extraction forceps");
+  EXPECT_EQ(picture.at(milliseconds(0)).drive, "not ready");
+  picture.ready = true;
+  EXPECT_EQ(picture.at(milliseconds(0)).drive, "open");
+  picture.tick.gripped = 1;
+  picture.tick.torn_share = 0.42;
+  EXPECT_EQ(picture.at(milliseconds(0)).drive, "torn 42 %");
+}
 
 TEST(HeadUp, SaysALineForTwoSecondsFromItsFirstFrame) {
   Picture picture;

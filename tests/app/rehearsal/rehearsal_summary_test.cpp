@@ -38,7 +38,7 @@ TEST(RehearsalSummary, AnswersTheSurgeonFirst) {
   EXPECT_EQ(summaryText(figures),
             "Rehearsal\n"
             "  patient          block of bone\n"
-            "  bur              round 3.0 mm, ISO 030\n"
+            "  instrument       round 3.0 mm, ISO 030\n"
             "  time             1:12, cutting 0:31, 0:12 of it without water\n"
             "  bone removed     4.0 mm³ (cortical bone 4.0)\n"
             "  tooth removed    0.5 mm³ (enamel 0.5)\n"

@@ -1,0 +1,60 @@
+#include "app/rehearsal/grip_log.h"
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+struct Told {
+  GripLog log;
+  haptics::Tick tick;
+  bool ready = true;
+
+  Told() { tick.dt_s = 0.001; }
+  std::vector<std::string> lines(int ticks = 1) {
+    std::vector<std::string> lines;
+    const std::vector<haptics::Tick> all(static_cast<std::size_t>(ticks), tick);
+    for (const GripLog::Told& told : log.follow(all, true, ready, [](std::size_t) { return 411.6; }))
+      lines.push_back(told.line);
+    return lines;
+  }
+};
+using Lines = std::vector<std::string>;
+
+TEST(GripLog, TellsWhyNothingIsHeldOnceForEachClosing) {
+  Told told;
+  EXPECT_EQ(told.lines(), Lines{});
+  told.tick.hand.drill_pedal = true;
+  EXPECT_EQ(told.lines(3), Lines{"nothing between the beaks"});
+  EXPECT_EQ(told.lines(), Lines{});
+  told.tick.hand.drill_pedal = false;
+  told.lines();
+  told.tick.hand.drill_pedal = true;
+  told.ready = false;
+  EXPECT_EQ(told.lines(), Lines{"the forceps are not ready yet, open them and wait"});
+  EXPECT_EQ(told.log.summary(), "");
+}
+
+TEST(GripLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
+  Told told;
+  told.tick.hand.drill_pedal = true;
+  told.tick.gripped = 2;
+  told.tick.grip_force_P_N.xyz = {0.0, 0.0, 120.0};
+  told.tick.torn_share = 0.2;
+  EXPECT_EQ(told.lines(1000), Lines{});
+  told.tick.torn_share = 0.55;
+  EXPECT_EQ(told.lines(1000), Lines{"50 % of the ligament is torn"});
+  told.tick.torn_share = 0.9995;
+  told.tick.grip_force_P_N.xyz = {};
+  EXPECT_EQ(told.lines(1000), Lines{"the piece is loose"});
+  EXPECT_EQ(told.log.summary(),
+            "nothing taken out, held for 0:02, pulled with 120 N at most (model), 100 % of the ligament torn");
+  told.tick.gripped = 0;
+  told.tick.set_aside = true;
+  told.tick.hand.drill_pedal = false;
+  EXPECT_EQ(told.lines(), Lines{"out: a piece of 412 mm³"});
+  EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out, held for 0:02", 0), 0u) << told.log.summary();
+}
+
+}  // namespace
+}  // namespace app
