@@ -121,7 +121,10 @@ void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Ti
 void ToothFollower::followStepped(const haptics::Tick& newest) {
   if (watches_.empty()) return;
   bodies_.takeDirtyBricks(unseen_);
-  if (newest.depth_mm > 0.0 || (unseen_.empty() && !is_partial_) || !mayLook(newest)) return;
+  // A turning bur that grazes changes what voxels remember, if no solid yet.
+  const bool is_quiet = std::exchange(quiet_at_, newest.bone_digest) == newest.bone_digest;
+  if (!is_quiet || (looked_at_ == newest.bone_digest && !is_partial_) || !mayLook(newest)) return;
+  looked_at_ = newest.bone_digest;
   if (is_partial_)
     giveAll(newest.bone_digest);
   else

@@ -30,7 +30,8 @@ class ToothFollower {
 
   /// Bricks of the jaw's grid that have changed up to the newest tick or later.
   void follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
-  /// The same for a servo that is stepped, which waits: looks when the tool is clear. Takes the dirty bricks.
+  /// The same for a servo that is stepped, which waits: looks when nothing has changed since the last call. Takes the
+  /// dirty bricks.
   void followStepped(const haptics::Tick& newest);
   /// What the servo shall split, once nothing has changed between two calls of follow(): the serial is the caller's.
   std::optional<haptics::SplitOrder> order(const haptics::Tick& newest);
@@ -52,7 +53,8 @@ class ToothFollower {
   std::vector<std::unique_ptr<TeethWatch>> watches_;  ///< by piece; none: no tooth
   std::deque<haptics::SplitPlan> plans_;              ///< of all orders: the servo reads them
   std::vector<glm::ivec3> unseen_;                    ///< stepped: since the last look
-  std::optional<std::uint64_t> quiet_at_;             ///< digest of the bodies with which nothing changed
+  std::optional<std::uint64_t> quiet_at_;             ///< digest of the bodies at the last call
+  std::optional<std::uint64_t> looked_at_;            ///< stepped: digest of the bodies at the last look
   bool is_partial_ = false;                           ///< bricks were left out while a piece moved block by block
   std::uint64_t looks_ = 0;
   std::size_t pieces_told_ = 1;

@@ -104,7 +104,7 @@ Words forceLimited(const Situation& s) {
 
 Words neckTouches(const Situation& s) {
   const bool force_without_head = s.tick.depth_mm <= 0.0 && glm::length(s.tick.law_force_P_N.xyz) > kShaftForce_N;
-  return force_without_head && !s.tick.soft.touches() ? "The bur's neck touches" : "";
+  return force_without_head && !s.command.tool.grips && !s.tick.soft.touches() ? "The bur's neck touches" : "";
 }
 
 struct Row {

@@ -82,8 +82,9 @@ struct FollowedTooth {
   void step(int ticks = 1) {
     for (int n = 0; n < ticks; ++n) tick = servo.step(hand, command, 1e-3);
   }
-  /// What a rehearsal does once a frame. True: an order was given.
+  /// What a rehearsal does in frames until all is quiet. True: an order was given.
   bool frame() {
+    follower.followStepped(tick);
     follower.followStepped(tick);
     const auto order = follower.order(tick);
     if (order) {
@@ -127,6 +128,27 @@ TEST(ToothFollower, OrdersASplitOnceForEveryPieceThatFallsOff) {
   EXPECT_TRUE(room.frame());
   EXPECT_EQ(room.tick.pieces, 3);
   EXPECT_EQ(room.follower.ending().rfind("in 3 pieces, ", 0), 0u) << room.follower.ending();
+}
+
+/// A bur that turns in the slot grazes voxels: they remember it, and no solid is gone.
+TEST(ToothFollower, AsksAgainWhenAnOrderCameTooEarly) {
+  FollowedTooth room;
+  section(room.bodies, -4.0);
+  room.step();
+  room.follower.followStepped(room.tick);
+  room.follower.followStepped(room.tick);
+  auto order = room.follower.order(room.tick);
+  ASSERT_TRUE(order);
+  haptics::ErosionStep graze;
+  graze.loss.fill(1e-4);
+  haptics::carveTool(room.bodies, {haptics::ShapeKind::sphere, 0.7, 0.0}, {{1.0, 0.0, 0.0, 0.0}, {0.75, 0.0, 1.0}},
+                     graze, 5000);
+  order->serial = 1;
+  room.command.split = *order;
+  room.step();
+  ASSERT_EQ(room.tick.split, haptics::SplitAnswer::refused);
+  EXPECT_TRUE(room.frame());
+  EXPECT_EQ(room.tick.split, haptics::SplitAnswer::done);
 }
 
 TEST(ToothFollower, OrdersNothingWhileBricksChange) {

@@ -55,6 +55,16 @@ TEST(Warnings, DryOnlyWhileTurningAndCutting) {
   EXPECT_EQ(scene.first(), "");
 }
 
+TEST(Warnings, TheNeckOfABurAndNotForceps) {
+  Scene scene;
+  scene.tick.law_force_P_N = {{0.0, 0.0, 1.0}};
+  EXPECT_EQ(scene.first(), "The bur's neck touches");
+  Scene with_forceps;
+  with_forceps.tick.law_force_P_N = {{0.0, 0.0, 1.0}};
+  with_forceps.command.tool = haptics::forcepsTool();
+  EXPECT_EQ(with_forceps.first(), "");
+}
+
 TEST(Warnings, StayLongEnoughToBeReadAndAreCountedOnce) {
   Scene scene;
   scene.command.irrigating = false;
