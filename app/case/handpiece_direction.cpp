@@ -21,7 +21,7 @@ constexpr double kCloser = 0.035;             // 2 degrees, between directions a
 constexpr double kFreeOfSoftTissue_mm = 1.0;  // no better with more
 // The rest in mm of room at soft tissue that they are worth.
 constexpr double kInBone_mm = 12.0;  // at every place
-constexpr double kPerDegreeFromWayIn_mm = 0.01;
+constexpr double kPerDegreeFromWayIn_mm = 0.1;
 // The handpiece hides what lies within 6 degrees around its axis, the eyes stand 4 degrees beside the line of sight.
 constexpr double kHides_deg = 20.0, kPerDegreeHidden_mm = 0.1;
 

@@ -314,7 +314,7 @@ int run(RehearseOptions& options) {
   // Whoever named no tools finds forceps beside the bur.
   const auto grips = [](const haptics::Tool& tool) { return tool.grips; };
   static const RehearseOptions kUntouched;
-  if (options.tools == kUntouched.tools && plan.patient.site &&
+  if (!former && options.tools == kUntouched.tools && plan.patient.site &&
       std::none_of(plan.other_tools.begin(), plan.other_tools.end(), grips))
     plan.other_tools.push_back(haptics::forcepsTool());
   if (!plan.recording && !options.no_record)

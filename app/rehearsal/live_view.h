@@ -50,8 +50,10 @@ class LiveView {
   void waitUntilShown();
   /// Bricks carved until now, for the frame to show next: its pieces that have left rest are not in the jaw.
   void uploadBone(const render::Frame& frame);
-  /// Of the last uploadBone(), in the jaw's grid.
-  const std::vector<glm::ivec3>& uploadedBricks() const { return uploader_.uploaded(); }
+  /// Those carved since the last call of this or uploadBone(), in the jaw's grid; uploaded later.
+  const std::vector<glm::ivec3>& collectBricks() { return uploader_.collect(*bodies_); }
+  /// Of the last uploadBone() or collectBricks().
+  const std::vector<glm::ivec3>& changedBricks() const { return uploader_.collected(); }
   /// Between the bur of `frame` and the bone uploaded last; nothing before a view is open.
   std::optional<render::BoneGap> gapOf(const render::Frame& frame);
   /// After a change of tool.

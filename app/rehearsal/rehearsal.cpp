@@ -213,9 +213,9 @@ class Rehearsal {
 
   void followTooth() {
     if (pace_.isRealTime())
-      tooth_->follow(view_.uploadedBricks(), newest_);
+      tooth_->follow(view_.changedBricks(), newest_);
     else
-      tooth_->followStepped(newest_);
+      tooth_->followStepped(view_.collectBricks(), newest_);
     if (station().isApplied(newest_)) followForceps();
     if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {

@@ -118,9 +118,9 @@ void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Ti
   for (const auto& watch : watches_) watch->confirm(newest.bone_digest);
 }
 
-void ToothFollower::followStepped(const haptics::Tick& newest) {
+void ToothFollower::followStepped(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
   if (watches_.empty()) return;
-  bodies_.takeDirtyBricks(unseen_);
+  unseen_.insert(unseen_.end(), bricks.begin(), bricks.end());
   // A turning bur that grazes changes what voxels remember, if no solid yet.
   const bool is_quiet = std::exchange(quiet_at_, newest.bone_digest) == newest.bone_digest;
   if (!is_quiet || (looked_at_ == newest.bone_digest && !is_partial_) || !mayLook(newest)) return;

@@ -30,9 +30,8 @@ class ToothFollower {
 
   /// Bricks of the jaw's grid that have changed up to the newest tick or later.
   void follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
-  /// The same for a servo that is stepped, which waits: looks when nothing has changed since the last call. Takes the
-  /// dirty bricks.
-  void followStepped(const haptics::Tick& newest);
+  /// The same for a servo that is stepped, which waits: looks when nothing has changed since the last call.
+  void followStepped(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
   /// What the servo shall split, once nothing has changed between two calls of follow(): the serial is the caller's.
   std::optional<haptics::SplitOrder> order(const haptics::Tick& newest);
   /// A line when the bridge has become thinner than 3, 2 or 1 mm, or a piece has come apart.

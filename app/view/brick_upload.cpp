@@ -74,17 +74,26 @@ std::vector<glm::ivec3> BrickUploader::followPieces(const haptics::Bodies& from,
   return changed;
 }
 
-std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to) {
+const std::vector<glm::ivec3>& BrickUploader::collect(haptics::Bodies& from) {
   bricks_.clear();
   from.takeDirtyBricks(bricks_);
+  waiting_.insert(bricks_.begin(), bricks_.end());
+  ever_.insert(bricks_.begin(), bricks_.end());
+  return bricks_;
+}
+
+std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to) {
+  collect(from);
   const std::vector<glm::ivec3> of_pieces = followPieces(from, pieces, to);
   const auto bring = [&](glm::ivec3 brick) {
     uploadBrick(from, brick, to);
     ever_.insert(brick);
   };
-  std::ranges::for_each(bricks_, bring);
+  const std::size_t count = waiting_.size() + of_pieces.size();
+  std::ranges::for_each(waiting_, bring);
   std::ranges::for_each(of_pieces, bring);
-  return bricks_.size() + of_pieces.size();
+  waiting_.clear();
+  return count;
 }
 
 void BrickUploader::uploadEverything(const haptics::Bodies& from, const render::MovedPieces& pieces,

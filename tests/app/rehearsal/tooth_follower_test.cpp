@@ -82,10 +82,15 @@ struct FollowedTooth {
   void step(int ticks = 1) {
     for (int n = 0; n < ticks; ++n) tick = servo.step(hand, command, 1e-3);
   }
+  std::vector<glm::ivec3> dirty() {
+    std::vector<glm::ivec3> bricks;
+    bodies.takeDirtyBricks(bricks);
+    return bricks;
+  }
   /// What a rehearsal does in frames until all is quiet. True: an order was given.
   bool frame() {
-    follower.followStepped(tick);
-    follower.followStepped(tick);
+    follower.followStepped(dirty(), tick);
+    follower.followStepped(dirty(), tick);
     const auto order = follower.order(tick);
     if (order) {
       const std::uint64_t serial = command.split.serial + 1;
@@ -135,8 +140,8 @@ TEST(ToothFollower, AsksAgainWhenAnOrderCameTooEarly) {
   FollowedTooth room;
   section(room.bodies, -4.0);
   room.step();
-  room.follower.followStepped(room.tick);
-  room.follower.followStepped(room.tick);
+  room.follower.followStepped(room.dirty(), room.tick);
+  room.follower.followStepped(room.dirty(), room.tick);
   auto order = room.follower.order(room.tick);
   ASSERT_TRUE(order);
   haptics::ErosionStep graze;
@@ -175,7 +180,7 @@ TEST(ToothFollower, SaysNothingOfAJawWithoutTooth) {
   haptics::Bodies bodies(tooth.grid, tooth.solid, tooth.label);
   ToothFollower follower(bodies);
   follower.follow(std::vector<glm::ivec3>{{0, 0, 0}}, haptics::Tick{});
-  follower.followStepped(haptics::Tick{});
+  follower.followStepped({}, haptics::Tick{});
   EXPECT_FALSE(follower.order(haptics::Tick{}));
   EXPECT_FALSE(follower.news());
   EXPECT_EQ(follower.ending(), "");

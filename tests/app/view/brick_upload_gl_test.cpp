@@ -57,6 +57,8 @@ TEST(BrickUploader, ShowsTheCutOfOneTickToBothEyesInTheNextFrame) {
     uncut[e] = shown.readEye(kEyes[e]).rgba;
   }
   BrickUploader uploader;
+  EXPECT_FALSE(uploader.collect(bone).empty());
+  EXPECT_TRUE(uploader.collect(bone).empty()) << "taken, and waiting to be uploaded";
   EXPECT_GT(uploader.upload(bone, {}, shown), 0u);
   EXPECT_EQ(BrickUploader().upload(bone, {}, shown), 0u) << "nothing is uploaded twice";
   render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});

@@ -1,0 +1,157 @@
+// A tooth is sectioned, falls into two pieces, and both are taken out: the program from end to end.
+
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/commands/program.h"
+
+namespace app {
+namespace {
+
+constexpr double kSpacing_mm = 0.25;
+constexpr int kSize[3] = {88, 72, 80};
+constexpr double kOrigin_mm[3] = {-11.0, -9.0, -11.0};
+
+/// A root in bone up to z = 0, a crown above it; a slot from above leaves a bridge of 1.2 mm at the tip.
+double inTooth_mm(double x, double y, double z) {
+  const double radius_mm = z < 0.0 ? 2.6 + 0.1 * z : 3.6;
+  return std::max(std::hypot(x, y) - radius_mm, std::max(z - 4.5, -7.5 - z));
+}
+
+struct Voxel {
+  std::int16_t hounsfield = -100;
+  std::uint8_t label = 0, tooth = 0;
+};
+Voxel voxelAt(double x, double y, double z) {
+  const double in_mm = inTooth_mm(x, y, z);
+  if (in_mm < 0.0) return std::abs(x) < 0.6 && z > -6.3 ? Voxel{} : Voxel{1650, 5, 38};
+  return z < 0.0 && in_mm > 0.3 && std::abs(y) < 7.5 ? Voxel{900, 2, 0} : Voxel{};
+}
+
+std::string header(const std::string& type) {
+  std::ostringstream text;
+  text << "NRRD0005\ntype: " << type << "\ndimension: 3\nsizes: " << kSize[0] << ' ' << kSize[1] << ' ' << kSize[2]
+       << "\nspace: left-posterior-superior\nspace directions: (" << kSpacing_mm << ",0,0) (0," << kSpacing_mm
+       << ",0) (0,0," << kSpacing_mm << ")\nspace origin: (" << kOrigin_mm[0] << ',' << kOrigin_mm[1] << ','
+       << kOrigin_mm[2] << ")\nendian: little\nencoding: raw\n\n";
+  return text.str();
+}
+
+/// Rows of a pose file.
+struct Hand {
+  std::string rows = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,tool,action\n";
+  double t_s = 0.0;
+
+  void be(double after_s, const glm::dvec3& p_mm, bool pedal, double tilt_rad = 0.0, const std::string& tool = "",
+          const std::string& action = "") {
+    t_s += after_s;
+    std::ostringstream row;
+    row << t_s << ',' << p_mm.x << ',' << p_mm.y << ',' << p_mm.z << ',' << std::cos(tilt_rad / 2.0) << ",0,"
+        << std::sin(tilt_rad / 2.0) << ",0," << (pedal ? 1 : 0) << ',' << tool << ',' << action << '\n';
+    rows += row.str();
+  }
+  /// Through the bridge at the bottom of the slot.
+  void section() {
+    be(0.0, {0.0, 0.0, 9.0}, false, 0.0, "round:1.2");
+    be(1.0, {0.0, 0.0, -5.4}, false);
+    be(0.01, {0.0, 0.0, -5.4}, true);
+    double side = 1.0;
+    for (double z_mm = -5.6; z_mm > -8.4; z_mm -= 0.3, side = -side) {
+      be(0.1, {0.0, -2.4 * side, z_mm}, true);
+      be(0.8, {0.0, 2.4 * side, z_mm}, true);
+    }
+    be(0.8, {0.0, 0.0, 9.0}, true);
+    be(0.01, {0.0, 0.0, 9.0}, false);
+    be(0.5, {0.0, 0.0, 9.0}, false);
+  }
+  void takeOut(double side) {
+    const glm::dvec3 grip_mm(2.0 * side, 0.0, 2.2), out_mm(2.4 * side, 0.0, 13.0);
+    be(0.2, {6.0 * side, 0.0, 10.0}, false, 0.0, "forceps");
+    be(0.8, grip_mm, false);
+    be(0.5, grip_mm, false);
+    be(0.01, grip_mm, true);
+    for (int n = 0; n < 8; ++n) be(0.5, grip_mm, true, n % 2 == 0 ? 0.6 : -0.6);
+    be(0.3, grip_mm, true);
+    be(1.5, out_mm, true);
+    be(0.2, out_mm, true);
+    be(0.01, out_mm, false);
+    be(0.3, out_mm, false);
+  }
+};
+
+class ExtractionCommand : public ProgramTest {
+ protected:
+  /// A patient folder.
+  std::string patient() const {
+    std::string hounsfield = header("int16"), label = header("uint8"), tooth = header("uint8");
+    for (int k = 0; k < kSize[2]; ++k)
+      for (int j = 0; j < kSize[1]; ++j)
+        for (int i = 0; i < kSize[0]; ++i) {
+          const Voxel voxel = voxelAt(kOrigin_mm[0] + i * kSpacing_mm, kOrigin_mm[1] + j * kSpacing_mm,
+                                      kOrigin_mm[2] + k * kSpacing_mm);
+          const auto bits = std::bit_cast<std::uint16_t>(voxel.hounsfield);
+          hounsfield += {static_cast<char>(bits & 255), static_cast<char>(bits >> 8)};
+          label += static_cast<char>(voxel.label);
+          tooth += static_cast<char>(voxel.tooth);
+        }
+    std::filesystem::create_directories(at("scan"));
+    write("scan/ct.nrrd", hounsfield);
+    write("scan/labels.nrrd", label);
+    write("scan/teeth.nrrd", tooth);
+    const ProgramOutput imported = molar("import " + at("scan") + " --out " + at("patient"));
+    EXPECT_EQ(imported.status, 0) << imported.err;
+    return at("patient");
+  }
+  nlohmann::json metrics(const std::string& session) const {
+    return nlohmann::json::parse(molar("metrics " + session + " --json").out);
+  }
+};
+
+TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBit) {
+  Hand hand;
+  hand.section();
+  hand.takeOut(1.0);
+  hand.takeOut(-1.0);
+  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string session = at("s.molar");
+  const ProgramOutput said =
+      molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
+            " --tool round:1.2 --tool forceps --record " + session);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("  tooth            in 2 pieces, "), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find(" mm³ taken out, held for 0:"), std::string::npos) << said.out;
+
+  const nlohmann::json measured = metrics(session);
+  EXPECT_EQ(measured.at("pieces_out"), 2.0);
+  EXPECT_GT(measured.at("grip_s").get<double>(), 8.0);
+  EXPECT_GT(measured.at("max_grip_N").get<double>(), 30.0);
+  EXPECT_LT(measured.at("max_grip_N").get<double>(), 165.1);
+  // Two halves of a root of some 95 mm2, less what lies at the slot; 0.37 N mm tear a mm2.
+  EXPECT_GT(measured.at("ligament_torn_Nmm").get<double>(), 10.0);
+  EXPECT_LT(measured.at("ligament_torn_Nmm").get<double>(), 50.0);
+
+  const ProgramOutput verified = molar("replay " + session + " --verify");
+  EXPECT_EQ(verified.status, 0);
+  EXPECT_EQ(verified.out.rfind("verified: ", 0), 0u) << verified.out;
+}
+
+TEST_F(ExtractionCommand, ABridgedToothIsGrippedAsOne) {
+  Hand hand;
+  hand.be(0.0, {0.0, 0.0, 9.0}, false);
+  hand.takeOut(1.0);
+  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string session = at("s.molar");
+  const ProgramOutput said =
+      molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
+            " --tool round:1.2 --tool forceps --record " + session);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.out.find("in 2 pieces"), std::string::npos) << said.out;
+  EXPECT_EQ(metrics(session).at("pieces_out"), 1.0);
+}
+
+}  // namespace
+}  // namespace app
