@@ -40,8 +40,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.line_shown = line_shown_;
   content.bur = toolName(command.tool);
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
-  content.drive =
-      command.tool.grips ? forcepsText(tick, values.forceps_ready) : driveText(rpm, command.drill_enabled);
+  content.drive = command.tool.grips ? forcepsText(tick, values.forceps_ready) : driveText(rpm, command.drill_enabled);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
   content.force_N = glm::length(tick.commanded_force_P_N.xyz);
