@@ -1,5 +1,6 @@
-// What the forceps do, from every tick: how long pieces were held, the largest pull, how much ligament is torn, and what
-// came out; in words for the surgeon as it happens, and for the summary. Main thread, once a frame; microseconds a tick.
+// What the forceps do, from every tick: how long pieces were held, the largest pull, how much ligament is torn, and
+// what came out; in words for the surgeon as it happens, and for the summary. Main thread, once a frame; microseconds a
+// tick.
 #pragma once
 
 #include <array>
