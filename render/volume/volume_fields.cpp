@@ -128,15 +128,15 @@ void VolumeFields::addPiece(const PlacedFields& piece, const VoxelBox& cells) {
   if (both.empty()) return;
 
   const auto Q_from_P = piece.X_PQ.inverse();
-  const auto positionOf = [&](glm::ivec3 cell) {
+  const auto position_of = [&](glm::ivec3 cell) {
     const glm::dvec3 centre(glm::dvec3(kEdge * cell) + 0.5 * (kEdge - 1));
     const glm::dvec3 p_Q_mm =
         (Q_from_P * calibration::Point<calibration::Patient>{grid_.origin_P_mm + grid_.spacing_mm * centre}).mm;
     return (grid.indexFromPoint(p_Q_mm) + 0.5) / static_cast<double>(kEdge) - 0.5;
   };
-  const glm::dvec3 origin = positionOf(both.first), step_x = positionOf(both.first + glm::ivec3(1, 0, 0)) - origin,
-                   step_y = positionOf(both.first + glm::ivec3(0, 1, 0)) - origin,
-                   step_z = positionOf(both.first + glm::ivec3(0, 0, 1)) - origin;
+  const glm::dvec3 origin = position_of(both.first), step_x = position_of(both.first + glm::ivec3(1, 0, 0)) - origin,
+                   step_y = position_of(both.first + glm::ivec3(0, 1, 0)) - origin,
+                   step_z = position_of(both.first + glm::ivec3(0, 0, 1)) - origin;
   const glm::vec3 most(means.layout().size);
   forEachIn(both, [&](glm::ivec3 cell) {
     const glm::dvec3 to(cell - both.first);
