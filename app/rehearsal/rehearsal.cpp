@@ -238,7 +238,7 @@ class Rehearsal {
     const std::vector<std::uint8_t>& before = plan_.scanned_solid.empty() ? patient.ct.solid : plan_.scanned_solid;
     const EnamelExposure exposure(patient.ct, before, *patient.site, *plan_.cut);
     if (exposure.planned_mm2() <= 0.0) return {};
-    return exposure.share(station().bodies().solidInGridOrder());
+    return exposure.share(station().bodies().solidInMouth());
   }
 
   HeadUp::Values headUpValues() const {

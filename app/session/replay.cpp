@@ -135,7 +135,7 @@ std::optional<std::string> blockDifference(const TickBlock& block, const haptics
 std::optional<std::string> finalBoneDifference(SessionReader& session, const StoredStart& start,
                                                const haptics::Bodies& bodies) {
   const auto left = session.finalBone(start);
-  if (left && (left->digest != bodies.digest() || left->solid != bodies.solidInGridOrder()))
+  if (left && (left->digest != bodies.digest() || left->solid != bodies.solidInMouth()))
     return "the final bone differs";
   return std::nullopt;
 }
@@ -298,7 +298,7 @@ BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   }
   ReplayedState state = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
   if (state.divergence) bone.remarks.push_back(divergenceText(state));
-  bone.solid = state.bodies.solidInGridOrder();
+  bone.solid = state.bodies.solidInMouth();
   bone.t_s = state.tick.t_s + state.tick.dt_s;
   bone.start = std::move(state.start);
   return bone;

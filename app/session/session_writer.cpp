@@ -142,7 +142,7 @@ struct SessionWriter::Impl {
   void appendRemoved(const haptics::Bodies& bodies) {
     SQLite::Statement parts(*database, "SELECT bytes FROM bone_part WHERE volume = 'solid' ORDER BY row");
     std::vector<std::uint8_t> start;
-    const std::vector<std::uint8_t> left = bodies.solidInGridOrder();
+    const std::vector<std::uint8_t> left = bodies.solidInMouth();
     appendVolume(session_format::kRemoved, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
       if (!parts.executeStep()) throw damagedSession("a part of its bone is missing");
       start.resize(part.size());

@@ -66,7 +66,7 @@ void Bodies::moveBlock(std::size_t from, std::size_t to, std::size_t block,
 }
 
 void Bodies::place(std::size_t piece, const PiecePose& X_PQ) {
-  assert(piece < pieces());
+  assert(piece + 1 < bones_.size());
   assert(calibration::isFinite(X_PQ.translation_mm) && glm::length(X_PQ.rotation) > 0.5);
   X_PQ_[piece] = {glm::normalize(X_PQ.rotation), X_PQ.translation_mm};
   at_rest_[piece] = isIdentity(X_PQ_[piece]);
@@ -127,9 +127,18 @@ void Bodies::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out)
 }
 
 std::vector<std::uint8_t> Bodies::solidInGridOrder() const {
+  return solidWhere([this](std::size_t n) { return at_rest_[n]; });
+}
+
+std::vector<std::uint8_t> Bodies::solidInMouth() const {
+  return solidWhere([this](std::size_t n) { return !isSetAside(n); });
+}
+
+template <class Counts>
+std::vector<std::uint8_t> Bodies::solidWhere(const Counts& counts) const {
   std::vector<std::uint8_t> solid = jaw().solidInGridOrder();
   for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
-    if (!at_rest_[n]) continue;
+    if (!counts(n)) continue;
     const SolidField piece = bones_[n + 1].field();
     const glm::ivec3 first = first_brick_[n] * assets::kBrickVoxels;
     assets::forVoxels(first, glm::min(first + piece.grid.size, grid().size), [&](glm::ivec3 ijk) {

@@ -37,7 +37,8 @@ class Bodies {
   /// Up to the last one that holds solid; the tooth itself always counts.
   std::size_t pieces() const;
 
-  /// Of piece n, from 0. A rotation that is not of unit length is normalised. Writer only, with the servo stopped.
+  /// Of piece n, from 0, an empty one too. A rotation that is not of unit length is normalised. Writer only, with the
+  /// servo stopped.
   void place(std::size_t piece, const PiecePose& X_PQ);
   const PiecePose& pose(std::size_t piece) const { return X_PQ_[piece]; }
   bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
@@ -74,9 +75,13 @@ class Bodies {
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
   /// The same for the whole grid. O(voxels), allocates; writing thread, or without a writer.
   std::vector<std::uint8_t> solidInGridOrder() const;
+  /// With moved pieces, too, where they came from, but for those set aside: what is still in the mouth.
+  std::vector<std::uint8_t> solidInMouth() const;
 
  private:
   void numberBlocks();
+  template <class Counts>
+  std::vector<std::uint8_t> solidWhere(const Counts& counts) const;
 
   std::vector<CarvedBone> bones_;
   std::array<PiecePose, kMaxPieces> X_PQ_{};

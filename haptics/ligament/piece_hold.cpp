@@ -238,8 +238,7 @@ void PieceHold::restore(const PieceState& state) noexcept {
   copyInto(state.ligament.widened_mm, state_.ligament.widened_mm);
 }
 
-void PieceHold::takeOver(const PieceHold* before, const PiecePose& X_PQ) noexcept {
-  const bool at_rest = X_PQ.rotation == glm::dquat(1.0, 0.0, 0.0, 0.0) && X_PQ.translation_mm == glm::dvec3(0.0);
+void PieceHold::takeOver(const PieceHold* before, const PiecePose& X_PQ, double torn_share) noexcept {
   std::vector<float>& torn = state_.ligament.torn;
   if (before != nullptr && before->samples_.size() == samples_.size() &&
       before->samples_.ligament == samples_.ligament) {
@@ -248,8 +247,8 @@ void PieceHold::takeOver(const PieceHold* before, const PiecePose& X_PQ) noexcep
     copyInto(former.fluid_N_per_mm2, state_.ligament.fluid_N_per_mm2);
     copyInto(former.strain, state_.ligament.strain);
     copyInto(former.widened_mm, state_.ligament.widened_mm);
-  } else if (before != nullptr || !at_rest) {
-    const float least = before == nullptr ? 1.0F : narrow(before->tornShare());
+  } else {
+    const float least = narrow(before == nullptr ? torn_share : before->tornShare());
     for (float& share : torn) share = std::max(share, least);
   }
   state_.X_PQ = X_PQ;

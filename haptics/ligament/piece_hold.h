@@ -46,8 +46,8 @@ class PieceHold {
   /// A state of this piece (assert). No allocation.
   void restore(const PieceState& state) noexcept;
   /// The same piece as another hold, in a socket that has changed since: its memory and pose; with other samples, as
-  /// much torn everywhere. Null: a piece at this pose; all is torn unless it is at rest. No allocation.
-  void takeOver(const PieceHold* before, const PiecePose& X_PQ) noexcept;
+  /// much torn everywhere. Null: a piece at this pose of which `torn_share` is torn everywhere. No allocation.
+  void takeOver(const PieceHold* before, const PiecePose& X_PQ, double torn_share) noexcept;
   /// Bone was lost or came back. A change of these samples (assert). No allocation; torn shares only grow.
   void meet(const SocketChange& change) noexcept;
 

@@ -28,10 +28,24 @@ void Forceps::receive(const Bodies& bodies, const SiteOrder& order) noexcept {
     return;
   // The same piece in a socket that may have changed remembers; another one begins where it lies.
   PieceSite* const before = sites_[order.piece];
-  order.site->hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(order.piece));
+  order.site->hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(order.piece),
+                            torn_share_[order.piece]);
   sites_[order.piece] = order.site;
+  made_of_[order.piece] = {bodies.jaw().digest(), bodies.bones()[order.piece + 1].digest()};
   settling_s_[order.piece] = 0.0;
   answer_ = SiteAnswer::ready;
+}
+
+void Forceps::part(std::size_t from, std::size_t to) noexcept {
+  torn_share_[to] = sites_[from] == nullptr ? torn_share_[from] : sites_[from]->hold.tornShare();
+  sites_[to] = nullptr;
+  settling_s_[from] = settling_s_[to] = 0.0;
+}
+
+/// Neither cut, nor restored, nor split since.
+bool Forceps::isReady(const Bodies& bodies, std::size_t piece) const noexcept {
+  return sites_[piece] != nullptr && !bodies.isSetAside(piece) && made_of_[piece].jaw == bodies.jaw().digest() &&
+         made_of_[piece].piece == bodies.bones()[piece + 1].digest();
 }
 
 /// The one that the beaks share most with; kNoPiece: none that is ready.
@@ -39,7 +53,7 @@ std::size_t Forceps::pieceAt(const Bodies& bodies, const Tool& tool, const ToolP
   std::size_t best = kNoPiece;
   double most_mm3 = 0.0;
   for (std::size_t n = 0; n < bodies.pieces(); ++n) {
-    if (sites_[n] == nullptr || bodies.isSetAside(n)) continue;
+    if (!isReady(bodies, n)) continue;
     const SolidBody body{bodies.bones()[n + 1].field(), bodies.isAtRest(n), bodies.pose(n)};
     const double shared_mm3 =
         sphereOverlap(body.field, body.inBody(calibration::Point<Patient>{X_PT.translation_mm}), tool.head.radius_mm)

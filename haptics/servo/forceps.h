@@ -70,6 +70,8 @@ class Forceps {
   bool holds() const { return held_.holds; }
   /// Of the last step.
   const Held& held() const { return held_; }
+  /// A part of `from` becomes piece `to`: as much of its ligament is torn.
+  void part(std::size_t from, std::size_t to) noexcept;
   /// Of the newest order.
   SiteAnswer answer() const { return answer_; }
 
@@ -77,7 +79,15 @@ class Forceps {
   std::size_t pieceAt(const Bodies& bodies, const Tool& tool, const ToolPose& X_PT) const noexcept;
   void letGo(Bodies& bodies) noexcept;
 
+  bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;
+
   std::array<PieceSite*, kMaxPieces> sites_{};
+  /// Of jaw and piece when the site was taken over; it holds for these.
+  struct MadeOf {
+    std::uint64_t jaw = 0, piece = 0;
+  };
+  std::array<MadeOf, kMaxPieces> made_of_{};
+  std::array<double, kMaxPieces> torn_share_{};  ///< of a piece without a site yet
   std::array<double, kMaxPieces> settling_s_{};  ///< left for a piece that was let go of
   SiteOrder order_;
   SiteAnswer answer_ = SiteAnswer::none;

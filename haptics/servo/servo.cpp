@@ -131,6 +131,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // A piece that has fallen apart becomes two.
   if (split_.step(bodies_, !proxy.touches() && !held.holds && !embedded && !undo_.isRunning(), undo_.strokes()))
     undo_.keepStrokes();
+  if (const auto begun = split_.begun()) forceps_.part(begun->from, begun->to);
   tick.split = split_.answer();
   tick.site = forceps_.answer();
   tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());

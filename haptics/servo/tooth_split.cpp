@@ -17,6 +17,7 @@ void ToothSplit::receive(const Bodies& bodies, const SplitOrder& order) noexcept
 }
 
 bool ToothSplit::step(Bodies& bodies, bool clear, StrokeHistory& strokes) noexcept {
+  begun_.reset();
   if (answer_ == SplitAnswer::waiting) {
     if (!isPossible(bodies))
       answer_ = SplitAnswer::refused;
@@ -24,6 +25,9 @@ bool ToothSplit::step(Bodies& bodies, bool clear, StrokeHistory& strokes) noexce
       answer_ = SplitAnswer::running;
       to_ = bodies.pieces();
       next_ = 0;
+      begun_ = Begun{static_cast<std::size_t>(order_.piece), to_};
+      // An empty piece may have been somewhere else before.
+      bodies.place(to_, bodies.pose(order_.piece));
       strokes.reopen();
     }
   }

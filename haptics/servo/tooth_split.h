@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "haptics/body/bodies.h"
 #include "haptics/body/split_plan.h"
@@ -42,6 +43,11 @@ class ToothSplit {
   /// Of the newest order.
   SplitAnswer answer() const { return answer_; }
   bool isRunning() const { return answer_ == SplitAnswer::running; }
+  /// The pieces of a split that began in this tick's step().
+  struct Begun {
+    std::size_t from = 0, to = 0;
+  };
+  std::optional<Begun> begun() const { return begun_; }
 
  private:
   bool isPossible(const Bodies& bodies) const noexcept;
@@ -49,6 +55,7 @@ class ToothSplit {
   SplitOrder order_;
   SplitAnswer answer_ = SplitAnswer::none;
   std::size_t to_ = 0, next_ = 0;  ///< piece; block of the plan
+  std::optional<Begun> begun_;
 };
 
 }  // namespace haptics

@@ -206,6 +206,18 @@ TEST(Bodies, OneStrokeOverBothIsUndoneAndRedoneWhole) {
   EXPECT_EQ(bodies.digest(), after);
 }
 
+TEST(Bodies, AMovedToothIsInTheMouthUntilItIsSetAside) {
+  const Site site;
+  Bodies bodies = site.divided();
+  const std::vector<std::uint8_t> whole = bodies.solidInGridOrder();
+  bodies.place(0, {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}});
+  EXPECT_NE(bodies.solidInGridOrder(), whole);
+  EXPECT_EQ(bodies.solidInMouth(), whole);
+  bodies.setAside(0);
+  EXPECT_TRUE(bodies.isSetAside(0));
+  EXPECT_EQ(bodies.solidInMouth(), bodies.jaw().solidInGridOrder());
+}
+
 /// All of the tooth's solid with x < 0.
 SplitPlan leftHalf(const Bodies& bodies) {
   const CarvedBone& tooth = bodies.bones()[1];

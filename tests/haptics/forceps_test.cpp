@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "haptics/body/piece_split.h"
 #include "haptics/servo/servo.h"
 #include "tests/haptics/phantom.h"
 
@@ -231,6 +232,56 @@ TEST(Forceps, AToothInANewSocketRemembersWhatIsTorn) {
   ASSERT_EQ(mouth.tick.gripped, 1);
   EXPECT_GE(mouth.tick.torn_share, torn - 1e-6);
   EXPECT_NEAR(mouth.tick.X_PQ[0].translation_mm.z, X_PQ.translation_mm.z, 0.1);
+}
+
+TEST(Forceps, AToothOrBoneThatWasCutSinceIsNotReady) {
+  for (const glm::dvec3& where : {glm::dvec3(0.0, 0.0, 3.5), glm::dvec3(5.0, 0.0, 0.0)}) {
+    Mouth mouth;
+    mouth.makeReady();
+    ErosionStep step;
+    step.loss.fill(0.5);
+    carveTool(mouth.bodies, {ShapeKind::sphere, 0.6, 0.0}, {{1.0, 0.0, 0.0, 0.0}, where}, step, 1);
+    mouth.grip();
+    EXPECT_EQ(mouth.tick.gripped, 0);
+    mouth.hand.drill_pedal = false;
+    mouth.step();
+    mouth.makeReady();
+    mouth.grip();
+    EXPECT_EQ(mouth.tick.gripped, 1);
+  }
+}
+
+TEST(Forceps, PartsOfALooseToothLieWhereItLayAndAreAsLoose) {
+  Mouth mouth;
+  mouth.makeReady();
+  mouth.grip();
+  const glm::dvec3 at_mm = mouth.hand.X_PT.translation_mm;
+  for (int n = 0; n < 60 && mouth.tick.torn_share < 0.3; ++n) {
+    mouth.go(at_mm, 0.25, glm::angleAxis(0.3 + 0.02 * n, glm::dvec3(0.0, 1.0, 0.0)));
+    mouth.go(at_mm, 0.25, glm::angleAxis(-0.3 - 0.02 * n, glm::dvec3(0.0, 1.0, 0.0)));
+  }
+  const double torn = mouth.tick.torn_share;
+  ASSERT_GT(torn, 0.3);
+  mouth.hand.drill_pedal = false;
+  mouth.go({12.0, 0.0, 6.0}, 0.5);
+  // One half comes off.
+  const CarvedBone& tooth = mouth.bodies.bones()[1];
+  std::vector<std::uint8_t> half = tooth.solidInGridOrder();
+  assets::forVoxels(tooth.grid(), [&](glm::ivec3 ijk, std::size_t v) {
+    if (tooth.grid().centre_P_mm(ijk).x > 0.0) half[v] = 0;
+  });
+  const SplitPlan plan = splitPlan(tooth.grid(), half);
+  mouth.command.split = {1, mouth.bodies.digest(), 0, &plan};
+  mouth.step(60);
+  ASSERT_EQ(mouth.tick.split, SplitAnswer::done);
+  EXPECT_EQ(mouth.tick.X_PQ[1].translation_mm, mouth.tick.X_PQ[0].translation_mm);
+  EXPECT_FALSE(mouth.bodies.isAtRest(1));
+  mouth.makeReady(1);
+  ASSERT_EQ(mouth.tick.site, SiteAnswer::ready);
+  EXPECT_GE(mouth.sites.back()->hold.tornShare(), torn - 1e-6);
+  mouth.makeReady(0);
+  ASSERT_EQ(mouth.tick.site, SiteAnswer::ready);
+  EXPECT_GE(mouth.sites.back()->hold.tornShare(), torn - 1e-6);
 }
 
 }  // namespace

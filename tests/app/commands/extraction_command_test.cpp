@@ -134,6 +134,8 @@ TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBi
   EXPECT_GT(measured.at("ligament_torn_Nmm").get<double>(), 10.0);
   EXPECT_LT(measured.at("ligament_torn_Nmm").get<double>(), 50.0);
 
+  // What is still in the mouth has no tooth: nothing to find pieces of.
+  EXPECT_EQ(molar("pieces " + session).status, 2);
   const ProgramOutput verified = molar("replay " + session + " --verify");
   EXPECT_EQ(verified.status, 0);
   EXPECT_EQ(verified.out.rfind("verified: ", 0), 0u) << verified.out;
