@@ -23,7 +23,7 @@ constexpr double kFreeOfSoftTissue_mm = 1.0;  // no better with more
 constexpr double kInBone_mm = 12.0;  // at every place
 constexpr double kPerDegreeFromWayIn_mm = 0.1;
 // The handpiece hides what lies within 6 degrees around its axis, the eyes stand 4 degrees beside the line of sight.
-constexpr double kHides_deg = 20.0, kPerDegreeHidden_mm = 0.1;
+constexpr double kHides_deg = 20.0, kPerDegreeHidden_mm = 0.2;
 
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return calibration::degreesFromRad(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
