@@ -95,6 +95,7 @@ void ActiveCommand::moveStroke(Control control, const std::string& where) {
     strokes = stroke_change_->strokes_before - sign * stroke_change_->requests;
     undone = stroke_change_->undone_before + sign * stroke_change_->requests;
   }
+  if (tick.gripped != 0) return refuse(where, "open the forceps first");
   if ((undoes ? strokes : undone) <= 0)
     return refuse(where, undoes ? "there is no stroke to undo" : "there is no undone stroke to redo");
   ++(undoes ? command_.undo_serial : command_.redo_serial);

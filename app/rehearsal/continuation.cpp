@@ -26,6 +26,8 @@ Continuation continuationOf(const std::string& path) {
   if (const std::vector<SessionCommand> commands = SessionReader(path).commands(); !commands.empty())
     next.command = commands.back().command;
   // The serials of the former servo mean nothing to a new one.
+  next.command.split = {};
+  next.command.site = {};
   next.command.serial = next.command.undo_serial = next.command.redo_serial = next.command.rearm = 0;
   return next;
 }

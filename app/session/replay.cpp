@@ -74,14 +74,12 @@ class Rerun {
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded) {
     const std::uint64_t lost = recorded.index - std::exchange(next_index_, recorded.index + 1);
-    while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index) {
-      const haptics::Command before = command_;
+    // Of several for one tick the servo sees the last.
+    const haptics::Command before = command_;
+    while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index)
       command_ = commands_[next_++].command;
-      command_.split.plan = before.split.plan;
-      command_.site.site = before.site.site;
-      if (command_.split.serial != before.split.serial) command_.split.plan = planFor(command_.split);
-      if (command_.site.serial != before.site.serial) command_.site.site = siteFor(command_.site);
-    }
+    command_.split.plan = command_.split.serial == before.split.serial ? before.split.plan : planFor(command_.split);
+    command_.site.site = command_.site.serial == before.site.serial ? before.site.site : siteFor(command_.site);
     if (lost > 0) return std::to_string(lost) + " ticks before it were lost";
     if (command_.serial != recorded.command_serial) return "its command was not recorded";
     return std::nullopt;
@@ -108,7 +106,10 @@ class Rerun {
     for (std::size_t n = 0; n < X_PQ.size(); ++n) X_PQ[n] = bodies_.pose(n);
     // The servo takes over every order that gets here, and needs the one before until then.
     std::deque<std::unique_ptr<haptics::PieceSite>>& sites = sites_[order.piece];
-    sites.push_back(haptics::makePieceSite(sockets_.scene(order.piece, X_PQ)));
+    const haptics::SocketScene scene = sockets_.scene(order.piece, X_PQ);
+    // Of a stranger's file: a field has at least a cell.
+    if (glm::any(glm::lessThan(scene.around_grid.size, glm::ivec3(2)))) return nullptr;
+    sites.push_back(haptics::makePieceSite(scene));
     if (sites.size() > 2) sites.pop_front();
     return sites.back().get();
   }

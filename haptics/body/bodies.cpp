@@ -84,12 +84,20 @@ std::optional<glm::ivec3> Bodies::brickOfPiece(std::size_t piece, glm::ivec3 bri
   return own;
 }
 
-std::uint64_t Bodies::digest() const {
+std::uint64_t Bodies::digest() const { return digestAt(X_PQ_); }
+
+std::uint64_t Bodies::digestWithoutPose(std::size_t piece) const {
+  std::array<PiecePose, kMaxPieces> X_PQ = X_PQ_;
+  X_PQ[piece] = {};
+  return digestAt(X_PQ);
+}
+
+std::uint64_t Bodies::digestAt(std::span<const PiecePose, kMaxPieces> X_PQ) const {
   std::uint64_t digest = jaw().digest();
   const auto mix = [&](std::uint64_t bits) { digest = calibration::mixedBits(digest ^ bits); };
   for (std::size_t n = 0; n < pieces(); ++n) {
-    const glm::dquat& r = X_PQ_[n].rotation;
-    const glm::dvec3& t = X_PQ_[n].translation_mm;
+    const glm::dquat& r = X_PQ[n].rotation;
+    const glm::dvec3& t = X_PQ[n].translation_mm;
     mix(bones_[n + 1].digest());
     for (const double number : {r.w, r.x, r.y, r.z, t.x, t.y, t.z}) mix(std::bit_cast<std::uint64_t>(number));
   }

@@ -1,6 +1,6 @@
 // The live volumes of a rehearsal: the jaw, and the tooth to be removed as a body of its own from the start, later in
 // up to kMaxPieces pieces. Frame P, mm; a piece lies in its frame Q, which is P until it moves. One writer, the servo;
-// other threads copy dirty bricks. Poses change while the servo is stopped.
+// other threads copy dirty bricks of single bones, and take poses and the number of pieces from the Tick.
 // All pieces have the tooth's grid: a split moves solid from one to an empty one, block by block.
 // While a piece is at rest, forces, cuts and pictures are those of one undivided volume. Construction divides the
 // volume (assets/scan/tooth_division) and allocates; every other call but solidInGridOrder() is bounded and never
@@ -64,6 +64,8 @@ class Bodies {
   ///   d <- mixedBits(d xor piece's digest); then for each number x of its pose (rotation w, x, y, z, translation x, y,
   ///   z) d <- mixedBits(d xor bits of x)        mixedBits: calibration/random
   std::uint64_t digest() const;
+  /// The same as if this piece were at rest.
+  std::uint64_t digestWithoutPose(std::size_t piece) const;
 
   /// Sum over the bodies, see CarvedBone.
   std::array<double, assets::kTissueCount> removedByTissue_mm3() const noexcept;
@@ -80,6 +82,7 @@ class Bodies {
 
  private:
   void numberBlocks();
+  std::uint64_t digestAt(std::span<const PiecePose, kMaxPieces> X_PQ) const;
   template <class Counts>
   std::vector<std::uint8_t> solidWhere(const Counts& counts) const;
 

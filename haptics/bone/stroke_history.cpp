@@ -46,6 +46,12 @@ void StrokeHistory::reopen() noexcept {
   open_ = count_ > 0;
 }
 
+void StrokeHistory::forget() noexcept {
+  endStroke();
+  while (count_ > 0) dropOldest();
+  undone_ = saved_count_ = 0;
+}
+
 void StrokeHistory::endStroke() noexcept {
   if (!open_) return;
   open_ = false;

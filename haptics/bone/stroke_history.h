@@ -43,6 +43,8 @@ class StrokeHistory {
   void save(std::size_t block, const BlockState& state) noexcept;
   /// Later saves belong to the newest stroke again, if there is one; what was undone can no longer be redone.
   void reopen() noexcept;
+  /// All strokes, also those that were undone.
+  void forget() noexcept;
   /// Later saves belong to another stroke.
   void endStroke() noexcept;
 

@@ -41,7 +41,9 @@ IsRoot rootOf(const SocketScene& scene) {
 SocketSource::SocketSource(const Bodies& bodies) : bodies_(bodies) {
   if (bodies.bones().size() < 2) return;
   const assets::VolumeGrid &jaw = bodies.grid(), &tooth = bodies.bones()[1].grid();
-  const int margin = static_cast<int>(std::ceil(kMargin_mm / jaw.spacing_mm / assets::kBrickVoxels));
+  constexpr double kMostBricks = 64.0;
+  const int margin =
+      static_cast<int>(std::ceil(std::min(kMargin_mm / jaw.spacing_mm / assets::kBrickVoxels, kMostBricks)));
   const glm::ivec3 tooth_at(glm::round(jaw.indexFromPoint(tooth.centre_P_mm({0, 0, 0}))));
   const glm::ivec3 last = glm::min(tooth_at / assets::kBrickVoxels + tooth.bricks() + margin, jaw.bricks());
   first_brick_ = glm::max(tooth_at / assets::kBrickVoxels - margin, glm::ivec3(0));

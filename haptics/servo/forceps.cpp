@@ -31,7 +31,7 @@ void Forceps::receive(const Bodies& bodies, const SiteOrder& order) noexcept {
   order.site->hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(order.piece),
                             torn_share_[order.piece]);
   sites_[order.piece] = order.site;
-  made_of_[order.piece] = {bodies.jaw().digest(), bodies.bones()[order.piece + 1].digest()};
+  made_of_[order.piece] = bodies.digestWithoutPose(order.piece);
   settling_s_[order.piece] = 0.0;
   answer_ = SiteAnswer::ready;
 }
@@ -42,10 +42,9 @@ void Forceps::part(std::size_t from, std::size_t to) noexcept {
   settling_s_[from] = settling_s_[to] = 0.0;
 }
 
-/// Neither cut, nor restored, nor split since.
+/// Neither it nor bone was cut, restored or split since, and no other piece has moved.
 bool Forceps::isReady(const Bodies& bodies, std::size_t piece) const noexcept {
-  return sites_[piece] != nullptr && !bodies.isSetAside(piece) && made_of_[piece].jaw == bodies.jaw().digest() &&
-         made_of_[piece].piece == bodies.bones()[piece + 1].digest();
+  return sites_[piece] != nullptr && !bodies.isSetAside(piece) && made_of_[piece] == bodies.digestWithoutPose(piece);
 }
 
 /// The one that the beaks share most with; kNoPiece: none that is ready.

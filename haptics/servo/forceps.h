@@ -82,11 +82,8 @@ class Forceps {
   bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;
 
   std::array<PieceSite*, kMaxPieces> sites_{};
-  /// Of jaw and piece when the site was taken over; it holds for these.
-  struct MadeOf {
-    std::uint64_t jaw = 0, piece = 0;
-  };
-  std::array<MadeOf, kMaxPieces> made_of_{};
+  /// Bodies::digestWithoutPose() of each when its site was taken over: it holds for these.
+  std::array<std::uint64_t, kMaxPieces> made_of_{};
   std::array<double, kMaxPieces> torn_share_{};  ///< of a piece without a site yet
   std::array<double, kMaxPieces> settling_s_{};  ///< left for a piece that was let go of
   SiteOrder order_;

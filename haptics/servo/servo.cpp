@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "haptics/contact/law_parameters.h"
 #include "haptics/contact/overlap.h"
@@ -41,15 +42,21 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
   forceps_.receive(bodies_, command.site);
-  const double restored_mm3 =
-      split_.isRunning() || forceps_.holds()
-          ? 0.0
-          : undo_.restore(bodies_, {command.undo_serial, command.redo_serial}, command.tool, at_proxy_X_PT_);
+  const StrokeUndo::Serials serials{command.undo_serial, command.redo_serial};
+  double restored_mm3 = 0.0;
+  if (forceps_.holds())
+    undo_.ignore(serials);
+  else if (!split_.isRunning())
+    restored_mm3 = undo_.restore(bodies_, serials, command.tool, at_proxy_X_PT_);
   const bool embedded = undo_.isToolEmbedded();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
-  const bool foot = valid.drill_pedal && command.drill_enabled && !command.tool.grips;
-  tick.drill_inhibit = undo_.inhibitFor(foot || !admitted.mayDrill());
+  // A pedal that was down when bur and forceps changed, or in restored bone, must be released for the forceps.
+  const bool changed = std::exchange(gripped_before_, command.tool.grips) != command.tool.grips;
+  pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (embedded && command.tool.grips));
+  const bool pedal = valid.drill_pedal && !pedal_spent_;
+  const bool foot = pedal && command.drill_enabled && !command.tool.grips;
+  tick.drill_inhibit = undo_.inhibitFor((valid.drill_pedal && command.drill_enabled) || !admitted.mayDrill());
   tick.drilling = foot && admitted.mayDrill() && tick.drill_inhibit == DrillInhibit::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
   tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
@@ -60,7 +67,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.soft = soft.touch;
 
   // A piece that forceps hold leads the tool.
-  const bool closed = command.tool.grips && valid.drill_pedal && admitted.mayDrill();
+  const bool closed = command.tool.grips && pedal && admitted.mayDrill();
   const bool held_before = forceps_.holds();
   if (held_before) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
 
@@ -75,9 +82,11 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
                                      command.safety.max_stiffness_N_per_mm);
     if (embedded && !proxy.touches()) undo_.release();
     at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
-    if (!held_before && !embedded) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+    if (!held_before) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
   }
   const Forceps::Held& held = forceps_.held();
+  // Poses are not undone, so what was cut before is not either.
+  if (held.holds && !held_before) undo_.forget();
   if (held.holds) {
     at_proxy_X_PT_ = held.X_PT;
     proxy = {};
@@ -125,7 +134,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   const Cutting::Engagement at{at_proxy_X_PT_, command.tool.head, embedded ? Contact{} : proxy.head, proxy.force_P_N()};
   const CarveResult removed = cutting_.cut(bodies_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
                                            tick.drilling, tick.dt_s, tick.index);
-  undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, proxy.proxy_P, removed.removed_mm3, tick.dt_s);
+  undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, proxy.proxy_P, removed.removed_mm3, !split_.isRunning(),
+               tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // A piece that has fallen apart becomes two.

@@ -44,6 +44,8 @@ class Servo {
   double torn_total_Nmm_ = 0.0;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false;
+  bool gripped_before_ = false;  ///< Tool::grips of the last tick
+  bool pedal_spent_ = false;     ///< until it is released
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;
   double t_s_ = 0.0;

@@ -57,8 +57,8 @@ DrillInhibit StrokeUndo::inhibitFor(bool pedal) noexcept {
 }
 
 void StrokeUndo::update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
-                        double dt_s) noexcept {
-  if (extent_.endsAt(cutting, bur_P, removed_mm3, dt_s)) strokes_.endStroke();
+                        bool may_end, double dt_s) noexcept {
+  if (extent_.endsAt(cutting, bur_P, removed_mm3, dt_s) && may_end) strokes_.endStroke();
   // A running undo keeps its target; cutting moves it.
   if (cutting) target_ = strokes_.strokes();
 }

@@ -44,11 +44,18 @@ class StrokeUndo {
   const StrokeHistory& strokes() const { return strokes_; }
   /// Restored since the start by undo, less what was redone, mm3.
   double restoredTotal_mm3() const { return restored_total_mm3_; }
+  /// Requests that come while nothing can be undone.
+  void ignore(const Serials& serials) { last_ = serials; }
+  /// What was cut so far can no longer be undone.
+  void forget() noexcept {
+    strokes_.forget();
+    target_ = 0;
+  }
   /// The newest stroke was changed by something else than the bur.
   void keepStrokes() { target_ = strokes_.strokes(); }
   bool isRunning() const { return target_ != strokes_.strokes() || strokes_.isBetweenStrokes(); }
-  /// Last in a tick. `cutting`: the turning bur was in bone, at `bur_P`.
-  void update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
+  /// Last in a tick. `cutting`: the turning bur was in bone, at `bur_P`. `may_end`: no split adds to the stroke.
+  void update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3, bool may_end,
               double dt_s) noexcept;
 
  private:

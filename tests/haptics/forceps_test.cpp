@@ -284,5 +284,58 @@ TEST(Forceps, PartsOfALooseToothLieWhereItLayAndAreAsLoose) {
   EXPECT_GE(mouth.sites.back()->hold.tornShare(), torn - 1e-6);
 }
 
+TEST(Forceps, ThePedalIsReleasedBetweenBurAndForceps) {
+  Mouth mouth;
+  mouth.makeReady();
+  const Tool bur{{ShapeKind::sphere, 0.5, 0.0}, {}, true, false};
+  mouth.command.tool = bur;
+  mouth.go({2.0, 0.0, 6.0}, 0.2);
+  mouth.hand.drill_pedal = true;
+  mouth.step(3);
+  EXPECT_TRUE(mouth.tick.drilling);
+  mouth.command.tool = forcepsTool();
+  mouth.go({2.0, 0.0, 2.0}, 0.2);
+  EXPECT_EQ(mouth.tick.gripped, 0);
+  mouth.hand.drill_pedal = false;
+  mouth.step();
+  mouth.hand.drill_pedal = true;
+  mouth.step();
+  EXPECT_EQ(mouth.tick.gripped, 1);
+  mouth.command.tool = bur;
+  mouth.step(100);
+  EXPECT_EQ(mouth.tick.gripped, 0);
+  EXPECT_FALSE(mouth.tick.drilling);
+  EXPECT_EQ(mouth.tick.removed_mm3, 0.0);
+  mouth.hand.drill_pedal = false;
+  mouth.step();
+  mouth.hand.drill_pedal = true;
+  mouth.step();
+  EXPECT_TRUE(mouth.tick.drilling);
+}
+
+TEST(Forceps, WhatWasCutBeforeAGripIsNotUndone) {
+  Mouth mouth;
+  mouth.command.tool = {{ShapeKind::sphere, 0.5, 0.0}, {}, true, false};
+  mouth.go({6.0, 0.0, 2.0}, 0.2);
+  mouth.hand.drill_pedal = true;
+  mouth.go({6.0, 0.0, -0.5}, 0.5);
+  mouth.go({6.0, 0.0, 2.0}, 0.2);
+  mouth.hand.drill_pedal = false;
+  mouth.step(400);
+  ASSERT_GT(mouth.tick.strokes, 0);
+  mouth.command.tool = forcepsTool();
+  mouth.step(5);
+  mouth.makeReady();
+  mouth.grip();
+  ASSERT_EQ(mouth.tick.gripped, 1);
+  EXPECT_EQ(mouth.tick.strokes, 0);
+  const std::uint64_t jaw = mouth.bodies.jaw().digest();
+  ++mouth.command.undo_serial;
+  mouth.step(50);
+  mouth.hand.drill_pedal = false;
+  mouth.step(500);
+  EXPECT_EQ(mouth.bodies.jaw().digest(), jaw) << "asked for while it was held";
+}
+
 }  // namespace
 }  // namespace haptics

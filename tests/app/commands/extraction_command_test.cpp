@@ -153,6 +153,13 @@ TEST_F(ExtractionCommand, ABridgedToothIsGrippedAsOne) {
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(said.out.find("in 2 pieces"), std::string::npos) << said.out;
   EXPECT_EQ(metrics(session).at("pieces_out"), 1.0);
+  // It goes on without the tooth, and orders of the former session mean nothing to it.
+  const std::string next = at("next.molar");
+  const ProgramOutput goes_on =
+      molar("rehearse " + at("patient") + " --continue " + session +
+            " --headless --pace fast --device poses:" + at("poses.csv") + " --record " + next);
+  EXPECT_EQ(goes_on.status, 0) << goes_on.err;
+  EXPECT_EQ(molar("replay " + next + " --verify").status, 0);
 }
 
 }  // namespace
