@@ -4,32 +4,23 @@
 #include <utility>
 
 namespace app {
-namespace {
-
-/// Far from everything: delivered.
-bool isAside(const haptics::PiecePose& X_PQ) { return X_PQ.translation_mm.x >= haptics::Bodies::kAside_mm; }
-
-}  // namespace
-
 void SiteDesk::begin(const haptics::Tick& newest) {
   Job job;
   job.digest = newest.bone_digest;
   std::vector<haptics::SocketScene> scenes;
   for (std::size_t n = 0; n < newest.pieces; ++n) {
-    if (isAside(newest.X_PQ[n])) continue;
+    if (haptics::Bodies::isAside(newest.X_PQ[n])) continue;
     job.pieces.push_back(n);
     scenes.push_back(sockets_.scene(n, newest.X_PQ));
   }
-  job.sites = std::async(std::launch::async, [scenes = std::move(scenes)] {
-    std::vector<std::unique_ptr<haptics::PieceSite>> sites;
-    for (const haptics::SocketScene& scene : scenes) sites.push_back(haptics::makePieceSite(scene));
-    return sites;
+  job.made = std::async(std::launch::async, [this, first = first_socket_.get(), scenes = std::move(scenes)] {
+    Made made;
+    if (first == nullptr) made.first_socket = std::make_unique<haptics::DistanceField>(sockets_.firstSocket());
+    const haptics::DistanceField& socket = first == nullptr ? *made.first_socket : *first;
+    for (const haptics::SocketScene& scene : scenes) made.sites.push_back(haptics::makePieceSite(scene, socket));
+    return made;
   });
   job_.emplace(std::move(job));
-}
-
-void SiteDesk::keepNewest(std::size_t piece, std::unique_ptr<haptics::PieceSite> site) {
-  given_[piece].push_back(std::move(site));
 }
 
 std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, bool gripping_tool, bool waits) {
@@ -63,12 +54,13 @@ std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, 
     // Nothing is written while a stepped servo waits.
     job_->confirmed = true;
   }
-  if (job_ && (waits || job_->sites.wait_for(std::chrono::seconds(0)) == std::future_status::ready)) {
+  if (job_ && (waits || job_->made.wait_for(std::chrono::seconds(0)) == std::future_status::ready)) {
     Job job = std::move(*job_);
     job_.reset();
-    std::vector<std::unique_ptr<haptics::PieceSite>> sites = job.sites.get();
+    Made made = job.made.get();
+    if (made.first_socket) first_socket_ = std::move(made.first_socket);
     if (job.digest != newest.bone_digest || !job.confirmed) return {};
-    for (std::size_t n = 0; n < sites.size(); ++n) to_order_.emplace_back(job.pieces[n], std::move(sites[n]));
+    for (std::size_t n = 0; n < made.sites.size(); ++n) to_order_.emplace_back(job.pieces[n], std::move(made.sites[n]));
     made_for_ = job.digest;
   }
   if (to_order_.empty()) {
@@ -77,10 +69,9 @@ std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, 
   }
   auto [piece, site] = std::move(to_order_.back());
   to_order_.pop_back();
-  haptics::PieceSite* const given = site.get();
-  keepNewest(piece, std::move(site));
+  given_[piece].push_back(std::move(site));
   asked_ = piece;
-  return haptics::SiteOrder{0, newest.bone_digest, piece, given};
+  return haptics::SiteOrder{0, newest.bone_digest, piece, given_[piece].back().get()};
 }
 
 }  // namespace app

@@ -25,11 +25,10 @@ TeethWatch::~TeethWatch() {
   thread_.join();
 }
 
-void TeethWatch::give(glm::ivec3 brick, const Brick& solid, std::uint64_t digest) {
+void TeethWatch::give(glm::ivec3 brick, const Brick& solid) {
   {
     const std::lock_guard lock(mutex_);
     given_.insert_or_assign(assets::indexIn(bricks_, brick), std::pair{brick, solid});
-    digest_ = digest;
     confirmed_.reset();
     parting_.reset();
   }
@@ -79,7 +78,6 @@ void TeethWatch::run() {
       continue;
     }
     const auto bricks = std::exchange(given_, {});
-    report.digest = digest_;
     is_looking_ = true;
     lock.unlock();
 

@@ -26,7 +26,6 @@ class TeethWatch {
  public:
   struct Report {
     std::uint64_t serial = 0;  ///< counts the looks; 0: none so far
-    std::uint64_t digest = 0;  ///< of the body, as given with the newest brick looked at
     bool has_bridges = false;
     haptics::ToothFindings findings;
   };
@@ -38,10 +37,10 @@ class TeethWatch {
   TeethWatch(const TeethWatch&) = delete;
   TeethWatch& operator=(const TeethWatch&) = delete;
 
-  /// A changed brick (i fastest) of the body with this digest.
-  void give(glm::ivec3 brick, const Brick& solid, std::uint64_t digest);
+  /// A changed brick, i fastest.
+  void give(glm::ivec3 brick, const Brick& solid);
   const Report& newest() { return newest_.read(); }
-  /// What was given is all of the body with this digest.
+  /// What was given is all that has changed in the body up to the state of this digest.
   void confirm(std::uint64_t digest);
   struct Parting {
     haptics::SplitPlan plan;
@@ -63,9 +62,8 @@ class TeethWatch {
   std::mutex mutex_;
   std::condition_variable wake_, settled_;
   std::map<std::size_t, std::pair<glm::ivec3, Brick>> given_;  ///< by brick
-  std::uint64_t digest_ = 0;
-  std::optional<std::uint64_t> confirmed_;  ///< for all that was given
-  std::uint64_t parted_ = 0;                ///< confirmed digest for which it was looked whether the body falls apart
+  std::optional<std::uint64_t> confirmed_;                     ///< for all that was given
+  std::uint64_t parted_ = 0;  ///< confirmed digest for which it was looked whether the body falls apart
   std::unique_ptr<Parting> parting_;
   bool stopping_ = false, is_looking_ = false, owes_bridges_ = false, hurry_ = false;
   std::thread thread_;

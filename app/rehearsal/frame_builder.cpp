@@ -43,7 +43,13 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   return frame;
 }
 
-void placePieces(render::Frame& frame, const PiecePoses& pieces) { frame.pieces = movedPieces(pieces); }
+render::MovedPieces movedPieces(const haptics::Tick& tick) {
+  static_assert(haptics::kMaxPieces == render::kMostPieces);
+  render::MovedPieces moved;
+  for (std::size_t n = 0; n < tick.pieces; ++n)
+    if (!haptics::Bodies::isRest(tick.X_PQ[n])) moved[n] = tick.X_PQ[n];
+  return moved;
+}
 
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person) {
   render::Frame frame = last;

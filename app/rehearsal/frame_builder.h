@@ -5,7 +5,6 @@
 #include "app/controls/control.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/session/field_clarity.h"
-#include "app/view/piece_poses.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
@@ -20,8 +19,8 @@ render::Frame openingFrame(const RehearsalPlan& plan);
 /// bad_pose leaves the rotation unchanged.
 render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, const haptics::Command& command);
 
-/// Pieces of the tooth where they lie; BrickUploader shows the others in the jaw.
-void placePieces(render::Frame& frame, const PiecePoses& pieces);
+/// Pieces of the tooth that have left rest, where the tick left them; BrickUploader shows the others in the jaw.
+render::MovedPieces movedPieces(const haptics::Tick& tick);
 
 /// The last frame: a scripted tool that was withdrawn is hidden, as it would cover its work.
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person);

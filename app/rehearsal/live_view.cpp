@@ -124,10 +124,7 @@ void LiveView::waitUntilShown() {
 }
 
 void LiveView::uploadBone(const render::Frame& frame) {
-  if (!display_)
-    collectBricks();
-  else if (uploader_.upload(*bodies_, frame.pieces, display_->renderer()) > 0)
-    bone_changed_ = true;
+  if (display_ && uploader_.upload(*bodies_, frame.pieces, display_->renderer()) > 0) bone_changed_ = true;
 }
 
 std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {

@@ -50,10 +50,8 @@ class LiveView {
   void waitUntilShown();
   /// Bricks carved until now, for the frame to show next: its pieces that have left rest are not in the jaw.
   void uploadBone(const render::Frame& frame);
-  /// Those carved since the last call of this or uploadBone(), in the jaw's grid; uploaded later.
-  const std::vector<glm::ivec3>& collectBricks() { return uploader_.collect(*bodies_); }
-  /// Of the last uploadBone() or collectBricks().
-  const std::vector<glm::ivec3>& changedBricks() const { return uploader_.collected(); }
+  /// Bricks of the jaw's grid that have changed since the last call, uploaded or not yet.
+  std::vector<glm::ivec3> takeChangedBricks() { return uploader_.takeChanged(*bodies_); }
   /// Between the bur of `frame` and the bone uploaded last; nothing before a view is open.
   std::optional<render::BoneGap> gapOf(const render::Frame& frame);
   /// After a change of tool.

@@ -205,17 +205,14 @@ class Rehearsal {
     frame_.field = surgicalField(clarity_);
     frame_.marks = soft_marks_.marks();
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
-    placePieces(frame_, piecePosesOf(newest_));
+    frame_.pieces = movedPieces(newest_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
     frame_.gap = view_.gapOf(frame_);
   }
 
   void followTooth() {
-    if (pace_.isRealTime())
-      tooth_->follow(view_.changedBricks(), newest_);
-    else
-      tooth_->followStepped(view_.collectBricks(), newest_);
+    tooth_->follow(view_.takeChangedBricks(), newest_, !pace_.isRealTime());
     if (station().isApplied(newest_)) followForceps();
     if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {

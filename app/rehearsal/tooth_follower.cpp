@@ -1,14 +1,11 @@
 #include "app/rehearsal/tooth_follower.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
 #include <fmt/core.h>
-
-#include "haptics/body/components.h"
 
 namespace app {
 namespace {
@@ -54,44 +51,28 @@ void ToothFollower::watchAnew(std::size_t pieces) {
   watches_.clear();
   for (std::size_t n = 0; n < pieces; ++n) {
     const haptics::CarvedBone& piece = bodies_.bones()[n + 1];
-    std::vector<std::uint8_t> now = whole_;
-    if (pieces > 1)
-      haptics::forBricks(piece.grid().bricks(), [&](std::size_t, glm::ivec3 corner) {
-        TeethWatch::Brick bytes{};
-        piece.copyBrick(corner / assets::kBrickVoxels, bytes);
-        std::size_t at = 0;
-        assets::forVoxels(corner, corner + assets::kBrickVoxels, [&](glm::ivec3 ijk) {
-          const std::uint8_t solid = bytes[at++];
-          if (piece.grid().contains(ijk)) now[piece.grid().index(ijk)] = solid;
-        });
-      });
-    watches_.push_back(std::make_unique<TeethWatch>(piece.grid(), now));
+    watches_.push_back(std::make_unique<TeethWatch>(
+        piece.grid(), pieces == 1 ? whole_ : piece.copyBox(glm::ivec3(0), piece.grid().size)));
   }
   looks_ = 0;
   bridge_told_mm_ = 4;
   is_partial_ = true;
 }
 
-void ToothFollower::give(std::span<const glm::ivec3> bricks, std::uint64_t bodies_digest) {
+/// Bricks of the tooth's grid.
+void ToothFollower::give(std::span<const glm::ivec3> bricks) {
   for (std::size_t n = 0; n < watches_.size(); ++n)
     for (const glm::ivec3& brick : bricks) {
-      const auto own = bodies_.brickOfPiece(n, brick);
-      if (!own) continue;
       TeethWatch::Brick bytes{};
-      bodies_.bones()[n + 1].copyBrick(*own, bytes);
-      watches_[n]->give(*own, bytes, bodies_digest);
+      bodies_.bones()[n + 1].copyBrick(brick, bytes);
+      watches_[n]->give(brick, bytes);
     }
 }
 
-void ToothFollower::giveAll(std::uint64_t bodies_digest) {
-  for (std::size_t n = 0; n < watches_.size(); ++n) {
-    const haptics::CarvedBone& piece = bodies_.bones()[n + 1];
-    assets::forVoxels(glm::ivec3(0), piece.grid().bricks(), [&](glm::ivec3 brick) {
-      TeethWatch::Brick bytes{};
-      piece.copyBrick(brick, bytes);
-      watches_[n]->give(brick, bytes, bodies_digest);
-    });
-  }
+void ToothFollower::giveAll() {
+  std::vector<glm::ivec3> all;
+  assets::forVoxels(glm::ivec3(0), bodies_.bones()[1].grid().bricks(), [&](glm::ivec3 brick) { all.push_back(brick); });
+  give(all);
   is_partial_ = false;
 }
 
@@ -106,32 +87,23 @@ bool ToothFollower::mayLook(const haptics::Tick& newest) {
   return true;
 }
 
-void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
-  if (watches_.empty() || !mayLook(newest)) return;
-  const bool is_quiet = bricks.empty() && !is_partial_ && quiet_at_ == newest.bone_digest;
-  if (is_partial_)
-    giveAll(newest.bone_digest);
-  else
-    give(bricks, newest.bone_digest);
-  quiet_at_ = newest.bone_digest;
-  if (!is_quiet) return;
-  for (const auto& watch : watches_) watch->confirm(newest.bone_digest);
-}
-
-void ToothFollower::followStepped(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
+void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, bool waits) {
   if (watches_.empty()) return;
-  unseen_.insert(unseen_.end(), bricks.begin(), bricks.end());
+  for (const glm::ivec3& brick : bricks)
+    if (const auto own = bodies_.brickOfPiece(brick)) unseen_.push_back(*own);
   // A turning bur that grazes changes what voxels remember, if no solid yet.
-  const bool is_quiet = std::exchange(quiet_at_, newest.bone_digest) == newest.bone_digest;
-  if (!is_quiet || (looked_at_ == newest.bone_digest && !is_partial_) || !mayLook(newest)) return;
-  looked_at_ = newest.bone_digest;
-  if (is_partial_)
-    giveAll(newest.bone_digest);
+  const bool is_quiet = std::exchange(quiet_at_, newest.bone_digest) == newest.bone_digest && bricks.empty();
+  if ((waits && !is_quiet) || !mayLook(newest)) return;
+  const bool was_partial = is_partial_;
+  if (was_partial)
+    giveAll();
   else
-    give(unseen_, newest.bone_digest);
+    give(unseen_);
   unseen_.clear();
+  // Of a servo that runs, only what was copied a frame ago is sure.
+  if (!is_quiet || (was_partial && !waits)) return;
   for (const auto& watch : watches_) watch->confirm(newest.bone_digest);
-  settle();
+  if (waits) settle();
 }
 
 void ToothFollower::settle() {
@@ -198,7 +170,7 @@ std::optional<std::string> ToothFollower::news() {
 std::string ToothFollower::ending() {
   if (watches_.empty()) return "";
   if (bodies_.pieces() != watches_.size()) watchAnew(bodies_.pieces());
-  giveAll(bodies_.digest());
+  giveAll();
   settle();
   return toothText(found());
 }

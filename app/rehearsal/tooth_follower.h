@@ -28,10 +28,9 @@ class ToothFollower {
   /// Borrows the bodies. `whole`: the tooth before the first cut, in the order of its grid; empty: as it is.
   explicit ToothFollower(haptics::Bodies& bodies, std::span<const std::uint8_t> whole = {});
 
-  /// Bricks of the jaw's grid that have changed up to the newest tick or later.
-  void follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
-  /// The same for a servo that is stepped, which waits: looks when nothing has changed since the last call.
-  void followStepped(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
+  /// Once a frame. `bricks`: of the jaw's grid, changed up to the newest tick or later. `waits`: for a servo that is
+  /// stepped, and looks only when nothing has changed since the last call.
+  void follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, bool waits);
   /// What the servo shall split, once nothing has changed between two calls of follow(): the serial is the caller's.
   std::optional<haptics::SplitOrder> order(const haptics::Tick& newest);
   /// A line when the bridge has become thinner than 3, 2 or 1 mm, or a piece has come apart.
@@ -42,8 +41,8 @@ class ToothFollower {
  private:
   bool mayLook(const haptics::Tick& newest);
   void watchAnew(std::size_t pieces);
-  void give(std::span<const glm::ivec3> bricks, std::uint64_t bodies_digest);
-  void giveAll(std::uint64_t bodies_digest);
+  void give(std::span<const glm::ivec3> bricks);
+  void giveAll();
   void settle();
   haptics::ToothFindings found();
 
@@ -51,9 +50,8 @@ class ToothFollower {
   std::vector<std::uint8_t> whole_;
   std::vector<std::unique_ptr<TeethWatch>> watches_;  ///< by piece; none: no tooth
   std::deque<haptics::SplitPlan> plans_;              ///< of all orders: the servo reads them
-  std::vector<glm::ivec3> unseen_;                    ///< stepped: since the last look
+  std::vector<glm::ivec3> unseen_;                    ///< of the tooth's grid, since the last look
   std::optional<std::uint64_t> quiet_at_;             ///< digest of the bodies at the last call
-  std::optional<std::uint64_t> looked_at_;            ///< stepped: digest of the bodies at the last look
   bool is_partial_ = false;                           ///< bricks were left out while a piece moved block by block
   std::uint64_t looks_ = 0;
   std::size_t pieces_told_ = 1;

@@ -109,13 +109,15 @@ class Rerun {
     const haptics::SocketScene scene = sockets_.scene(order.piece, X_PQ);
     // Of a stranger's file: a field has at least a cell.
     if (glm::any(glm::lessThan(scene.around_grid.size, glm::ivec3(2)))) return nullptr;
-    sites.push_back(haptics::makePieceSite(scene));
+    if (!first_socket_) first_socket_.emplace(sockets_.firstSocket());
+    sites.push_back(haptics::makePieceSite(scene, *first_socket_));
     if (sites.size() > 2) sites.pop_front();
     return sites.back().get();
   }
 
   haptics::Bodies& bodies_;
   haptics::SocketSource sockets_;
+  std::optional<haptics::DistanceField> first_socket_;  ///< none: not needed yet
   std::array<std::deque<std::unique_ptr<haptics::PieceSite>>, haptics::kMaxPieces> sites_;
   haptics::Servo servo_;
   std::vector<SessionCommand> commands_;

@@ -16,24 +16,7 @@ std::size_t placesForPieces(const haptics::Bodies& of) { return std::min(of.bone
 
 void setPiece(const haptics::Bodies& from, std::size_t piece, render::FrameRenderer& to) {
   const haptics::CarvedBone& bone = from.bones()[piece + 1];
-  const assets::VolumeGrid& grid = bone.grid();
-  std::vector<std::uint8_t> solid(grid.voxelCount());
-  Brick values{};
-  assets::forVoxels(glm::ivec3(0), grid.bricks(), [&](glm::ivec3 brick) {
-    bone.copyBrick(brick, values);
-    const glm::ivec3 first = assets::kBrickVoxels * brick;
-    assets::forVoxels(glm::ivec3(0), glm::min(glm::ivec3(assets::kBrickVoxels), grid.size - first),
-                      [&](glm::ivec3 ijk) {
-                        solid[grid.index(first + ijk)] = values[assets::indexIn(glm::ivec3(assets::kBrickVoxels), ijk)];
-                      });
-  });
-  to.setPiece(piece, grid, solid);
-}
-
-/// Where the bricks of a piece begin in the jaw's grid.
-glm::ivec3 firstBrick(const haptics::Bodies& of, std::size_t piece) {
-  const glm::dvec3 voxel = of.grid().indexFromPoint(of.bones()[piece + 1].grid().origin_P_mm);
-  return glm::ivec3(glm::round(voxel / static_cast<double>(assets::kBrickVoxels)));
+  to.setPiece(piece, bone.grid(), bone.copyBox(glm::ivec3(0), bone.grid().size));
 }
 
 }  // namespace
@@ -41,9 +24,8 @@ glm::ivec3 firstBrick(const haptics::Bodies& of, std::size_t piece) {
 void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to) {
   Brick solid{};
   from.jaw().copyBrick(brick, solid);
-  for (std::size_t n = 0; n < placesForPieces(from); ++n) {
-    const auto own = from.brickOfPiece(n, brick);
-    if (!own) continue;
+  const auto own = from.brickOfPiece(brick);
+  for (std::size_t n = 0; own && n < placesForPieces(from); ++n) {
     Brick part{};
     from.bones()[n + 1].copyBrick(*own, part);
     // A piece that nothing was in yet gets its mesh with its first solid.
@@ -68,18 +50,22 @@ std::vector<glm::ivec3> BrickUploader::followPieces(const haptics::Bodies& from,
     if (n == 0 && !std::exchange(shown.has_mesh, true)) setPiece(from, n, to);
     const bool at_rest = !pieces[n].has_value();
     if (std::exchange(shown.at_rest, at_rest) == at_rest) continue;
-    const glm::ivec3 first = firstBrick(from, n);
+    const glm::ivec3 first = from.firstBrick();
     assets::forVoxels(first, first + bone.grid().bricks(), [&](glm::ivec3 brick) { changed.push_back(brick); });
   }
   return changed;
 }
 
-const std::vector<glm::ivec3>& BrickUploader::collect(haptics::Bodies& from) {
-  bricks_.clear();
-  from.takeDirtyBricks(bricks_);
-  waiting_.insert(bricks_.begin(), bricks_.end());
-  ever_.insert(bricks_.begin(), bricks_.end());
-  return bricks_;
+void BrickUploader::collect(haptics::Bodies& from) {
+  const auto before = static_cast<std::ptrdiff_t>(changed_.size());
+  from.takeDirtyBricks(changed_);
+  waiting_.insert(changed_.begin() + before, changed_.end());
+  ever_.insert(changed_.begin() + before, changed_.end());
+}
+
+std::vector<glm::ivec3> BrickUploader::takeChanged(haptics::Bodies& from) {
+  collect(from);
+  return std::exchange(changed_, {});
 }
 
 std::size_t BrickUploader::upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to) {

@@ -26,13 +26,11 @@ namespace app {
 
 class BrickUploader {
  public:
-  /// Takes the bricks that have changed since the last call of this or upload(), to be uploaded later.
-  const std::vector<glm::ivec3>& collect(haptics::Bodies& from);
+  /// The bricks that have changed since the last call, also those uploaded meanwhile; the others are uploaded later.
+  std::vector<glm::ivec3> takeChanged(haptics::Bodies& from);
   /// Bricks changed since the last call, and those of pieces that have left rest or come back. `pieces`: of the frame
   /// to draw. Returns their number.
   std::size_t upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to);
-  /// Of the last collect() or upload().
-  const std::vector<glm::ivec3>& collected() const { return bricks_; }
   /// All bricks ever uploaded, and the pieces, to a new renderer of the initial bone.
   void uploadAllAgain(const haptics::Bodies& from, render::FrameRenderer& to);
   /// Every brick, and the pieces, to a new renderer of any bone with the tooth in it. Some tenths of a second.
@@ -53,7 +51,9 @@ class BrickUploader {
                                        render::FrameRenderer& to);
   void uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, render::FrameRenderer& to);
 
-  std::vector<glm::ivec3> bricks_;
+  void collect(haptics::Bodies& from);
+
+  std::vector<glm::ivec3> changed_;  ///< since takeChanged()
   std::set<glm::ivec3, InOrder> waiting_, ever_;
   std::array<Shown, render::kMostPieces> pieces_;
 };

@@ -10,13 +10,10 @@
 #include "calibration/random.h"
 
 namespace haptics {
-namespace {
 
-bool isIdentity(const Bodies::PiecePose& X_PQ) {
+bool Bodies::isRest(const PiecePose& X_PQ) {
   return X_PQ.rotation == glm::dquat(1.0, 0.0, 0.0, 0.0) && X_PQ.translation_mm == glm::dvec3(0.0);
 }
-
-}  // namespace
 
 Bodies::Bodies(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
                std::span<const std::uint8_t> is_tooth) {
@@ -31,7 +28,7 @@ Bodies::Bodies(const assets::VolumeGrid& grid, std::span<const std::uint8_t> sol
       while (bones_.size() < kMaxBodies)
         bones_.push_back(CarvedBone::emptied(divided.tooth.grid, divided.tooth.solid, divided.tooth.label));
     }
-    first_brick_.fill(divided.first_brick);
+    first_brick_ = divided.first_brick;
   }
   at_rest_.fill(true);
   numberBlocks();
@@ -69,7 +66,7 @@ void Bodies::place(std::size_t piece, const PiecePose& X_PQ) {
   assert(piece + 1 < bones_.size());
   assert(calibration::isFinite(X_PQ.translation_mm) && glm::length(X_PQ.rotation) > 0.5);
   X_PQ_[piece] = {glm::normalize(X_PQ.rotation), X_PQ.translation_mm};
-  at_rest_[piece] = isIdentity(X_PQ_[piece]);
+  at_rest_[piece] = isRest(X_PQ_[piece]);
 }
 
 SolidBodies Bodies::view() const {
@@ -78,8 +75,9 @@ SolidBodies Bodies::view() const {
   return view;
 }
 
-std::optional<glm::ivec3> Bodies::brickOfPiece(std::size_t piece, glm::ivec3 brick) const {
-  const glm::ivec3 own = brick - first_brick_[piece], bricks = bones_[piece + 1].grid().bricks();
+std::optional<glm::ivec3> Bodies::brickOfPiece(glm::ivec3 brick) const {
+  if (bones_.size() < 2) return {};
+  const glm::ivec3 own = brick - first_brick_, bricks = bones_[1].grid().bricks();
   if (glm::any(glm::lessThan(own, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(own, bricks))) return {};
   return own;
 }
@@ -118,19 +116,7 @@ void Bodies::takeDirtyBricks(std::vector<glm::ivec3>& out) {
   for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
     const std::size_t first = out.size();
     bones_[n + 1].dirtyBricks().takeInto(out);
-    for (std::size_t at = first; at < out.size(); ++at) out[at] += first_brick_[n];
-  }
-}
-
-void Bodies::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
-  jaw().copyBrick(brick, solid_out);
-  for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
-    const auto own = brickOfPiece(n, brick);
-    if (!at_rest_[n] || !own) continue;
-    std::array<std::uint8_t, 512> part{};
-    bones_[n + 1].copyBrick(*own, part);
-    for (std::size_t v = 0; v < part.size(); ++v)
-      solid_out[v] = static_cast<std::uint8_t>(std::min(255, solid_out[v] + part[v]));
+    for (std::size_t at = first; at < out.size(); ++at) out[at] += first_brick_;
   }
 }
 
@@ -148,7 +134,7 @@ std::vector<std::uint8_t> Bodies::solidWhere(const Counts& counts) const {
   for (std::size_t n = 0; n + 1 < bones_.size(); ++n) {
     if (!counts(n)) continue;
     const SolidField piece = bones_[n + 1].field();
-    const glm::ivec3 first = first_brick_[n] * assets::kBrickVoxels;
+    const glm::ivec3 first = first_brick_ * assets::kBrickVoxels;
     assets::forVoxels(first, glm::min(first + piece.grid.size, grid().size), [&](glm::ivec3 ijk) {
       std::uint8_t& at = solid[grid().index(ijk)];
       at = static_cast<std::uint8_t>(std::min(255, at + piece.solidAt(ijk - first)));

@@ -42,10 +42,11 @@ class Bodies {
   void place(std::size_t piece, const PiecePose& X_PQ);
   const PiecePose& pose(std::size_t piece) const { return X_PQ_[piece]; }
   bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
+  static bool isRest(const PiecePose& X_PQ);
   /// Out of the mouth for good: far from everything, no longer met nor seen. Writer only.
   void setAside(std::size_t piece) { place(piece, {{1.0, 0.0, 0.0, 0.0}, glm::dvec3(kAside_mm)}); }
-  bool isSetAside(std::size_t piece) const { return X_PQ_[piece].translation_mm.x >= kAside_mm; }
-  static constexpr double kAside_mm = 10'000.0;
+  bool isSetAside(std::size_t piece) const { return isAside(X_PQ_[piece]); }
+  static bool isAside(const PiecePose& X_PQ) { return X_PQ.translation_mm.x >= kAside_mm; }
 
   /// Moves up to `given` of each voxel of a block of the tooth's grid from a piece to another that is where it is
   /// (CarvedBone::moveBlock). Writer only.
@@ -54,8 +55,10 @@ class Bodies {
 
   SolidBodies view() const;
 
-  /// The brick of a piece at rest under a brick of the jaw's grid; none: outside the piece's grid.
-  std::optional<glm::ivec3> brickOfPiece(std::size_t piece, glm::ivec3 brick) const;
+  /// The brick of a piece at rest under a brick of the jaw's grid; none: outside the tooth's grid.
+  std::optional<glm::ivec3> brickOfPiece(glm::ivec3 brick) const;
+  /// Brick of the jaw's grid where the tooth's begins.
+  glm::ivec3 firstBrick() const { return first_brick_; }
 
   /// The jaw's grid, on which a piece at rest lies too.
   const assets::VolumeGrid& grid() const { return jaw().grid(); }
@@ -73,9 +76,7 @@ class Bodies {
   /// Bricks of the jaw's grid in which the jaw or a piece at rest has changed; may name a brick twice. One reading
   /// thread.
   void takeDirtyBricks(std::vector<glm::ivec3>& out);
-  /// Solid fraction of jaw and pieces at rest in a brick of the jaw's grid. One reading thread.
-  void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
-  /// The same for the whole grid. O(voxels), allocates; writing thread, or without a writer.
+  /// Solid fraction of jaw and pieces at rest. O(voxels), allocates; writing thread, or without a writer.
   std::vector<std::uint8_t> solidInGridOrder() const;
   /// With moved pieces, too, where they came from, but for those set aside: what is still in the mouth.
   std::vector<std::uint8_t> solidInMouth() const;
@@ -86,10 +87,12 @@ class Bodies {
   template <class Counts>
   std::vector<std::uint8_t> solidWhere(const Counts& counts) const;
 
+  static constexpr double kAside_mm = 10'000.0;
+
   std::vector<CarvedBone> bones_;
   std::array<PiecePose, kMaxPieces> X_PQ_{};
   std::array<bool, kMaxPieces> at_rest_{};
-  std::array<glm::ivec3, kMaxPieces> first_brick_{};
+  glm::ivec3 first_brick_{0};
 };
 
 /// bone/carve over all bodies: a step with a head of any shape at rest at X_PT.

@@ -233,6 +233,20 @@ void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_
       }
 }
 
+std::vector<std::uint8_t> CarvedBone::copyBox(glm::ivec3 first_brick, glm::ivec3 size) const {
+  std::vector<std::uint8_t> solid(assets::countIn(size));
+  std::array<std::uint8_t, 512> part{};
+  const glm::ivec3 bricks = (size + assets::kBrickVoxels - 1) / assets::kBrickVoxels;
+  assets::forVoxels(glm::ivec3(0), bricks, [&](glm::ivec3 brick) {
+    copyBrick(first_brick + brick, part);
+    const glm::ivec3 corner = brick * assets::kBrickVoxels;
+    assets::forVoxels(corner, glm::min(corner + assets::kBrickVoxels, size), [&](glm::ivec3 at) {
+      solid[assets::indexIn(size, at)] = part[assets::indexIn(glm::ivec3(assets::kBrickVoxels), at - corner)];
+    });
+  });
+  return solid;
+}
+
 std::size_t CarvedBone::bytes() const {
   const SolidField at = field();
   const std::size_t blocks = history_of_.size(), fields = at.label == nullptr ? 1 : 2;

@@ -102,6 +102,10 @@ class CarvedBone {
   /// Copies the 8x8x8 voxels of a brick (i fastest; outside the volume: 0). One reading thread.
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
 
+  /// The voxels of a box from the first of a brick on, in grid order; outside the volume: 0. Brick by brick, so a cut
+  /// may fall between two. Allocates; one reading thread.
+  std::vector<std::uint8_t> copyBox(glm::ivec3 first_brick, glm::ivec3 size) const;
+
   /// Memory used, and the number of histories left.
   std::size_t bytes() const;
   std::size_t blocksLeft() const { return histories_most_ - histories_used_; }

@@ -239,17 +239,12 @@ void PieceHold::restore(const PieceState& state) noexcept {
 }
 
 void PieceHold::takeOver(const PieceHold* before, const PiecePose& X_PQ, double torn_share) noexcept {
-  std::vector<float>& torn = state_.ligament.torn;
   if (before != nullptr && before->samples_.ligament == samples_.ligament &&
       std::ranges::equal(before->samples_.place_mm, samples_.place_mm)) {
-    const LigamentMemory& former = before->state_.ligament;
-    for (std::size_t n = 0; n < torn.size(); ++n) torn[n] = std::max(torn[n], former.torn[n]);
-    copyInto(former.fluid_N_per_mm2, state_.ligament.fluid_N_per_mm2);
-    copyInto(former.strain, state_.ligament.strain);
-    copyInto(former.widened_mm, state_.ligament.widened_mm);
+    restore(before->state_);
   } else {
     const float least = narrow(before == nullptr ? torn_share : before->tornShare());
-    for (float& share : torn) share = std::max(share, least);
+    for (float& share : state_.ligament.torn) share = std::max(share, least);
   }
   state_.X_PQ = X_PQ;
 }

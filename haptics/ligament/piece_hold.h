@@ -13,7 +13,7 @@
 
 namespace haptics {
 
-/// All that a piece remembers, by value: what undo keeps.
+/// All that a piece remembers, by value.
 struct PieceState {
   PiecePose X_PQ;
   LigamentMemory ligament;

@@ -30,6 +30,7 @@ void Forceps::receive(const Bodies& bodies, const SiteOrder& order) noexcept {
   PieceSite* const before = sites_[order.piece];
   order.site->hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(order.piece),
                             torn_share_[order.piece]);
+  order.site->hold.meet(order.site->change);
   sites_[order.piece] = order.site;
   made_of_[order.piece] = bodies.digestWithoutPose(order.piece);
   settling_s_[order.piece] = 0.0;
@@ -48,15 +49,14 @@ bool Forceps::isReady(const Bodies& bodies, std::size_t piece) const noexcept {
 }
 
 /// The one that the beaks share most with; kNoPiece: none that is ready.
-std::size_t Forceps::pieceAt(const Bodies& bodies, const Tool& tool, const ToolPose& X_PT) const noexcept {
+std::size_t Forceps::pieceAt(const Bodies& bodies, double radius_mm, const ToolPose& X_PT) const noexcept {
   std::size_t best = kNoPiece;
   double most_mm3 = 0.0;
   for (std::size_t n = 0; n < bodies.pieces(); ++n) {
     if (!isReady(bodies, n)) continue;
     const SolidBody body{bodies.bones()[n + 1].field(), bodies.isAtRest(n), bodies.pose(n)};
     const double shared_mm3 =
-        sphereOverlap(body.field, body.inBody(calibration::Point<Patient>{X_PT.translation_mm}), tool.head.radius_mm)
-            .volume_mm3;
+        sphereOverlap(body.field, body.inBody(calibration::Point<Patient>{X_PT.translation_mm}), radius_mm).volume_mm3;
     if (shared_mm3 <= most_mm3) continue;
     most_mm3 = shared_mm3;
     best = n;
@@ -75,15 +75,15 @@ void Forceps::letGo(Bodies& bodies) noexcept {
   }
 }
 
-void Forceps::step(Bodies& bodies, const Tool& tool, const ToolPose& beaks_X_PT, const ToolPose& hand_X_PT, bool closed,
+void Forceps::step(Bodies& bodies, double radius_mm, const ToolPose& beaks_X_PT, const ToolPose& hand_X_PT, bool closed,
                    double dt_s) noexcept {
   held_.torn_Nmm = held_.max_stored_Nmm = 0.0;
   held_.unsettled = held_.set_aside = false;
-  const bool closes = closed && !was_closed_ && tool.grips;
+  const bool closes = closed && !was_closed_;
   was_closed_ = closed;
-  if (held_.holds && !(closed && tool.grips)) letGo(bodies);
+  if (held_.holds && !closed) letGo(bodies);
   if (closes && !held_.holds)
-    if (const std::size_t piece = pieceAt(bodies, tool, beaks_X_PT); piece != kNoPiece) {
+    if (const std::size_t piece = pieceAt(bodies, radius_mm, beaks_X_PT); piece != kNoPiece) {
       held_.holds = true;
       held_.piece = piece;
       grip_X_QT_ = bodies.pose(piece).inverse() * beaks_X_PT;
@@ -110,9 +110,9 @@ void Forceps::step(Bodies& bodies, const Tool& tool, const ToolPose& beaks_X_PT,
     held_.torn_share = tick.torn_share;
     held_.X_PT = bodies.pose(n) * grip_X_QT_;
     held_.on_piece = -1.0 * tick.on_hand;
-    held_.felt_N = (1.0 / ForcepsLaw::kForceScale) * tick.on_hand;
+    held_.felt = (1.0 / ForcepsLaw::kForceScale) * tick.on_hand;
     const double stretch_mm = glm::length(tick.on_hand.force_N.xyz) / ForcepsLaw::kSpring_N_per_mm;
-    held_.max_stored_Nmm = 0.5 * glm::length(held_.felt_N.force_N.xyz) * stretch_mm;
+    held_.max_stored_Nmm = 0.5 * glm::length(held_.felt.force_N.xyz) * stretch_mm;
   }
 }
 

@@ -2,7 +2,7 @@
 // the piece is its ligament and what is around it (ligament/piece_hold). A hand moves a tooth with a hundred newtons, a
 // device with two: the spring is kForceScale times as stiff as what is felt. While it holds, the tool is where the
 // piece has it, not where the hand is. A piece let go of with its ligament torn and kClear_mm out of its place is set
-// aside. Frame P; N, N mm of the model unless said. Servo thread; no allocation, no throw; 15 to 60 us while a piece is
+// aside. Frame P; N, N mm of the model unless said. Servo thread; no allocation, no throw; 20 to 80 us while a piece is
 // held, and for kSettle_s after, else nothing.
 #pragma once
 
@@ -51,7 +51,7 @@ class Forceps {
     bool holds = false;
     std::size_t piece = 0;
     ToolPose X_PT;                          ///< of the tool as the piece has it
-    Wrench<calibration::Patient> felt_N{};  ///< on the hand, about T's origin, scaled down
+    Wrench<calibration::Patient> felt{};    ///< on the hand, about T's origin, scaled down
     double max_stored_Nmm = 0.0;            ///< in what is felt
     Wrench<calibration::Patient> on_piece;  ///< model
     double torn_Nmm = 0.0;                  ///< of all pieces, in this tick
@@ -63,8 +63,9 @@ class Forceps {
   /// First in a tick: an order holds for the bodies as they are then, or not at all.
   void receive(const Bodies& bodies, const SiteOrder& order) noexcept;
 
-  /// `beaks`: the tool at the proxy, which may grip; `hand`: where the hand is. `closed`: the pedal. Moves pieces.
-  void step(Bodies& bodies, const Tool& tool, const ToolPose& beaks_X_PT, const ToolPose& hand_X_PT, bool closed,
+  /// `beaks`: the tool at the proxy, which grips what is within `radius_mm`; `hand`: where the hand is. `closed`: the
+  /// pedal holds forceps closed. Moves pieces.
+  void step(Bodies& bodies, double radius_mm, const ToolPose& beaks_X_PT, const ToolPose& hand_X_PT, bool closed,
             double dt_s) noexcept;
 
   bool holds() const { return held_.holds; }
@@ -76,7 +77,7 @@ class Forceps {
   SiteAnswer answer() const { return answer_; }
 
  private:
-  std::size_t pieceAt(const Bodies& bodies, const Tool& tool, const ToolPose& X_PT) const noexcept;
+  std::size_t pieceAt(const Bodies& bodies, double radius_mm, const ToolPose& X_PT) const noexcept;
   void letGo(Bodies& bodies) noexcept;
 
   bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;

@@ -69,7 +69,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // A piece that forceps hold leads the tool.
   const bool closed = command.tool.grips && pedal && admitted.mayDrill();
   const bool held_before = forceps_.holds();
-  if (held_before) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+  if (held_before) forceps_.step(bodies_, command.tool.head.radius_mm, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
 
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
@@ -82,7 +82,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
                                      command.safety.max_stiffness_N_per_mm);
     if (embedded && !proxy.touches()) undo_.release();
     at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
-    if (!held_before) forceps_.step(bodies_, command.tool, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+    if (!held_before) forceps_.step(bodies_, command.tool.head.radius_mm, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
   }
   const Forceps::Held& held = forceps_.held();
   // Poses are not undone, so what was cut before is not either.
@@ -104,8 +104,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.law_force_P_N = proxy.force_P_N() + dampingForce_N(command.law, proxy.touching(), valid.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = proxy.torque_P_Nmm();
   if (held.holds) {
-    tick.law_force_P_N = held.felt_N.force_N;
-    tick.law_torque_P_Nmm = held.felt_N.torque_Nmm;
+    tick.law_force_P_N = held.felt.force_N;
+    tick.law_torque_P_Nmm = held.felt.torque_Nmm;
     tick.grip_force_P_N = held.on_piece.force_N;
     tick.grip_torque_P_Nmm = held.on_piece.torque_Nmm;
     tick.gripped = static_cast<std::uint8_t>(held.piece + 1);

@@ -1,8 +1,8 @@
 // A piece of tooth that has fallen apart becomes two, on command: its part moves to the next empty piece, at most
 // kBlocksPerTick blocks a tick, so that 300 mm3 take some 30 ms. Both stay where they are, so no force and no picture
 // changes. It begins when the tool touches nothing, and only on the bodies from which the plan was made. The change
-// belongs to the newest stroke (bone/stroke_history): its undo joins the pieces again. Servo thread; no allocation, no
-// throw.
+// belongs to the newest stroke (bone/stroke_history): its undo joins the pieces again. Servo thread; 1 to 2 us
+// a block (haptics_extraction_bench site); no allocation, no throw.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 //   haptics_extraction_bench            all parts
 //   haptics_extraction_bench ligament   a piece in its socket: one sum, whole ticks
 //   haptics_extraction_bench pieces     pieces of a tooth and the bridge between them
+//   haptics_extraction_bench site       a tooth as a body: memory, the move of a block, ready for forceps
 //   haptics_extraction_bench way-out    whether a piece can come out, and what is in its way
 // CPU time of this thread; only ratios are comparable between machines.
 #include <cstdio>

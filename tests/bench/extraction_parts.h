@@ -31,6 +31,7 @@ double p10_us(int times, Work work) {
 
 void benchLigament();
 void benchPieces();
+void benchSite();
 void benchWayOut();
 
 struct ExtractionPart {
@@ -38,7 +39,7 @@ struct ExtractionPart {
   void (*run)();
 };
 inline constexpr std::array kExtractionParts{ExtractionPart{"ligament", benchLigament},
-                                             ExtractionPart{"pieces", benchPieces},
+                                             ExtractionPart{"pieces", benchPieces}, ExtractionPart{"site", benchSite},
                                              ExtractionPart{"way-out", benchWayOut}};
 
 }  // namespace bench

@@ -323,7 +323,7 @@ TEST(Bodies, AStrokeWithItsSplitIsUndoneAndRedoneWhole) {
   EXPECT_EQ(bodies.pieces(), 2u);
 }
 
-TEST(Bodies, BricksShowJawAndToothAtRest) {
+TEST(Bodies, DirtyBricksCoverAllThatWasCutInJawAndTooth) {
   const Site site;
   Bodies bodies = site.divided();
   std::vector<glm::ivec3> dirty;
@@ -334,15 +334,17 @@ TEST(Bodies, BricksShowJawAndToothAtRest) {
   bodies.takeDirtyBricks(dirty);
   EXPECT_FALSE(dirty.empty());
 
-  // Their bytes, put into the initial volume, give what is left.
+  // The bytes of jaw and tooth there, put into the initial volume, give what is left.
   std::vector<std::uint8_t> shown = site.phantom.solid;
   for (const glm::ivec3 brick : dirty) {
-    std::array<std::uint8_t, 512> solid{};
-    bodies.copyBrick(brick, solid);
+    const std::vector<std::uint8_t> jaw = bodies.jaw().copyBox(brick, glm::ivec3(8));
+    std::vector<std::uint8_t> tooth(jaw.size(), 0);
+    if (const auto own = bodies.brickOfPiece(brick)) tooth = bodies.bones()[1].copyBox(*own, glm::ivec3(8));
     assets::forVoxels(glm::ivec3(0), glm::ivec3(8), [&](glm::ivec3 within) {
       const glm::ivec3 ijk = brick * 8 + within;
+      const std::size_t v = assets::indexIn(glm::ivec3(8), within);
       if (bodies.grid().contains(ijk))
-        shown[bodies.grid().index(ijk)] = solid[static_cast<std::size_t>((within.z * 8 + within.y) * 8 + within.x)];
+        shown[bodies.grid().index(ijk)] = static_cast<std::uint8_t>(std::min(255, jaw[v] + tooth[v]));
     });
   }
   EXPECT_EQ(shown, bodies.solidInGridOrder());

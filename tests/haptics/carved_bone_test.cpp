@@ -191,5 +191,17 @@ TEST(CarvedBone, HandsItsBricksToAReaderWhileItIsCarved) {
   EXPECT_EQ(seen, bone.solidInGridOrder());
 }
 
+TEST(CarvedBone, ABoxIsThatOfTheWholeVolumeAndAirBeyondIt) {
+  const Phantom phantom = halfSpace(3.0, 0.25);
+  const CarvedBone bone = phantom.bone();
+  const glm::ivec3 first(1, 0, 2), size(19, 30, 9);
+  const std::vector<std::uint8_t> box = bone.copyBox(first, size);
+  ASSERT_EQ(box.size(), assets::countIn(size));
+  assets::forVoxels(glm::ivec3(0), size, [&](glm::ivec3 at) {
+    const glm::ivec3 ijk = first * 8 + at;
+    EXPECT_EQ(box[assets::indexIn(size, at)], phantom.grid.contains(ijk) ? phantom.solid[phantom.grid.index(ijk)] : 0);
+  });
+}
+
 }  // namespace
 }  // namespace haptics

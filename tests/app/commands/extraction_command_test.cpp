@@ -106,6 +106,10 @@ class ExtractionCommand : public ProgramTest {
     EXPECT_EQ(imported.status, 0) << imported.err;
     return at("patient");
   }
+  ProgramOutput rehearse(const Hand& hand, const std::string& session) const {
+    return molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
+                 " --tool round:1.2 --tool forceps --record " + session);
+  }
   nlohmann::json metrics(const std::string& session) const {
     return nlohmann::json::parse(molar("metrics " + session + " --json").out);
   }
@@ -118,9 +122,7 @@ TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBi
   hand.takeOut(-1.0);
   hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
   const std::string session = at("s.molar");
-  const ProgramOutput said =
-      molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
-            " --tool round:1.2 --tool forceps --record " + session);
+  const ProgramOutput said = rehearse(hand, session);
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.out.find("  tooth            in 2 pieces, "), std::string::npos) << said.out;
   EXPECT_NE(said.out.find(" mm³ taken out, held for 0:"), std::string::npos) << said.out;
@@ -147,9 +149,7 @@ TEST_F(ExtractionCommand, ABridgedToothIsGrippedAsOne) {
   hand.takeOut(1.0);
   hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
   const std::string session = at("s.molar");
-  const ProgramOutput said =
-      molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
-            " --tool round:1.2 --tool forceps --record " + session);
+  const ProgramOutput said = rehearse(hand, session);
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(said.out.find("in 2 pieces"), std::string::npos) << said.out;
   EXPECT_EQ(metrics(session).at("pieces_out"), 1.0);

@@ -10,36 +10,34 @@ using haptics::phantom::brickOf;
 using haptics::phantom::bridged;
 using haptics::phantom::ToothPhantom;
 
-void giveAll(TeethWatch& watch, const ToothPhantom& tooth, std::uint64_t digest) {
+void giveAll(TeethWatch& watch, const ToothPhantom& tooth) {
   assets::forVoxels(glm::ivec3(0), tooth.grid.bricks(),
-                    [&](glm::ivec3 brick) { watch.give(brick, brickOf(tooth, brick), digest); });
+                    [&](glm::ivec3 brick) { watch.give(brick, brickOf(tooth, brick)); });
 }
 
 TEST(TeethWatch, FindsTheBridgeAndThenTwoPieces) {
   const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false);
   TeethWatch watch(whole.grid, whole.solid);
   EXPECT_EQ(watch.newest().serial, 0u);
-  giveAll(watch, bridged(0.3, 0.0, 1.5, 6.0, true), 7);
+  giveAll(watch, bridged(0.3, 0.0, 1.5, 6.0, true));
   watch.settle();
   const TeethWatch::Report& held = watch.newest();
-  EXPECT_EQ(held.digest, 7u);
   EXPECT_TRUE(held.has_bridges);
   EXPECT_EQ(held.findings.pieces, 1u);
   ASSERT_EQ(held.findings.held[0].bridges, 1u);
   EXPECT_NEAR(held.findings.held[0].bridge[0].area_mm2, 9.0, 0.5);
 
-  giveAll(watch, bridged(0.3, 0.0, 0.0, 0.0, true), 8);
+  giveAll(watch, bridged(0.3, 0.0, 0.0, 0.0, true));
   watch.settle();
-  EXPECT_EQ(watch.newest().digest, 8u);
   EXPECT_EQ(watch.newest().findings.pieces, 2u);
 }
 
 TEST(TeethWatch, WhateverTheOrderOfBricksTheFindingsAreThoseOfTheLastBytes) {
   const ToothPhantom whole = bridged(0.3, 0.3, 1.5, 6.0, false), now = bridged(0.3, 0.3, 1.5, 6.0, true);
   TeethWatch once(whole.grid, whole.solid), often(whole.grid, whole.solid);
-  giveAll(once, now, 1);
-  for (const double thickness_mm : {5.0, 4.0, 3.0, 2.0}) giveAll(often, bridged(0.3, 0.3, thickness_mm, 6.0, true), 0);
-  giveAll(often, now, 1);
+  giveAll(once, now);
+  for (const double thickness_mm : {5.0, 4.0, 3.0, 2.0}) giveAll(often, bridged(0.3, 0.3, thickness_mm, 6.0, true));
+  giveAll(often, now);
   once.settle();
   often.settle();
   const haptics::ToothFindings &a = once.newest().findings, &b = often.newest().findings;
@@ -52,12 +50,12 @@ TEST(TeethWatch, WhateverTheOrderOfBricksTheFindingsAreThoseOfTheLastBytes) {
 TEST(TeethWatch, SaysOnceWhatComesOffAndOnlyOfAConfirmedState) {
   const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false);
   TeethWatch watch(whole.grid, whole.solid);
-  giveAll(watch, bridged(0.3, 0.0, 1.5, 6.0, true), 6);
+  giveAll(watch, bridged(0.3, 0.0, 1.5, 6.0, true));
   watch.confirm(6);
   watch.settle();
   EXPECT_FALSE(watch.takeParting()) << "held by a bridge";
   const ToothPhantom parted = bridged(0.3, 0.0, 0.0, 0.0, true);
-  giveAll(watch, parted, 7);
+  giveAll(watch, parted);
   watch.settle();
   EXPECT_FALSE(watch.takeParting()) << "it may still change";
   watch.confirm(7);
@@ -71,17 +69,17 @@ TEST(TeethWatch, SaysOnceWhatComesOffAndOnlyOfAConfirmedState) {
   watch.settle();
   EXPECT_FALSE(watch.takeParting()) << "once for a state";
   // What is given later makes an older answer void.
-  giveAll(watch, parted, 8);
+  giveAll(watch, parted);
   watch.confirm(8);
   watch.settle();
-  giveAll(watch, parted, 9);
+  giveAll(watch, parted);
   EXPECT_FALSE(watch.takeParting());
 }
 
 TEST(TeethWatch, EndsWithBricksNotYetLookedAt) {
   const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false);
   TeethWatch watch(whole.grid, whole.solid);
-  giveAll(watch, whole, 1);
+  giveAll(watch, whole);
 }
 
 }  // namespace

@@ -85,18 +85,16 @@ TEST(FrameBuilder, KeepsTheLastPositionBeforeATick) {
 }
 
 TEST(FrameBuilder, ShowsThePiecesThatHaveLeftRest) {
-  PiecePoses pieces;
-  pieces.count = 2;
-  pieces.X_PQ[1].translation_mm = {0.0, 0.0, 1e-9};
-  pieces.X_PQ[2].translation_mm = {0.0, 0.0, 5.0};
-  render::Frame frame;
-  placePieces(frame, pieces);
-  EXPECT_FALSE(frame.pieces[0]) << "in the jaw";
-  ASSERT_TRUE(frame.pieces[1]);
-  EXPECT_EQ(frame.pieces[1]->translation_mm, glm::dvec3(0.0, 0.0, 1e-9));
-  EXPECT_FALSE(frame.pieces[2]) << "there are two";
-  placePieces(frame, {});
-  EXPECT_FALSE(frame.pieces[1]);
+  haptics::Tick tick;
+  tick.pieces = 2;
+  tick.X_PQ[1].translation_mm = {0.0, 0.0, 1e-9};
+  tick.X_PQ[2].translation_mm = {0.0, 0.0, 5.0};
+  const render::MovedPieces pieces = movedPieces(tick);
+  EXPECT_FALSE(pieces[0]) << "in the jaw";
+  ASSERT_TRUE(pieces[1]);
+  EXPECT_EQ(pieces[1]->translation_mm, glm::dvec3(0.0, 0.0, 1e-9));
+  EXPECT_FALSE(pieces[2]) << "there are two";
+  EXPECT_FALSE(movedPieces({})[1]);
 }
 
 TEST(FrameBuilder, HidesAWithdrawnToolInTheLastFrame) {

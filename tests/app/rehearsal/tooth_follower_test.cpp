@@ -89,8 +89,8 @@ struct FollowedTooth {
   }
   /// What a rehearsal does in frames until all is quiet. True: an order was given.
   bool frame() {
-    follower.followStepped(dirty(), tick);
-    follower.followStepped(dirty(), tick);
+    follower.follow(dirty(), tick, true);
+    follower.follow(dirty(), tick, true);
     const auto order = follower.order(tick);
     if (order) {
       const std::uint64_t serial = command.split.serial + 1;
@@ -140,8 +140,8 @@ TEST(ToothFollower, AsksAgainWhenAnOrderCameTooEarly) {
   FollowedTooth room;
   section(room.bodies, -4.0);
   room.step();
-  room.follower.followStepped(room.dirty(), room.tick);
-  room.follower.followStepped(room.dirty(), room.tick);
+  room.follower.follow(room.dirty(), room.tick, true);
+  room.follower.follow(room.dirty(), room.tick, true);
   auto order = room.follower.order(room.tick);
   ASSERT_TRUE(order);
   haptics::ErosionStep graze;
@@ -160,11 +160,9 @@ TEST(ToothFollower, OrdersNothingWhileBricksChange) {
   FollowedTooth room;
   section(room.bodies, -4.0);
   room.step();
-  std::vector<glm::ivec3> bricks;
-  room.bodies.takeDirtyBricks(bricks);
-  room.follower.follow(bricks, room.tick);
+  room.follower.follow(room.dirty(), room.tick, false);
   EXPECT_FALSE(room.follower.order(room.tick));
-  room.follower.follow({}, room.tick);
+  room.follower.follow({}, room.tick, false);
   // The look is on another thread.
   std::optional<haptics::SplitOrder> order;
   for (int n = 0; n < 2000 && !order; ++n) {
@@ -179,8 +177,8 @@ TEST(ToothFollower, SaysNothingOfAJawWithoutTooth) {
   const FreeTooth tooth;
   haptics::Bodies bodies(tooth.grid, tooth.solid, tooth.label);
   ToothFollower follower(bodies);
-  follower.follow(std::vector<glm::ivec3>{{0, 0, 0}}, haptics::Tick{});
-  follower.followStepped({}, haptics::Tick{});
+  follower.follow(std::vector<glm::ivec3>{{0, 0, 0}}, haptics::Tick{}, false);
+  follower.follow({}, haptics::Tick{}, true);
   EXPECT_FALSE(follower.order(haptics::Tick{}));
   EXPECT_FALSE(follower.news());
   EXPECT_EQ(follower.ending(), "");

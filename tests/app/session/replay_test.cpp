@@ -9,8 +9,6 @@
 #include "app/session/metrics.h"
 #include "app/session/session_error.h"
 #include "app/session/session_writer.h"
-#include "haptics/body/piece_split.h"
-#include "haptics/servo/servo.h"
 #include "tests/app/session/real_session.h"
 #include "tests/scratch_folder.h"
 
@@ -57,71 +55,6 @@ TEST(Replay, FindsARehearsalIdentical) {
   EXPECT_NEAR(report.duration_s, 0.9, 1e-9);
   EXPECT_TRUE(report.closed);
   EXPECT_EQ(report.bone_digest, session.bone.digest());
-}
-
-TEST(Replay, RebuildsTheToothAsABodyOfItsOwn) {
-  const test::BoneBlock block;
-  std::vector<std::uint8_t> is_tooth(block.solid.size());
-  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) { is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0; });
-  haptics::Bodies bodies(block.grid, block.solid, block.label, is_tooth);
-  ASSERT_EQ(bodies.pieces(), 1u);
-  SessionStart start = block.start();
-  start.is_tooth = is_tooth;
-  const std::vector<haptics::Tick> ticks = test::rehearse(bodies, start.command, kTicks, kTicks);
-  const tests::ScratchFolder folder;
-  const std::string path = folder.file("s.molar");
-  {
-    SessionWriter writer(path, false, start);
-    writer.write({{}, ticks, {}});
-    writer.seal(0, &bodies);
-  }
-  const ReplayReport report = verify(path);
-  EXPECT_TRUE(report.verified()) << report.line();
-  EXPECT_EQ(report.bone_digest, bodies.digest());
-  SessionReader session(path);
-  EXPECT_EQ(session.start().is_tooth, is_tooth);
-  EXPECT_EQ(boneAtTime(path, {}).solid, bodies.solidInGridOrder());
-  EXPECT_EQ(momentOf(path, 0.4).bodies.pieces(), 1u);
-}
-
-/// The tooth is in two parts from the start; the order to split it comes in the middle.
-TEST(Replay, SplitsTheToothAgainAtTheSameTick) {
-  const test::BoneBlock block;
-  std::vector<std::uint8_t> is_tooth(block.solid.size()), solid = block.solid;
-  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0;
-    if (ijk.x > 19 && ijk.x < 22) solid[v] = 0;
-  });
-  haptics::Bodies bodies(block.grid, solid, block.label, is_tooth);
-  SessionStart start = block.start();
-  start.is_tooth = is_tooth;
-  start.solid = solid;
-  haptics::Servo servo(bodies);
-  haptics::Command command = start.command;
-  std::vector<haptics::Tick> ticks;
-  haptics::HandSample hand;
-  hand.X_PT.translation_mm = {0.0, 0.0, 100.0};
-  for (int n = 0; n < 50; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
-  const haptics::CarvedBone& tooth = bodies.bones()[1];
-  const haptics::SplitPlan plan = haptics::partingPlan({tooth.grid(), tooth.solidInGridOrder()});
-  ASSERT_FALSE(plan.blocks.empty());
-  command.split = {1, bodies.digest(), 0, &plan};
-  ++command.serial;
-  for (int n = 0; n < 200; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
-  ASSERT_EQ(ticks.back().split, haptics::SplitAnswer::done);
-  ASSERT_EQ(ticks.back().pieces, 2);
-  const tests::ScratchFolder folder;
-  const std::string path = folder.file("s.molar");
-  {
-    SessionWriter writer(path, false, start);
-    writer.write({{{command, 50}}, ticks, {}});
-    writer.seal(0, &bodies);
-  }
-  const ReplayReport report = verify(path);
-  EXPECT_TRUE(report.verified()) << report.line();
-  EXPECT_EQ(report.bone_digest, bodies.digest());
-  EXPECT_EQ(momentOf(path, 0.2).bodies.pieces(), 2u);
-  EXPECT_EQ(momentOf(path, 0.02).bodies.pieces(), 1u);
 }
 
 TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {

@@ -57,8 +57,8 @@ TEST(BrickUploader, ShowsTheCutOfOneTickToBothEyesInTheNextFrame) {
     uncut[e] = shown.readEye(kEyes[e]).rgba;
   }
   BrickUploader uploader;
-  EXPECT_FALSE(uploader.collect(bone).empty());
-  EXPECT_TRUE(uploader.collect(bone).empty()) << "taken, and waiting to be uploaded";
+  EXPECT_FALSE(uploader.takeChanged(bone).empty());
+  EXPECT_TRUE(uploader.takeChanged(bone).empty()) << "taken, and waiting to be uploaded";
   EXPECT_GT(uploader.upload(bone, {}, shown), 0u);
   EXPECT_EQ(BrickUploader().upload(bone, {}, shown), 0u) << "nothing is uploaded twice";
   render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});
@@ -93,7 +93,10 @@ struct Site {
   }
   render::Frame frame() const {
     render::Frame frame = frameAbove();
-    placePieces(frame, piecePosesOf(bodies));
+    haptics::Tick tick;
+    tick.pieces = static_cast<std::uint8_t>(bodies.bones().size() - 1);
+    for (std::size_t n = 0; n < tick.pieces; ++n) tick.X_PQ[n] = bodies.pose(n);
+    frame.pieces = movedPieces(tick);
     return frame;
   }
 };
@@ -121,12 +124,7 @@ TEST(BrickUploader, ATouchedToothLeavesTheJawInTheFrameThatShowsItAsAPieceAndCom
   EXPECT_EQ(moved, fresh.readEye(render::Eye::left).rgba);
   EXPECT_NE(moved, at_rest);
   fresh.renderEye(frameAbove(), render::Eye::left);
-  render::FrameRenderer socket(kGrid, site.solid, site.label);
-  assets::forVoxels(glm::ivec3(0), kGrid.bricks(), [&](glm::ivec3 brick) {
-    std::array<std::uint8_t, 512> solid{};
-    site.bodies.copyBrick(brick, solid);
-    socket.updateBrick(brick, solid);
-  });
+  render::FrameRenderer socket(kGrid, site.bodies.solidInGridOrder(), site.label);
   socket.renderEye(frameAbove(), render::Eye::left);
   EXPECT_EQ(fresh.readEye(render::Eye::left).rgba, socket.readEye(render::Eye::left).rgba) << "nothing of it is left";
 
@@ -162,12 +160,7 @@ TEST(BrickUploader, ACutOfAMovedToothIsOnThePieceAndStillThereWhenItComesBack) {
   // Back at rest: as bone that was carved there.
   site.bodies.place(0, {});
   uploader.upload(site.bodies, site.frame().pieces, shown);
-  render::FrameRenderer expected(kGrid, site.solid, site.label);
-  assets::forVoxels(glm::ivec3(0), kGrid.bricks(), [&](glm::ivec3 brick) {
-    std::array<std::uint8_t, 512> solid{};
-    site.bodies.copyBrick(brick, solid);
-    expected.updateBrick(brick, solid);
-  });
+  render::FrameRenderer expected(kGrid, site.bodies.solidInGridOrder(), site.label);
   EXPECT_EQ(picture(shown), picture(expected));
 }
 

@@ -1,0 +1,138 @@
+// Replays of a tooth that is a body of its own, falls apart, and is gripped.
+
+#include <gtest/gtest.h>
+
+#include "app/session/replay.h"
+#include "app/session/session_writer.h"
+#include "haptics/body/piece_split.h"
+#include "haptics/ligament/piece_site.h"
+#include "haptics/servo/servo.h"
+#include "tests/app/session/real_session.h"
+#include "tests/scratch_folder.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t kRehearsed = 900;
+
+haptics::Bodies bodiesAt(const std::string& path, double t_s) {
+  SessionReader session(path);
+  return std::move(replayTo(session, t_s).bodies);
+}
+
+TEST(ReplayOfATooth, RebuildsItAsABodyOfItsOwn) {
+  const test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.solid.size());
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) { is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0; });
+  haptics::Bodies bodies(block.grid, block.solid, block.label, is_tooth);
+  ASSERT_EQ(bodies.pieces(), 1u);
+  SessionStart start = block.start();
+  start.is_tooth = is_tooth;
+  const std::vector<haptics::Tick> ticks = test::rehearse(bodies, start.command, kRehearsed, kRehearsed);
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  {
+    SessionWriter writer(path, false, start);
+    writer.write({{}, ticks, {}});
+    writer.seal(0, &bodies);
+  }
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.bone_digest, bodies.digest());
+  SessionReader session(path);
+  EXPECT_EQ(session.start().is_tooth, is_tooth);
+  EXPECT_EQ(boneAtTime(path, {}).solid, bodies.solidInGridOrder());
+  EXPECT_EQ(bodiesAt(path, 0.4).pieces(), 1u);
+}
+
+/// The tooth is in two parts from the start; the order to split it comes in the middle.
+TEST(ReplayOfATooth, SplitsItAgainAtTheSameTick) {
+  const test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.solid.size()), solid = block.solid;
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0;
+    if (ijk.x > 19 && ijk.x < 22) solid[v] = 0;
+  });
+  haptics::Bodies bodies(block.grid, solid, block.label, is_tooth);
+  SessionStart start = block.start();
+  start.is_tooth = is_tooth;
+  start.solid = solid;
+  haptics::Servo servo(bodies);
+  haptics::Command command = start.command;
+  std::vector<haptics::Tick> ticks;
+  haptics::HandSample hand;
+  hand.X_PT.translation_mm = {0.0, 0.0, 100.0};
+  for (int n = 0; n < 50; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
+  const haptics::CarvedBone& tooth = bodies.bones()[1];
+  const haptics::SplitPlan plan = haptics::partingPlan({tooth.grid(), tooth.solidInGridOrder()});
+  ASSERT_FALSE(plan.blocks.empty());
+  command.split = {1, bodies.digest(), 0, &plan};
+  ++command.serial;
+  for (int n = 0; n < 200; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
+  ASSERT_EQ(ticks.back().split, haptics::SplitAnswer::done);
+  ASSERT_EQ(ticks.back().pieces, 2);
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  {
+    SessionWriter writer(path, false, start);
+    writer.write({{{command, 50}}, ticks, {}});
+    writer.seal(0, &bodies);
+  }
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.bone_digest, bodies.digest());
+  EXPECT_EQ(bodiesAt(path, 0.2).pieces(), 2u);
+  EXPECT_EQ(bodiesAt(path, 0.02).pieces(), 1u);
+}
+
+/// Orders of a stranger's file: several for one tick, and a serial that comes again. The servo sees the last of them.
+TEST(ReplayOfATooth, KeepsTheSitesThatTheServoUsesWhateverTheOrders) {
+  const test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.solid.size());
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) { is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0; });
+  haptics::Bodies bodies(block.grid, block.solid, block.label, is_tooth);
+  const std::uint64_t digest = bodies.digest();
+  SessionStart start = block.start();
+  start.is_tooth = is_tooth;
+  start.command.tool = haptics::forcepsTool();
+  haptics::Servo servo(bodies);
+  const haptics::SocketSource sockets(bodies);
+  const auto site = haptics::makePieceSite(sockets.scene(0, std::array<haptics::PiecePose, haptics::kMaxPieces>{}),
+                                           sockets.firstSocket());
+  haptics::HandSample hand;
+  hand.X_PT.translation_mm = block.grid.centre_P_mm({20, 20, 20});
+  std::vector<SessionCommand> orders;
+  haptics::Command command = start.command;
+  const auto order = [&](std::uint64_t serial, std::uint64_t first_tick) {
+    command.site = {serial, digest, 0, site.get()};
+    ++command.serial;
+    orders.push_back({command, first_tick});
+  };
+  std::vector<haptics::Tick> ticks;
+  const auto step = [&](int count) {
+    for (int n = 0; n < count; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
+  };
+  step(20);
+  order(1, 20);
+  step(20);
+  ASSERT_EQ(ticks.back().site, haptics::SiteAnswer::ready);
+  for (const std::uint64_t serial : {2, 3, 4, 1}) order(serial, 40);
+  hand.drill_pedal = true;
+  step(1);
+  ASSERT_EQ(ticks.back().gripped, 1);
+  hand.X_PT.translation_mm.z += 2.0;
+  step(100);
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  {
+    SessionWriter writer(path, false, start);
+    writer.write({orders, ticks, {}});
+    writer.seal(0, &bodies);
+  }
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_NE(bodies.digest(), digest) << "it yields";
+}
+
+}  // namespace
+}  // namespace app
