@@ -312,8 +312,10 @@ int pieces(const PiecesOptions& options) {
   const std::optional<glm::dvec3> exit_P = exitOf(options);
   const Findings found = findingsOf(toothOf(options), exit_P);
   if (found.tooth.pieces == 0)
-    throw UsageError(fmt::format("pieces: the tooth holds {:.3f} mm³ in all, no piece reaches 1 mm³; check its labels",
-                                 found.tooth.chips_mm3));
+    throw UsageError(fmt::format(
+        "pieces: the tooth holds {:.3f} mm³ in all, no piece reaches 1 mm³: it was taken out or cut away, or "
+        "its labels are wrong",
+        found.tooth.chips_mm3));
   std::fputs((options.json ? jsonOf(found).dump(2) + "\n" : tableOf(found)).c_str(), stdout);
   return 0;
 }

@@ -1,5 +1,6 @@
 #include "app/options/tool_text.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -103,6 +104,10 @@ BurShape headFrom(const std::string& text) {
 
 haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
   if (text == "forceps") return haptics::forcepsTool();
+  const std::string_view key = std::string_view(text).substr(0, text.find(':'));
+  if (key == "forceps") throw UsageError("--tool " + text + ": forceps have no size, write forceps alone");
+  if (std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
+    throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps");
   const BurShape head = headFrom(text);
   return {head, shaft.empty() ? haptics::standardShaft(head) : shaftFrom(shaft)};
 }

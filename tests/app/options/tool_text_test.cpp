@@ -19,6 +19,15 @@ TEST(ToolText, ReadsEveryHead) {
   EXPECT_EQ(headFrom("cone:1,3"), (BurShape{ShapeKind::cone, 1.0, 3.0}));
 }
 
+TEST(ToolText, ReadsForcepsAndBurs) {
+  EXPECT_EQ(toolFrom("forceps", ""), haptics::forcepsTool());
+  EXPECT_EQ(toolFrom("round:2.0", "0.5,12"), (haptics::Tool{headFrom("round:2.0"), {0.5, 12.0}}));
+  EXPECT_EQ(toolFrom("round:2.0", "").shaft, haptics::standardShaft(headFrom("round:2.0")));
+  EXPECT_NE(tests::refusalOf<UsageError>([] { toolFrom("forceps:3", ""); }).find("forceps have no size"),
+            std::string::npos);
+  EXPECT_NE(tests::refusalOf<UsageError>([] { toolFrom("pliers", ""); }).find("in mm, or forceps"), std::string::npos);
+}
+
 TEST(ToolText, ReadsBursAsDentistsOrderThem) {
   EXPECT_EQ(headFrom("round:3.0"), headFrom("sphere:1.5"));
   EXPECT_EQ(headFrom("round:iso023"), headFrom("sphere:1.15"));
