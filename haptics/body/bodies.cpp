@@ -65,8 +65,12 @@ void Bodies::moveBlock(std::size_t from, std::size_t to, std::size_t block,
 void Bodies::place(std::size_t piece, const PiecePose& X_PQ) {
   assert(piece + 1 < bones_.size());
   assert(calibration::isFinite(X_PQ.translation_mm) && glm::length(X_PQ.rotation) > 0.5);
-  X_PQ_[piece] = {glm::normalize(X_PQ.rotation), X_PQ.translation_mm};
-  at_rest_[piece] = isRest(X_PQ_[piece]);
+  putBack(piece, {glm::normalize(X_PQ.rotation), X_PQ.translation_mm});
+}
+
+void Bodies::putBack(std::size_t piece, const PiecePose& X_PQ) {
+  X_PQ_[piece] = X_PQ;
+  at_rest_[piece] = isRest(X_PQ);
 }
 
 SolidBodies Bodies::view() const {

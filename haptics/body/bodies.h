@@ -41,6 +41,8 @@ class Bodies {
   /// servo stopped.
   void place(std::size_t piece, const PiecePose& X_PQ);
   const PiecePose& pose(std::size_t piece) const { return X_PQ_[piece]; }
+  /// A pose() of before, to the bit. Writer only.
+  void putBack(std::size_t piece, const PiecePose& X_PQ);
   bool isAtRest(std::size_t piece) const { return at_rest_[piece]; }
   static bool isRest(const PiecePose& X_PQ);
   /// Out of the mouth for good: far from everything, no longer met nor seen. Writer only.

@@ -1,6 +1,7 @@
 #include "haptics/bone/stroke_history.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace haptics {
@@ -20,7 +21,7 @@ StrokeHistory::StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_
 
 void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
   if (open_ && newest().blocks == saved_.size() / kMaxStrokeShare) endStroke();
-  if (!open_) beginStroke();
+  if (!open_) beginStroke(false);
   while (saved_count_ == saved_.size()) dropOldest();
   Stroke& stroke = newest();
   Saved& saved = saved_[(stroke.first + stroke.blocks) % saved_.size()];
@@ -31,25 +32,25 @@ void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
   ++saved_count_;
 }
 
-void StrokeHistory::beginStroke() noexcept {
+void StrokeHistory::beginStroke(bool marked) noexcept {
   dropUndone();
   if (count_ == kMaxStrokes) dropOldest();
   const std::size_t first = count_ == 0 ? 0 : (newest().first + newest().blocks) % saved_.size();
   ++count_;
-  newest() = {first, 0, 0};
+  newest() = {first, 0, 0, marked};
   open_ = true;
+}
+
+void StrokeHistory::addMarked() noexcept {
+  endStroke();
+  beginStroke(true);
+  endStroke();
 }
 
 void StrokeHistory::reopen() noexcept {
   if (open_) return;
   dropUndone();
   open_ = count_ > 0;
-}
-
-void StrokeHistory::forget() noexcept {
-  endStroke();
-  while (count_ > 0) dropOldest();
-  undone_ = saved_count_ = 0;
 }
 
 void StrokeHistory::endStroke() noexcept {
@@ -59,6 +60,7 @@ void StrokeHistory::endStroke() noexcept {
 }
 
 void StrokeHistory::dropOldest() noexcept {
+  assert(count_ > 0);
   saved_count_ -= strokes_[oldest_].blocks;
   oldest_ = (oldest_ + 1) % kMaxStrokes;
   --count_;
@@ -71,7 +73,7 @@ void StrokeHistory::dropUndone() noexcept {
   Stroke& stroke = newest();
   saved_count_ -= stroke.undone;
   stroke.blocks -= std::exchange(stroke.undone, 0);
-  if (stroke.blocks == 0) --count_;
+  if (stroke.blocks == 0 && !stroke.marked) --count_;
 }
 
 std::int64_t StrokeHistory::exchange(std::span<CarvedBone> bones, std::size_t entry) noexcept {

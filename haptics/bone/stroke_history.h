@@ -1,9 +1,10 @@
 // Undo and redo: the state of every block before each of the last strokes of the drill. A block is saved once per
-// stroke, before its first write. Undo exchanges it with the block as it is, redo exchanges it again: every byte, its
-// sums, and the bone's digest and removed volume follow. A new stroke drops what could be redone. Memory is allocated
-// at construction: 15.6 MB and 4 bytes per block of the bone. When it is full the oldest stroke is dropped whole; a
-// stroke of more than a quarter of it counts as several. CarvedBone::blocksLeft is not restored.
-// Servo thread; no allocation, no throw; save() about 30 ns, undo() and redo() about 300 ns a block. Not a recording.
+// stroke, before its first write. Strokes of something else stand between them, marked (servo/luxation_strokes). Undo
+// exchanges it with the block as it is, redo exchanges it again: every byte, its sums, and the bone's digest and
+// removed volume follow. A new stroke drops what could be redone. Memory is allocated at construction: 15.6 MB and 4
+// bytes per block of the bone. When it is full the oldest stroke is dropped whole; a stroke of more than a quarter of
+// it counts as several. CarvedBone::blocksLeft is not restored. Servo thread; no allocation, no throw; save() about 30
+// ns, undo() and redo() about 300 ns a block. Not a recording.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ namespace haptics {
 /// Memory layout:
 ///
 ///   saved_     ring of 260-byte entries, at 260 n: solid u8 [64] | reach u8 [64] | dose u16 [64] | block u32
-///   strokes_   ring of 200 (first entry, number of entries, of them undone) in saved_, the oldest at oldest_
+///   strokes_   ring of 200 (first entry, number of entries, of them undone) in saved_, and mark; the oldest at oldest_
 ///   saved_in_  u32 per block of all bones: number of the stroke that saved it last
 ///
 ///   saved_   | .. free .. | oldest stroke | ... | newest | undone stroke | ... | .. free .. |   contiguous, modulo
@@ -43,10 +44,13 @@ class StrokeHistory {
   void save(std::size_t block, const BlockState& state) noexcept;
   /// Later saves belong to the newest stroke again, if there is one; what was undone can no longer be redone.
   void reopen() noexcept;
-  /// All strokes, also those that were undone.
-  void forget() noexcept;
   /// Later saves belong to another stroke.
   void endStroke() noexcept;
+  /// Adds a stroke of which more than blocks is kept, elsewhere, under its place(); what was undone can no longer be
+  /// redone. Saves belong to it after reopen() only.
+  void addMarked() noexcept;
+  /// There must be one (assert).
+  void dropOldest() noexcept;
 
   /// Number of strokes that can be undone, one undone in part included.
   std::size_t strokes() const { return count_; }
@@ -54,6 +58,10 @@ class StrokeHistory {
   std::size_t undoneStrokes() const { return undone_; }
   /// The newest stroke is undone in part.
   bool isBetweenStrokes() const { return count_ > 0 && newest().undone > 0; }
+  /// Of stroke n: the oldest is 0, the first that can be redone strokes().
+  bool isMarked(std::size_t n) const { return strokes_[place(n)].marked; }
+  /// Below kMaxStrokes; no other stroke that can be undone or redone has it.
+  std::size_t place(std::size_t n) const { return (oldest_ + n) % kMaxStrokes; }
 
   struct Restored {
     double volume_mm3 = 0.0;  ///< below 0: redone
@@ -77,14 +85,14 @@ class StrokeHistory {
   };
   struct Stroke {
     std::size_t first = 0, blocks = 0, undone = 0;
+    bool marked = false;
   };
   const Stroke& newest() const { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   Stroke& newest() { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   /// Exchanges an entry with the block as it is. Returns the solid steps restored.
   std::int64_t exchange(std::span<CarvedBone> bones, std::size_t entry) noexcept;
-  void dropOldest() noexcept;
   void dropUndone() noexcept;
-  void beginStroke() noexcept;
+  void beginStroke(bool marked) noexcept;
 
   std::vector<Saved> saved_;
   std::vector<std::uint32_t> saved_in_;

@@ -7,7 +7,7 @@
 #include "haptics/bone/erosion.h"
 #include "haptics/contact/law.h"
 #include "haptics/safety/safety_limits.h"
-#include "haptics/servo/forceps.h"
+#include "haptics/servo/piece_sites.h"
 #include "haptics/servo/tooth_split.h"
 #include "haptics/tool/spindle.h"
 #include "haptics/tool/tool.h"

@@ -41,19 +41,20 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
-  forceps_.receive(bodies_, command.site);
+  sites_.receive(bodies_, command.site, forceps_.holds());
   const StrokeUndo::Serials serials{command.undo_serial, command.redo_serial};
   double restored_mm3 = 0.0;
   if (forceps_.holds())
     undo_.ignore(serials);
   else if (!split_.isRunning())
-    restored_mm3 = undo_.restore(bodies_, serials, command.tool, at_proxy_X_PT_);
-  const bool embedded = undo_.isToolEmbedded();
+    restored_mm3 = undo_.restore(bodies_, sites_, serials, command.tool, at_proxy_X_PT_);
+  if (undo_.hasMovedPieces()) forceps_.lookAgain(sites_);
+  const bool embedded = undo_.isToolEmbedded(), was_undone = embedded || undo_.hasChanged();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
-  // A pedal that was down when bur and forceps changed, or in restored bone, must be released for the forceps.
+  // A pedal that was down when bur and forceps changed, or at an undo, must be released for the forceps.
   const bool changed = std::exchange(gripped_before_, command.tool.grips) != command.tool.grips;
-  pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (embedded && command.tool.grips));
+  pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (was_undone && command.tool.grips));
   const bool pedal = valid.drill_pedal && !pedal_spent_;
   const bool foot = pedal && command.drill_enabled && !command.tool.grips;
   tick.drill_inhibit = undo_.inhibitFor((valid.drill_pedal && command.drill_enabled) || !admitted.mayDrill());
@@ -69,7 +70,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // A piece that forceps hold leads the tool.
   const bool closed = command.tool.grips && pedal && admitted.mayDrill();
   const bool held_before = forceps_.holds();
-  if (held_before) forceps_.step(bodies_, command.tool.head.radius_mm, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+  if (held_before) forceps_.move(bodies_, sites_, soft.X_PT, closed, tick.dt_s);
 
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
@@ -82,11 +83,15 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
                                      command.safety.max_stiffness_N_per_mm);
     if (embedded && !proxy.touches()) undo_.release();
     at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
-    if (!held_before) forceps_.step(bodies_, command.tool.head.radius_mm, at_proxy_X_PT_, soft.X_PT, closed, tick.dt_s);
+    if (!held_before) {
+      if (forceps_.grip(bodies_, sites_, command.tool.head.radius_mm, at_proxy_X_PT_, soft.X_PT, closed))
+        undo_.beginLuxation(bodies_, sites_, forceps_.held().piece);
+      forceps_.move(bodies_, sites_, soft.X_PT, closed, tick.dt_s);
+    }
   }
   const Forceps::Held& held = forceps_.held();
-  // Poses are not undone, so what was cut before is not either.
-  if (held.holds && !held_before) undo_.forget();
+  tick.unsettled = sites_.settle(bodies_, tick.dt_s) || held.unsettled;
+  if (!held.holds && !sites_.areSettling()) undo_.endLuxation(bodies_, sites_);
   if (held.holds) {
     at_proxy_X_PT_ = held.X_PT;
     proxy = {};
@@ -111,17 +116,17 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     tick.gripped = static_cast<std::uint8_t>(held.piece + 1);
   }
   tick.set_aside = held.set_aside;
-  tick.unsettled = held.unsettled;
   tick.torn_share = held.torn_share;
-  tick.torn_total_Nmm = torn_total_Nmm_ += held.torn_Nmm;
+  tick.torn_total_Nmm = sites_.tornTotal_Nmm();
   const SafetyLayer::Request law{
       {tick.law_force_P_N + tick.soft.force_P_N, tick.law_torque_P_Nmm + tick.soft.torque_P_Nmm},
       proxy.head.vibration_P_N,
       {},
       proxy.maxStored_Nmm() + soft.max_stored_Nmm + held.max_stored_Nmm,
       proxy.touches() || held.holds};
-  const Delivery::Changes changes{
-      command.serial != last_serial_ || embedded != was_embedded_ || held.holds != held_before, admitted.relocated};
+  const Delivery::Changes changes{command.serial != last_serial_ || embedded != was_embedded_ ||
+                                      held.holds != held_before || undo_.hasMovedPieces(),
+                                  admitted.relocated};
   last_serial_ = command.serial;
   was_embedded_ = embedded;
   const SafetyFilter::Delivered delivered = delivery_.deliver(law, changes, valid, safety_, command.safety, tick.dt_s);
@@ -130,20 +135,22 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.energy_Nmm = safety_.energy_Nmm();
   tick.faults = tick.faults | delivered.faults;
 
-  // The bur cuts at the proxy.
+  // The bur cuts at the proxy. In a socket that changes nothing goes on settling.
   const Cutting::Engagement at{at_proxy_X_PT_, command.tool.head, embedded ? Contact{} : proxy.head, proxy.force_P_N()};
+  const bool cuts = tick.drilling && proxy.head.volume_mm3 > 0.0;
+  if (cuts) undo_.endLuxation(bodies_, sites_);
   const CarveResult removed = cutting_.cut(bodies_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
                                            tick.drilling, tick.dt_s, tick.index);
-  undo_.update(tick.drilling && proxy.head.volume_mm3 > 0.0, proxy.proxy_P, removed.removed_mm3, !split_.isRunning(),
-               tick.dt_s);
+  undo_.update(cuts, proxy.proxy_P, removed.removed_mm3, !split_.isRunning(), tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // A piece that has fallen apart becomes two.
-  if (split_.step(bodies_, !proxy.touches() && !held.holds && !embedded && !undo_.isRunning(), undo_.strokes()))
+  if (split_.step(bodies_, !proxy.touches() && !held.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating(),
+                  undo_.strokes()))
     undo_.keepStrokes();
-  if (const auto begun = split_.begun()) forceps_.part(begun->from, begun->to);
+  if (const auto begun = split_.begun()) sites_.part(begun->from, begun->to);
   tick.split = split_.answer();
-  tick.site = forceps_.answer();
+  tick.site = sites_.answer();
   tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());
   for (std::size_t n = 0; n < bodies_.pieces(); ++n) tick.X_PQ[n] = bodies_.pose(n);
   tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());

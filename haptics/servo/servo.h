@@ -9,6 +9,7 @@
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/forceps.h"
+#include "haptics/servo/piece_sites.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
@@ -40,8 +41,8 @@ class Servo {
   Delivery delivery_;
   StrokeUndo undo_;
   ToothSplit split_;
+  PieceSites sites_;
   Forceps forceps_;
-  double torn_total_Nmm_ = 0.0;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false;
   bool gripped_before_ = false;  ///< Tool::grips of the last tick

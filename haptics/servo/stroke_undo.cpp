@@ -21,7 +21,29 @@ double shared_mm3(const SolidBodies& bodies, const Tool& tool,
 
 }  // namespace
 
-double StrokeUndo::restore(Bodies& bodies, const Serials& serials, const Tool& tool,
+/// Of the newest stroke, or of the one to redo. A stroke that moved pieces is the last of a tick: of one that was split
+/// after, the blocks come back before the poses, and go after them.
+StrokeHistory::Restored StrokeUndo::restoreSome(Bodies& bodies, PieceSites& sites, std::size_t most_blocks) noexcept {
+  const std::size_t count = strokes_.strokes();
+  StrokeHistory::Restored restored;
+  if (target_ < count) {
+    const std::size_t place = strokes_.place(count - 1);
+    const bool is_marked = strokes_.isMarked(count - 1);
+    restored = strokes_.undo(bodies.bones(), most_blocks);
+    if (!is_marked || strokes_.strokes() == count) return restored;
+    luxations_.undo(place, bodies, sites);
+  } else {
+    const bool is_marked = !strokes_.isBetweenStrokes() && strokes_.isMarked(count);
+    if (is_marked) luxations_.redo(strokes_.place(count), bodies, sites);
+    restored = strokes_.redo(bodies.bones(), most_blocks);
+    if (!is_marked) return restored;
+  }
+  moved_pieces_ = true;
+  restored.blocks = most_blocks;
+  return restored;
+}
+
+double StrokeUndo::restore(Bodies& bodies, PieceSites& sites, const Serials& serials, const Tool& tool,
                            const calibration::Pose<calibration::Patient, calibration::Tool>& at_X_PT) noexcept {
   // Limited to the strokes there are: surplus requests are dropped.
   constexpr std::uint64_t kMost = StrokeHistory::kMaxStrokes;
@@ -30,21 +52,27 @@ double StrokeUndo::restore(Bodies& bodies, const Serials& serials, const Tool& t
   last_ = serials;
   const std::size_t there_are = strokes_.strokes() + strokes_.undoneStrokes();
   target_ = std::min(there_are, target_ + redos - std::min<std::uint64_t>(target_ + redos, undos));
-  if (!isRunning()) return 0.0;
+  moved_pieces_ = false;
+  changed_ = isRunning();
+  if (!changed_) return 0.0;
 
+  luxations_.end(bodies, sites);
   pedal_must_be_released_ = true;
   const double shared_before_mm3 = shared_mm3(bodies.view(), tool, at_X_PT);
   double volume_mm3 = 0.0;
   for (std::size_t left = kBlocksPerTick; left > 0 && isRunning();) {
-    const bool undoes = target_ < strokes_.strokes();
-    const StrokeHistory::Restored restored =
-        undoes ? strokes_.undo(bodies.bones(), left) : strokes_.redo(bodies.bones(), left);
+    const StrokeHistory::Restored restored = restoreSome(bodies, sites, left);
     volume_mm3 += restored.volume_mm3;
     left -= restored.blocks;
   }
   embedded_ = embedded_ || shared_mm3(bodies.view(), tool, at_X_PT) > shared_before_mm3;
   restored_total_mm3_ += volume_mm3;
   return volume_mm3;
+}
+
+void StrokeUndo::beginLuxation(const Bodies& bodies, PieceSites& sites, std::size_t piece) noexcept {
+  luxations_.begin(strokes_, bodies, sites, piece);
+  target_ = strokes_.strokes();
 }
 
 DrillInhibit StrokeUndo::inhibitFor(bool pedal) noexcept {

@@ -11,7 +11,7 @@
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/safety_state.h"
 #include "haptics/servo/drill_inhibit.h"
-#include "haptics/servo/forceps.h"
+#include "haptics/servo/piece_sites.h"
 #include "haptics/servo/tooth_split.h"
 
 namespace haptics {
@@ -52,7 +52,7 @@ struct Tick {
   calibration::Vector<calibration::Patient> grip_force_P_N;     ///< on the piece, of the model
   calibration::Vector<calibration::Patient> grip_torque_P_Nmm;  ///< the same, about T's origin
   double torn_share = 0.0;                                      ///< of the ligament of the piece held, or last held
-  double torn_total_Nmm = 0.0;                                  ///< since the start, of all pieces
+  double torn_total_Nmm = 0.0;                                  ///< since the start, of all pieces, less what was undone
   SafetyState state = SafetyState::off;                         ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed

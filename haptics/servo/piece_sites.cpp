@@ -1,0 +1,111 @@
+#include "haptics/servo/piece_sites.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace haptics {
+namespace {
+
+bool fits(const PieceState& state, const PieceHold& hold) {
+  return state.ligament.torn.size() == hold.state().ligament.torn.size();
+}
+
+}  // namespace
+
+PieceMemory::PieceMemory() {
+  for (std::vector<float>* values :
+       {&state.ligament.torn, &state.ligament.fluid_N_per_mm2, &state.ligament.strain, &state.ligament.widened_mm})
+    values->assign(kMostSamples, 0.0F);  // so that its pages are there
+}
+
+void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held) noexcept {
+  if (order.serial == order_.serial) return;
+  order_ = order;
+  answer_ = SiteAnswer::refused;
+  if (held || order.site == nullptr || order.piece >= bodies.pieces() || order.bodies_digest != bodies.digest()) return;
+  const std::size_t piece = order.piece;
+  const std::uint64_t piece_digest = bodies.bones()[piece + 1].digest();
+  PieceHold& hold = order.site->hold;
+  // The same piece in a socket that may have changed remembers; another one begins where it lies.
+  PieceMemory& waiting = waiting_[piece];
+  if (is_waiting_[piece] && waiting.piece_digest == piece_digest && fits(waiting.state, hold)) {
+    waiting.state.X_PQ = bodies.pose(piece);
+    hold.restore(waiting.state);
+  } else {
+    const PieceSite* const before = is_waiting_[piece] ? nullptr : sites_[piece];
+    hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(piece), tornShare(piece));
+  }
+  hold.meet(order.site->change);
+  is_waiting_[piece] = false;
+  sites_[piece] = order.site;
+  made_of_[piece] = bodies.digestWithoutPose(piece);
+  piece_digest_[piece] = piece_digest;
+  settling_s_[piece] = 0.0;
+  answer_ = SiteAnswer::ready;
+}
+
+void PieceSites::part(std::size_t from, std::size_t to) noexcept {
+  torn_share_[to] = tornShare(from);
+  sites_[to] = nullptr;
+  is_waiting_[to] = false;
+  settling_s_[from] = settling_s_[to] = 0.0;
+}
+
+bool PieceSites::isReady(const Bodies& bodies, std::size_t piece) const noexcept {
+  return sites_[piece] != nullptr && !is_waiting_[piece] && !bodies.isSetAside(piece) &&
+         made_of_[piece] == bodies.digestWithoutPose(piece);
+}
+
+double PieceSites::tornShare(std::size_t piece) const noexcept {
+  return is_waiting_[piece]         ? waiting_[piece].torn_share
+         : sites_[piece] == nullptr ? torn_share_[piece]
+                                    : sites_[piece]->hold.tornShare();
+}
+
+HoldTick PieceSites::move(Bodies& bodies, std::size_t piece, const PieceDrive& drive, double dt_s) noexcept {
+  const HoldTick tick = sites_[piece]->hold.step(drive, &sites_[piece]->obstacles, dt_s);
+  if (!tick.refused) bodies.place(piece, tick.X_PQ);
+  torn_total_Nmm_ += tick.torn_Nmm;
+  return tick;
+}
+
+bool PieceSites::areSettling() const noexcept {
+  return std::ranges::any_of(settling_s_, [](double left_s) { return left_s > 0.0; });
+}
+
+bool PieceSites::settle(Bodies& bodies, double dt_s) noexcept {
+  bool unsettled = false;
+  for (std::size_t n = 0; n < bodies.pieces(); ++n) {
+    if (!isSettling(n)) continue;
+    settling_s_[n] = std::max(0.0, settling_s_[n] - dt_s);
+    unsettled = move(bodies, n, {}, dt_s).unsettled || unsettled;
+  }
+  return unsettled;
+}
+
+void PieceSites::remember(const Bodies& bodies, std::size_t piece, PieceMemory& memory) const noexcept {
+  memory.torn_share = tornShare(piece);
+  memory.X_PQ = bodies.pose(piece);
+  if (is_waiting_[piece]) {
+    memory.state = waiting_[piece].state;
+    memory.piece_digest = waiting_[piece].piece_digest;
+  } else {
+    assert(sites_[piece] != nullptr);
+    memory.state = sites_[piece]->hold.state();
+    memory.piece_digest = piece_digest_[piece];
+  }
+}
+
+void PieceSites::putBack(Bodies& bodies, std::size_t piece, const PieceMemory& memory) noexcept {
+  bodies.putBack(piece, memory.X_PQ);
+  settling_s_[piece] = 0.0;
+  PieceSite* const site = sites_[piece];
+  is_waiting_[piece] =
+      site == nullptr || piece_digest_[piece] != memory.piece_digest || !fits(memory.state, site->hold);
+  if (is_waiting_[piece])
+    waiting_[piece] = memory;
+  else
+    site->hold.restore(memory.state);
+}
+
+}  // namespace haptics
