@@ -1,5 +1,6 @@
 #include "app/controls/active_command.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/core.h>
@@ -20,6 +21,10 @@ void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.split = from.split;
   to.site = from.site;
   to.rearm = from.rearm;
+}
+
+bool isSamePose(const haptics::PiecePose& a, const haptics::PiecePose& b) {
+  return a.rotation == b.rotation && a.translation_mm == b.translation_mm;
 }
 
 }  // namespace
@@ -101,7 +106,7 @@ void ActiveCommand::moveStroke(Control control, const std::string& where) {
   ++(undoes ? command_.undo_serial : command_.redo_serial);
   workstation_->change(command_);
   if (!stroke_change_ || stroke_change_->control != control)
-    stroke_change_ = StrokeChange{control, strokes, undone, 0, 0, tick.restored_total_mm3};
+    stroke_change_ = StrokeChange{control, strokes, undone, 0, 0, tick.restored_total_mm3, tick.X_PQ};
   ++stroke_change_->requests;
   stroke_change_->command_serial = workstation_->commandSerial();
 }
@@ -113,9 +118,15 @@ void ActiveCommand::followStrokes(const haptics::Tick& newest) {
   const double restored_mm3 = newest.restored_total_mm3 - stroke_change_->restored_before_mm3;
   const auto strokes = [](unsigned count) { return fmt::format("{} stroke{}", count, count == 1 ? "" : "s"); };
   const bool undoes = stroke_change_->control == Control::undo;
-  const std::string line =
-      undoes ? fmt::format("{:.1f} mm³ taken back, {} left", restored_mm3, strokes(newest.strokes))
-             : fmt::format("{:.1f} mm³ cut again, {} left to redo", -restored_mm3, strokes(newest.undone_strokes));
+  // Bone, poses of pieces, or both.
+  const bool moved = !std::ranges::equal(stroke_change_->X_PQ_before, newest.X_PQ, isSamePose);
+  std::string line = newest.pieces > 1 ? "pieces of the tooth" : "the tooth";
+  line = moved ? line + (undoes ? " put back" : " moved again") : "";
+  if (!moved || restored_mm3 != 0.0)
+    line = fmt::format("{:.1f} mm³ {}{}{}", undoes ? restored_mm3 : -restored_mm3, undoes ? "taken back" : "cut again",
+                       moved ? ", " : "", line);
+  line += undoes ? fmt::format(", {} left", strokes(newest.strokes))
+                 : fmt::format(", {} left to redo", strokes(newest.undone_strokes));
   report(undoes ? "undo" : "redo", line);
   say(line);
   stroke_change_.reset();

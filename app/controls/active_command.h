@@ -3,6 +3,7 @@
 // Every change is recorded before it is in force, and reported. Main thread; the file is polled four times a second.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,6 +83,7 @@ class ActiveCommand {
     int strokes_before = 0, undone_before = 0, requests = 0;
     std::uint64_t command_serial = 0;
     double restored_before_mm3 = 0.0;
+    std::array<haptics::PiecePose, haptics::kMaxPieces> X_PQ_before{};
   };
   std::optional<StrokeChange> stroke_change_;
 };

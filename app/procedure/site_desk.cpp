@@ -41,6 +41,8 @@ std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, 
   }
   if (!is_quiet || newest.gripped != 0) {
     ready_ = false;
+    // An undo may bring back the bodies for which not every site was ordered.
+    if (!to_order_.empty()) made_for_ = 0;
     to_order_.clear();
     if (job_ && !job_->confirmed) job_->spoiled = true;
     return {};

@@ -1,11 +1,12 @@
 // What the forceps do, from every tick: how long pieces were held, the largest pull, how much ligament is torn, and
-// what came out; in words for the surgeon as it happens, and for the summary. Main thread, once a frame; microseconds a
-// tick.
+// what came out, less what was undone; in words for the surgeon as it happens, and for the summary. Main thread, once a
+// frame; microseconds a tick.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,10 +30,16 @@ class GripLog {
   std::string summary() const;
 
  private:
+  std::optional<Told> follow(const haptics::Tick& tick, std::size_t piece,
+                             const std::function<double(std::size_t)>& volume_mm3);
+
   double held_s_ = 0.0, most_N_ = 0.0, torn_share_ = 0.0;
-  std::vector<double> out_mm3_;
+  struct Out {
+    std::size_t piece = 0;
+    double mm3 = 0.0;
+  };
+  std::vector<Out> out_;
   bool was_closed_ = false;
-  std::uint8_t gripped_ = 0;
   std::array<int, haptics::kMaxPieces> torn_told_{};  ///< quarters of the ligament
 };
 

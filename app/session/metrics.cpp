@@ -45,7 +45,9 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   if (tick.gripped != 0) sum.grip_s += tick.dt_s;
   sum.max_grip_N = std::max(sum.max_grip_N, glm::length(tick.grip_force_P_N.xyz));
   sum.ligament_torn_Nmm = tick.torn_total_Nmm;
-  if (tick.set_aside) sum.pieces_out += 1.0;
+  sum.pieces_out = 0.0;
+  for (std::size_t n = 0; n < tick.pieces; ++n)
+    if (haptics::Bodies::isAside(tick.X_PQ[n])) sum.pieces_out += 1.0;
   sum.max_depth_mm = std::max(sum.max_depth_mm, tick.depth_mm);
   sum.removed_mm3 += tick.removed_mm3;  // without lost ticks
   if (tick.removed_mm3 < 0.0) sum.returned_mm3 -= tick.removed_mm3;

@@ -70,6 +70,16 @@ void LuxationStrokes::redo(std::size_t place, Bodies& bodies, PieceSites& sites)
   sites.putBackTornTotal(stroke.torn_after_Nmm);
 }
 
+const PieceMemory* LuxationStrokes::newestOf(const StrokeHistory& strokes, std::size_t piece) const noexcept {
+  for (std::size_t n = isOpen() ? 0 : strokes.strokes(); n > 0; --n) {
+    if (!strokes.isMarked(n - 1)) continue;
+    const Stroke& stroke = strokes_[strokes.place(n - 1)];
+    for (std::size_t at = 0; at < stroke.pieces; ++at)
+      if (kept(stroke, at).piece == piece) return &kept(stroke, at).after;
+  }
+  return nullptr;
+}
+
 std::size_t LuxationStrokes::bytes() const {
   return kept_.size() * (sizeof(Kept) + 2 * 4 * kMostSamples * sizeof(float));
 }

@@ -35,6 +35,10 @@ class LuxationStrokes {
   void undo(std::size_t place, Bodies& bodies, PieceSites& sites) const noexcept;
   void redo(std::size_t place, Bodies& bodies, PieceSites& sites) const noexcept;
 
+  /// A piece after the newest stroke that moved it, of those that have ended and are not undone; null: none. Valid
+  /// until the next call that is not const.
+  const PieceMemory* newestOf(const StrokeHistory& strokes, std::size_t piece) const noexcept;
+
   std::size_t bytes() const;
 
  private:

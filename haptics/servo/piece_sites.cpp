@@ -18,21 +18,23 @@ PieceMemory::PieceMemory() {
     values->assign(kMostSamples, 0.0F);  // so that its pages are there
 }
 
-void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held) noexcept {
-  if (order.serial == order_.serial) return;
+void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held, const PieceMemory* left) noexcept {
+  if (!isNew(order)) return;
   order_ = order;
   answer_ = SiteAnswer::refused;
   if (held || order.site == nullptr || order.piece >= bodies.pieces() || order.bodies_digest != bodies.digest()) return;
   const std::size_t piece = order.piece;
   const std::uint64_t piece_digest = bodies.bones()[piece + 1].digest();
   PieceHold& hold = order.site->hold;
-  // The same piece in a socket that may have changed remembers; another one begins where it lies.
-  PieceMemory& waiting = waiting_[piece];
-  if (is_waiting_[piece] && waiting.piece_digest == piece_digest && fits(waiting.state, hold)) {
-    waiting.state.X_PQ = bodies.pose(piece);
-    hold.restore(waiting.state);
+  // The same piece in a socket that may have changed remembers, also after a cut into it was undone; another one begins
+  // where it lies.
+  const PieceSite* const before = is_waiting_[piece] ? nullptr : sites_[piece];
+  const bool is_other = before == nullptr || piece_digest_[piece] != piece_digest;
+  const PieceMemory* const memory = is_waiting_[piece] ? &waiting_[piece] : is_other ? left : nullptr;
+  if (memory != nullptr && memory->piece_digest == piece_digest && fits(memory->state, hold)) {
+    hold.restore(memory->state);
+    hold.takeOver(nullptr, bodies.pose(piece), 0.0);
   } else {
-    const PieceSite* const before = is_waiting_[piece] ? nullptr : sites_[piece];
     hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(piece), tornShare(piece));
   }
   hold.meet(order.site->change);

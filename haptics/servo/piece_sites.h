@@ -47,9 +47,10 @@ class PieceSites {
   /// Allocates.
   PieceSites() = default;
 
+  bool isNew(const SiteOrder& order) const { return order.serial != order_.serial; }
   /// First in a tick: an order holds for the bodies as they are then, or not at all. `held`: an instrument holds a
-  /// piece.
-  void receive(const Bodies& bodies, const SiteOrder& order, bool held) noexcept;
+  /// piece. `left`: this piece after the newest stroke that moved it, or null.
+  void receive(const Bodies& bodies, const SiteOrder& order, bool held, const PieceMemory* left) noexcept;
   /// Of the newest order.
   SiteAnswer answer() const { return answer_; }
   /// A part of `from` becomes piece `to`: as much of its ligament is torn.

@@ -41,7 +41,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
-  sites_.receive(bodies_, command.site, forceps_.holds());
+  if (sites_.isNew(command.site))
+    sites_.receive(bodies_, command.site, forceps_.holds(), undo_.leftByLuxation(command.site.piece));
   const StrokeUndo::Serials serials{command.undo_serial, command.redo_serial};
   double restored_mm3 = 0.0;
   if (forceps_.holds())
@@ -74,8 +75,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
-  // The beaks go round a tooth: between them is room for it.
-  const SolidBodies bodies = command.tool.grips ? SolidBodies(bodies_.jaw().field()) : bodies_.view();
+  const SolidBodies bodies = metBy(command.tool, bodies_);
   Proxy::State proxy;
   if (!forceps_.holds()) {
     proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)

@@ -9,7 +9,7 @@
 namespace haptics {
 namespace {
 
-/// Overlap of head and shaft with the bodies.
+/// Overlap of head and shaft with solid.
 double shared_mm3(const SolidBodies& bodies, const Tool& tool,
                   const calibration::Pose<calibration::Patient, calibration::Tool>& at_X_PT) {
   const TissueStiffness tissue;
@@ -20,6 +20,10 @@ double shared_mm3(const SolidBodies& bodies, const Tool& tool,
 }
 
 }  // namespace
+
+SolidBodies metBy(const Tool& tool, const Bodies& bodies) {
+  return tool.grips ? SolidBodies(bodies.jaw().field()) : bodies.view();
+}
 
 /// Of the newest stroke, or of the one to redo. A stroke that moved pieces is the last of a tick: of one that was split
 /// after, the blocks come back before the poses, and go after them.
@@ -58,14 +62,14 @@ double StrokeUndo::restore(Bodies& bodies, PieceSites& sites, const Serials& ser
 
   luxations_.end(bodies, sites);
   pedal_must_be_released_ = true;
-  const double shared_before_mm3 = shared_mm3(bodies.view(), tool, at_X_PT);
+  const double shared_before_mm3 = shared_mm3(metBy(tool, bodies), tool, at_X_PT);
   double volume_mm3 = 0.0;
   for (std::size_t left = kBlocksPerTick; left > 0 && isRunning();) {
     const StrokeHistory::Restored restored = restoreSome(bodies, sites, left);
     volume_mm3 += restored.volume_mm3;
     left -= restored.blocks;
   }
-  embedded_ = embedded_ || shared_mm3(bodies.view(), tool, at_X_PT) > shared_before_mm3;
+  embedded_ = embedded_ || shared_mm3(metBy(tool, bodies), tool, at_X_PT) > shared_before_mm3;
   restored_total_mm3_ += volume_mm3;
   return volume_mm3;
 }

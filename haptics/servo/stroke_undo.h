@@ -19,6 +19,9 @@
 
 namespace haptics {
 
+/// What the tool is held off by: beaks go round a tooth, between them is room for it.
+SolidBodies metBy(const Tool& tool, const Bodies& bodies);
+
 class StrokeUndo {
  public:
   static constexpr std::size_t kBlocksPerTick = 64;
@@ -60,6 +63,8 @@ class StrokeUndo {
   /// The pieces have settled, or something else begins.
   void endLuxation(const Bodies& bodies, PieceSites& sites) noexcept { luxations_.end(bodies, sites); }
   bool isLuxating() const { return luxations_.isOpen(); }
+  /// As LuxationStrokes::newestOf().
+  const PieceMemory* leftByLuxation(std::size_t piece) const noexcept { return luxations_.newestOf(strokes_, piece); }
   /// The newest stroke was changed by something else than the bur.
   void keepStrokes() { target_ = strokes_.strokes(); }
   bool isRunning() const { return target_ != strokes_.strokes() || strokes_.isBetweenStrokes(); }

@@ -230,6 +230,24 @@ TEST(LuxationStrokes, WhatALigamentRemembersWaitsForASiteOfTheSamePiece) {
   EXPECT_EQ(at.tick.gripped, 1);
 }
 
+TEST(LuxationStrokes, ACutIntoTheToothThatIsUndoneLeavesItsLigamentAsTheGripDid) {
+  Operation at;
+  at.luxate(0.14);
+  const PieceState left = at.state();
+  const std::uint64_t before = at.bodies.digest();
+  const int strokes = at.tick.strokes;
+  at.cutTooth();
+  at.forceps();
+  at.makeReady();
+  ASSERT_NE(at.state().ligament.torn, left.ligament.torn);
+  at.undo(static_cast<std::uint64_t>(at.tick.strokes - strokes));
+  at.step(60);
+  ASSERT_EQ(at.bodies.digest(), before);
+  at.makeReady();
+  expectSame({left.X_PQ, at.state().ligament}, left);
+  EXPECT_TRUE(isSame(at.state().X_PQ, at.bodies.pose(0)));
+}
+
 TEST(LuxationStrokes, AStateThatWaitsIsTheMeanForAPieceThatWasCutInstead) {
   Operation at;
   at.luxate(0.12);

@@ -87,6 +87,7 @@ class ExtractionCommand : public ProgramTest {
  protected:
   /// A patient folder.
   std::string patient() const {
+    if (std::filesystem::exists(at("patient"))) return at("patient");
     std::string hounsfield = header("int16"), label = header("uint8"), tooth = header("uint8");
     for (int k = 0; k < kSize[2]; ++k)
       for (int j = 0; j < kSize[1]; ++j)
@@ -162,6 +163,38 @@ TEST_F(ExtractionCommand, ABridgedToothIsGrippedAsOne) {
             " --headless --pace fast --device poses:" + at("poses.csv") + " --record " + next);
   EXPECT_EQ(goes_on.status, 0) << goes_on.err;
   EXPECT_EQ(molar("replay " + next + " --verify").status, 0);
+}
+
+TEST_F(ExtractionCommand, APieceThatWasTakenOutIsPutBackAndTakenOutAgain) {
+  Hand hand;
+  hand.be(0.0, {0.0, 0.0, 9.0}, false);
+  hand.takeOut(1.0);
+  const auto say = [&](const std::string& action) { hand.be(0.4, {2.4, 0.0, 13.0}, false, 0.0, "", action); };
+  for (const char* const action : {"undo", "redo", "undo", "undo"}) say(action);
+  say("");
+  const std::string undone = at("undone.molar");
+  Hand ended = hand;
+  ended.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const ProgramOutput back = rehearse(ended, undone);
+  ASSERT_EQ(back.status, 0) << back.err;
+  for (const char* const line : {"the tooth put back, 0 strokes left", "the tooth moved again, 0 strokes left to redo",
+                                 "there is no stroke to undo"})
+    EXPECT_NE(back.err.find(line), std::string::npos) << line << back.err;
+  EXPECT_NE(back.out.find("nothing taken out, held for 0:"), std::string::npos) << back.out;
+  const nlohmann::json measured = metrics(undone);
+  EXPECT_EQ(measured.at("pieces_out"), 0.0);
+  EXPECT_EQ(measured.at("ligament_torn_Nmm"), 0.0);
+  EXPECT_GT(measured.at("max_grip_N").get<double>(), 30.0) << "the hand did that";
+  EXPECT_EQ(measured.at("returned_mm3"), 0.0);
+  EXPECT_EQ(molar("pieces " + undone).status, 0) << "it is there again";
+  EXPECT_EQ(molar("replay " + undone + " --verify").status, 0);
+
+  hand.takeOut(1.0);
+  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string again = at("again.molar");
+  ASSERT_EQ(rehearse(hand, again).status, 0);
+  EXPECT_EQ(metrics(again).at("pieces_out"), 1.0);
+  EXPECT_EQ(molar("replay " + again + " --verify").status, 0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/body/piece_split.h"
 #include "haptics/bone/carve.h"
 #include "haptics/servo/servo.h"
 
@@ -95,6 +96,31 @@ TEST(SiteDesk, AsksAgainAfterARefusal) {
   for (int n = 0; n < 4 && !socket.desk->isReady(); ++n) socket.frame();
   EXPECT_TRUE(socket.desk->isReady());
   EXPECT_EQ(socket.tick.site, haptics::SiteAnswer::ready);
+}
+
+/// A tooth of two pieces, one of which got its site before bone was cut, and the cut is undone.
+TEST(SiteDesk, OrdersAllSitesAgainForBodiesThatAnUndoBroughtBack) {
+  Socket socket;
+  haptics::SplitPlan plan = haptics::splitPlan(socket.bodies->bones()[1].grid(), [&] {
+    std::vector<std::uint8_t> half = socket.bodies->bones()[1].solidInGridOrder();
+    std::fill(half.begin(), half.begin() + static_cast<std::ptrdiff_t>(half.size() / 2), std::uint8_t{0});
+    return half;
+  }());
+  socket.command.split = {1, socket.bodies->digest(), 0, &plan};
+  for (int n = 0; n < 100; ++n) socket.step();
+  ASSERT_EQ(socket.tick.pieces, 2);
+  socket.frame(false);
+  EXPECT_TRUE(socket.frame()) << "the first of two";
+  const haptics::Tick before = socket.tick;
+  // As if something was cut and undone.
+  haptics::Tick other = before;
+  other.bone_digest ^= 1;
+  EXPECT_FALSE(socket.desk->follow(other, true, true));
+  EXPECT_FALSE(socket.desk->follow(before, true, true));
+  int orders = 0;
+  for (int n = 0; n < 5; ++n) orders += socket.frame() ? 1 : 0;
+  EXPECT_EQ(orders, 2);
+  EXPECT_TRUE(socket.desk->isReady());
 }
 
 /// Of a running servo nothing waits: the site comes some frames later.

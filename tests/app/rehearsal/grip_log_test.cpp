@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace app {
 namespace {
 
@@ -50,10 +52,36 @@ TEST(GripLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
   EXPECT_EQ(told.log.summary(),
             "nothing taken out, held for 0:02, pulled with 120 N at most (model), 100 % of the ligament torn");
   told.tick.gripped = 0;
-  told.tick.set_aside = true;
+  told.tick.pieces = 2;
+  told.tick.X_PQ[1].translation_mm = glm::dvec3(10'000.0);
   told.tick.hand.drill_pedal = false;
   EXPECT_EQ(told.lines(), Lines{"out: a piece of 412 mm³"});
   EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out, held for 0:02", 0), 0u) << told.log.summary();
+}
+
+TEST(GripLog, TakesBackWhatIsUndone) {
+  Told told;
+  told.tick.pieces = 2;
+  told.tick.gripped = 2;
+  told.tick.torn_share = 0.6;
+  EXPECT_EQ(told.lines(), Lines{"50 % of the ligament is torn"});
+  told.tick.gripped = 0;
+  const auto home = told.tick.X_PQ[1];
+  told.tick.X_PQ[1].translation_mm = glm::dvec3(10'000.0);
+  EXPECT_EQ(told.lines(3), Lines{"out: a piece of 412 mm³"});
+  const auto away = std::exchange(told.tick.X_PQ[1], home);
+  told.tick.torn_share = 0.1;
+  EXPECT_EQ(told.lines(3), Lines{"back in the mouth: a piece of 412 mm³"});
+  EXPECT_EQ(told.log.summary(),
+            "nothing taken out, held for 0:00, pulled with 0 N at most (model), 10 % of the ligament torn");
+  told.tick.gripped = 2;
+  EXPECT_EQ(told.lines(), Lines{});
+  told.tick.torn_share = 0.55;
+  EXPECT_EQ(told.lines(3), Lines{"50 % of the ligament is torn"}) << "told again";
+  told.tick.gripped = 0;
+  told.tick.X_PQ[1] = away;
+  EXPECT_EQ(told.lines(), Lines{"out: a piece of 412 mm³"}) << "redone";
+  EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out", 0), 0u) << told.log.summary();
 }
 
 }  // namespace

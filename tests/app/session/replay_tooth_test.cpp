@@ -134,5 +134,77 @@ TEST(ReplayOfATooth, KeepsTheSitesThatTheServoUsesWhateverTheOrders) {
   EXPECT_NE(bodies.digest(), digest) << "it yields";
 }
 
+/// Nothing is recorded for it but the serials of the command.
+TEST(ReplayOfATooth, UndoesAndRedoesAGrip) {
+  const test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.solid.size());
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) { is_tooth[v] = ijk.x > 15 && ijk.x < 26 ? 1 : 0; });
+  haptics::Bodies bodies(block.grid, block.solid, block.label, is_tooth);
+  SessionStart start = block.start();
+  start.is_tooth = is_tooth;
+  start.command.tool = haptics::forcepsTool();
+  haptics::Servo servo(bodies);
+  const haptics::SocketSource sockets(bodies);
+  std::vector<std::unique_ptr<haptics::PieceSite>> sites;
+  haptics::HandSample hand;
+  hand.X_PT.translation_mm = block.grid.centre_P_mm({20, 20, 20});
+  std::vector<haptics::Tick> ticks;
+  std::vector<SessionCommand> commands;
+  haptics::Command command = start.command;
+  const auto step = [&](int count) {
+    for (int n = 0; n < count; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
+  };
+  const auto give = [&] {
+    ++command.serial;
+    commands.push_back({command, ticks.size()});
+    step(20);
+  };
+  const auto makeReady = [&] {
+    sites.push_back(haptics::makePieceSite(sockets.scene(0, ticks.back().X_PQ), sockets.firstSocket()));
+    command.site = {command.site.serial + 1, bodies.digest(), 0, sites.back().get()};
+    give();
+    ASSERT_EQ(ticks.back().site, haptics::SiteAnswer::ready);
+  };
+  const auto pull = [&](double mm) {
+    hand.drill_pedal = true;
+    step(2);
+    ASSERT_EQ(ticks.back().gripped, 1);
+    hand.X_PT.translation_mm.z += mm;
+    step(200);
+    hand.X_PT.translation_mm.z -= mm;
+    step(200);
+    hand.drill_pedal = false;
+    step(400);
+  };
+  step(20);
+  const std::uint64_t first = bodies.digest();
+  makeReady();
+  pull(3.0);
+  const std::uint64_t pulled = bodies.digest();
+  ASSERT_NE(pulled, first);
+  ++command.undo_serial, give();
+  EXPECT_EQ(bodies.digest(), first);
+  ++command.redo_serial, give();
+  EXPECT_EQ(bodies.digest(), pulled);
+  makeReady();
+  ++command.undo_serial, give();
+  EXPECT_EQ(ticks.back().undone_strokes, 1);
+  // Gripped again by what was put back.
+  pull(2.0);
+  EXPECT_NE(bodies.digest(), pulled);
+  EXPECT_EQ(ticks.back().strokes, 1);
+  EXPECT_EQ(ticks.back().undone_strokes, 0);
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  {
+    SessionWriter writer(path, false, start);
+    writer.write({commands, ticks, {}});
+    writer.seal(0, &bodies);
+  }
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.bone_digest, bodies.digest());
+}
+
 }  // namespace
 }  // namespace app
