@@ -363,5 +363,70 @@ TEST(StrokeHistory, TakesNoMoreRoomThanItSays) {
   EXPECT_LT(StrokeHistory(bone).bytes(), 16'000'000u);
 }
 
+/// Strokes of something else are counted, undone and redone among those of the drill, with what was saved to them
+/// later.
+TEST(StrokeHistory, KeepsTheOrderOfMarkedStrokes) {
+  std::mt19937 random(11);
+  CarvedBone bone = noise(11);
+  StrokeHistory strokes(bone);
+  std::vector<std::uint64_t> digests{bone.digest()};
+  const std::vector<bool> marked{true, false, true, true, false, true};
+  for (const bool mark : marked) {
+    mark ? strokes.addMarked() : static_cast<void>(Stroke(random).cutAll(bone, &strokes));
+    digests.push_back(bone.digest());
+  }
+  // The last one gets blocks after all.
+  strokes.reopen();
+  Stroke(random).cutAll(bone, &strokes);
+  digests.back() = bone.digest();
+  ASSERT_EQ(strokes.strokes(), marked.size());
+  std::vector<std::size_t> places;
+  for (std::size_t n = 0; n < marked.size(); ++n) {
+    EXPECT_EQ(strokes.isMarked(n), marked[n]) << n;
+    places.push_back(strokes.place(n));
+  }
+  for (std::size_t n = marked.size(); n > 0; --n) {
+    while (strokes.strokes() == n) strokes.undo(bone, 7);
+    EXPECT_EQ(bone.digest(), digests[n - 1]);
+    EXPECT_EQ(strokes.isMarked(n - 1), marked[n - 1]) << "and can be redone";
+    EXPECT_EQ(strokes.place(n - 1), places[n - 1]);
+  }
+  for (std::size_t n = 0; n < marked.size(); ++n) {
+    do {
+      strokes.redo(bone, 7);
+    } while (strokes.isBetweenStrokes());
+    EXPECT_EQ(strokes.strokes(), n + 1);
+    EXPECT_EQ(bone.digest(), digests[n + 1]);
+  }
+  // A new one drops what was undone, not those before it.
+  while (strokes.strokes() == 6) strokes.undo(bone, 100);
+  strokes.undo(bone, 100);
+  Stroke(random).cutAll(bone, &strokes);
+  EXPECT_EQ(strokes.strokes(), 5u);
+  EXPECT_EQ(strokes.undoneStrokes(), 0u);
+  EXPECT_TRUE(strokes.isMarked(3));
+  EXPECT_FALSE(strokes.isMarked(4));
+  strokes.undo(bone, 100'000);
+  strokes.undo(bone, 1);
+  strokes.addMarked();
+  EXPECT_EQ(strokes.strokes(), 4u);
+  strokes.dropOldest();
+  EXPECT_EQ(strokes.strokes(), 3u);
+  EXPECT_FALSE(strokes.isMarked(0));
+}
+
+/// Undone in part and given up: the mark stays, its blocks go.
+TEST(StrokeHistory, AMarkedStrokeIsNotDroppedForWantOfBlocks) {
+  CarvedBone bone = noise(3);
+  StrokeHistory strokes(bone);
+  strokes.addMarked();
+  std::mt19937 random(3);
+  Stroke(random).cutAll(bone, &strokes);
+  while (strokes.strokes() == 2) strokes.undo(bone, 100);
+  strokes.addMarked();
+  EXPECT_EQ(strokes.strokes(), 2u);
+  EXPECT_TRUE(strokes.isMarked(0) && strokes.isMarked(1));
+}
+
 }  // namespace
 }  // namespace haptics
