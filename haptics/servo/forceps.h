@@ -51,7 +51,9 @@ class Forceps {
   /// Of the last step.
   const Held& held() const { return held_; }
   /// Pieces were put back.
-  void lookAgain(const PieceSites& sites) noexcept { held_.torn_share = sites.tornShare(held_.piece); }
+  void lookAgain(const Bodies& bodies, const PieceSites& sites) noexcept {
+    held_.torn_share = sites.tornShare(bodies, held_.piece);
+  }
 
  private:
   std::size_t pieceAt(const Bodies& bodies, const PieceSites& sites, double radius_mm,

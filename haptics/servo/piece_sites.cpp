@@ -28,14 +28,15 @@ void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held
   PieceHold& hold = order.site->hold;
   // The same piece in a socket that may have changed remembers, also after a cut into it was undone; another one begins
   // where it lies.
-  const PieceSite* const before = is_waiting_[piece] ? nullptr : sites_[piece];
+  const PieceMemory* const waiting = waitingFor(bodies, piece);
+  const PieceSite* const before = waiting != nullptr ? nullptr : sites_[piece];
   const bool is_other = before == nullptr || piece_digest_[piece] != piece_digest;
-  const PieceMemory* const memory = is_waiting_[piece] ? &waiting_[piece] : is_other ? left : nullptr;
+  const PieceMemory* const memory = waiting != nullptr ? waiting : is_other ? left : nullptr;
   if (memory != nullptr && memory->piece_digest == piece_digest && fits(memory->state, hold)) {
     hold.restore(memory->state);
     hold.takeOver(nullptr, bodies.pose(piece), 0.0);
   } else {
-    hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(piece), tornShare(piece));
+    hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(piece), tornShare(bodies, piece));
   }
   hold.meet(order.site->change);
   is_waiting_[piece] = false;
@@ -46,25 +47,29 @@ void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held
   answer_ = SiteAnswer::ready;
 }
 
-void PieceSites::part(std::size_t from, std::size_t to) noexcept {
-  torn_share_[to] = tornShare(from);
+void PieceSites::part(const Bodies& bodies, std::size_t from, std::size_t to) noexcept {
+  torn_share_[to] = tornShare(bodies, from);
   sites_[to] = nullptr;
   is_waiting_[to] = false;
   settling_s_[from] = settling_s_[to] = 0.0;
 }
 
 bool PieceSites::isReady(const Bodies& bodies, std::size_t piece) const noexcept {
-  return sites_[piece] != nullptr && !is_waiting_[piece] && !bodies.isSetAside(piece) &&
-         made_of_[piece] == bodies.digestWithoutPose(piece);
+  return sites_[piece] != nullptr && !bodies.isSetAside(piece) && made_of_[piece] == bodies.digestWithoutPose(piece);
 }
 
-double PieceSites::tornShare(std::size_t piece) const noexcept {
-  return is_waiting_[piece]         ? waiting_[piece].torn_share
-         : sites_[piece] == nullptr ? torn_share_[piece]
-                                    : sites_[piece]->hold.tornShare();
+const PieceMemory* PieceSites::waitingFor(const Bodies& bodies, std::size_t piece) const noexcept {
+  const bool fits_site = sites_[piece] != nullptr && piece_digest_[piece] == bodies.bones()[piece + 1].digest();
+  return is_waiting_[piece] && !fits_site ? &waiting_[piece] : nullptr;
+}
+
+double PieceSites::tornShare(const Bodies& bodies, std::size_t piece) const noexcept {
+  if (const PieceMemory* const waiting = waitingFor(bodies, piece)) return waiting->torn_share;
+  return sites_[piece] == nullptr ? torn_share_[piece] : sites_[piece]->hold.tornShare();
 }
 
 HoldTick PieceSites::move(Bodies& bodies, std::size_t piece, const PieceDrive& drive, double dt_s) noexcept {
+  is_waiting_[piece] = false;
   const HoldTick tick = sites_[piece]->hold.step(drive, &sites_[piece]->obstacles, dt_s);
   if (!tick.refused) bodies.place(piece, tick.X_PQ);
   torn_total_Nmm_ += tick.torn_Nmm;
@@ -86,11 +91,11 @@ bool PieceSites::settle(Bodies& bodies, double dt_s) noexcept {
 }
 
 void PieceSites::remember(const Bodies& bodies, std::size_t piece, PieceMemory& memory) const noexcept {
-  memory.torn_share = tornShare(piece);
+  memory.torn_share = tornShare(bodies, piece);
   memory.X_PQ = bodies.pose(piece);
-  if (is_waiting_[piece]) {
-    memory.state = waiting_[piece].state;
-    memory.piece_digest = waiting_[piece].piece_digest;
+  if (const PieceMemory* const waiting = waitingFor(bodies, piece)) {
+    memory.state = waiting->state;
+    memory.piece_digest = waiting->piece_digest;
   } else {
     assert(sites_[piece] != nullptr);
     memory.state = sites_[piece]->hold.state();

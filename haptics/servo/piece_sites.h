@@ -1,7 +1,7 @@
 // The pieces of tooth in their sockets, as luxating instruments move them: the site in force of each
 // (ligament/piece_site), what its ligament remembers, and what becomes of that when a site is replaced, a piece parts
-// or a stroke is undone. A state that was put back waits for a site made from the same bytes of the piece; meanwhile
-// the piece is not ready. Frame P; N mm of the model. Servo thread; no allocation after construction, no throw; a move
+// or a stroke is undone. A state that was put back waits for a site made from the same bytes of the piece; the piece
+// is not ready until then. Frame P; N mm of the model. Servo thread; no allocation after construction, no throw; a move
 // costs a step of PieceHold, a state 4 floats a sample.
 #pragma once
 
@@ -54,14 +54,14 @@ class PieceSites {
   /// Of the newest order.
   SiteAnswer answer() const { return answer_; }
   /// A part of `from` becomes piece `to`: as much of its ligament is torn.
-  void part(std::size_t from, std::size_t to) noexcept;
+  void part(const Bodies& bodies, std::size_t from, std::size_t to) noexcept;
 
   /// Neither it nor bone was cut, restored or split since its site was made, and no other piece has moved.
   bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;
   /// Of a piece that has a site.
   const PieceSamples& samples(std::size_t piece) const noexcept { return sites_[piece]->hold.samples(); }
   /// Of the ligament; of a piece without a site, that of the piece it was part of.
-  double tornShare(std::size_t piece) const noexcept;
+  double tornShare(const Bodies& bodies, std::size_t piece) const noexcept;
   /// Since the start, less what was undone.
   double tornTotal_Nmm() const { return torn_total_Nmm_; }
 
@@ -83,6 +83,9 @@ class PieceSites {
   void putBackTornTotal(double torn_Nmm) noexcept { torn_total_Nmm_ = torn_Nmm; }
 
  private:
+  /// What was put back, as long as the site in force is that of other bytes; else null.
+  const PieceMemory* waitingFor(const Bodies& bodies, std::size_t piece) const noexcept;
+
   std::array<PieceSite*, kMaxPieces> sites_{};
   /// Of the bodies (digestWithoutPose()) and of the piece when its site was taken over: it holds for these.
   std::array<std::uint64_t, kMaxPieces> made_of_{}, piece_digest_{};

@@ -49,7 +49,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     undo_.ignore(serials);
   else if (!split_.isRunning())
     restored_mm3 = undo_.restore(bodies_, sites_, serials, command.tool, at_proxy_X_PT_);
-  if (undo_.hasMovedPieces()) forceps_.lookAgain(sites_);
+  if (undo_.hasMovedPieces()) forceps_.lookAgain(bodies_, sites_);
   const bool embedded = undo_.isToolEmbedded(), was_undone = embedded || undo_.hasChanged();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
@@ -148,7 +148,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   if (split_.step(bodies_, !proxy.touches() && !held.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating(),
                   undo_.strokes()))
     undo_.keepStrokes();
-  if (const auto begun = split_.begun()) sites_.part(begun->from, begun->to);
+  if (const auto begun = split_.begun()) sites_.part(bodies_, begun->from, begun->to);
   tick.split = split_.answer();
   tick.site = sites_.answer();
   tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());

@@ -56,7 +56,6 @@ double StrokeUndo::restore(Bodies& bodies, PieceSites& sites, const Serials& ser
   last_ = serials;
   const std::size_t there_are = strokes_.strokes() + strokes_.undoneStrokes();
   target_ = std::min(there_are, target_ + redos - std::min<std::uint64_t>(target_ + redos, undos));
-  moved_pieces_ = false;
   changed_ = isRunning();
   if (!changed_) return 0.0;
 
@@ -91,6 +90,7 @@ DrillInhibit StrokeUndo::inhibitFor(bool pedal) noexcept {
 void StrokeUndo::update(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
                         bool may_end, double dt_s) noexcept {
   if (extent_.endsAt(cutting, bur_P, removed_mm3, dt_s) && may_end) strokes_.endStroke();
+  changed_ = moved_pieces_ = false;
   // A running undo keeps its target; cutting moves it.
   if (cutting) target_ = strokes_.strokes();
 }

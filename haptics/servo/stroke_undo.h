@@ -50,10 +50,7 @@ class StrokeUndo {
   /// Restored since the start by undo, less what was redone, mm3.
   double restoredTotal_mm3() const { return restored_total_mm3_; }
   /// Requests that come while nothing can be undone.
-  void ignore(const Serials& serials) noexcept {
-    last_ = serials;
-    changed_ = moved_pieces_ = false;
-  }
+  void ignore(const Serials& serials) noexcept { last_ = serials; }
   /// restore() undid or redid something in this tick,
   bool hasChanged() const { return changed_; }
   /// pieces among it.

@@ -248,6 +248,33 @@ TEST(LuxationStrokes, ACutIntoTheToothThatIsUndoneLeavesItsLigamentAsTheGripDid)
   EXPECT_TRUE(isSame(at.state().X_PQ, at.bodies.pose(0)));
 }
 
+/// The site of the cut tooth is in force all the time: the desk orders none.
+TEST(LuxationStrokes, ACutThatIsRedoneFindsItsSiteReady) {
+  Operation at;
+  at.luxate(0.14);
+  const int strokes = at.tick.strokes;
+  at.cutTooth();
+  const int cuts = at.tick.strokes - strokes;
+  at.luxate(0.12);
+  const PieceState cut = at.state();
+  const std::uint64_t digest = at.bodies.digest();
+  at.undo(static_cast<std::uint64_t>(2 + cuts));
+  at.step(60);
+  ASSERT_EQ(at.tick.torn_total_Nmm, 0.0);
+  at.redo(static_cast<std::uint64_t>(1 + cuts));
+  at.step(60);
+  at.redoAndWait();
+  ASSERT_EQ(at.bodies.digest(), digest);
+  expectSame(at.state(), cut);
+  at.grip();
+  ASSERT_EQ(at.tick.gripped, 1);
+  at.go(at.hand.X_PT.translation_mm + glm::dvec3(0.0, 0.0, 3.0), 0.3);
+  at.release();
+  at.undoAndWait();
+  EXPECT_EQ(at.bodies.digest(), digest);
+  expectSame(at.state(), cut);
+}
+
 TEST(LuxationStrokes, AStateThatWaitsIsTheMeanForAPieceThatWasCutInstead) {
   Operation at;
   at.luxate(0.12);
@@ -423,12 +450,14 @@ TEST(LuxationStrokes, BeaksAroundAPieceThatIsPutBackOpenFirst) {
   }
   ASSERT_FALSE(at.bodies.isSetAside(0));
   at.release(2);
-  at.redo();
+  at.redoAndWait();
+  ASSERT_TRUE(at.bodies.isSetAside(0));
+  at.undo();
   at.hand.drill_pedal = true;
   at.step(3);
-  EXPECT_EQ(at.tick.gripped, 0) << "closed in the tick that takes it away";
+  ASSERT_FALSE(at.bodies.isSetAside(0));
+  EXPECT_EQ(at.tick.gripped, 0) << "closed in the tick that brings it";
   at.release(2);
-  at.undoAndWait();
   at.hand.drill_pedal = true;
   at.step();
   EXPECT_EQ(at.tick.gripped, 1);
