@@ -248,31 +248,47 @@ TEST(LuxationStrokes, ACutIntoTheToothThatIsUndoneLeavesItsLigamentAsTheGripDid)
   EXPECT_TRUE(isSame(at.state().X_PQ, at.bodies.pose(0)));
 }
 
-/// The site of the cut tooth is in force all the time: the desk orders none.
+/// The site of the cut tooth is in force all the time: the desk orders none. What waited for the whole tooth is of no
+/// more use, neither to undo the next grip nor when the tooth is cut once more.
 TEST(LuxationStrokes, ACutThatIsRedoneFindsItsSiteReady) {
-  Operation at;
-  at.luxate(0.14);
-  const int strokes = at.tick.strokes;
-  at.cutTooth();
-  const int cuts = at.tick.strokes - strokes;
-  at.luxate(0.12);
-  const PieceState cut = at.state();
-  const std::uint64_t digest = at.bodies.digest();
-  at.undo(static_cast<std::uint64_t>(2 + cuts));
-  at.step(60);
-  ASSERT_EQ(at.tick.torn_total_Nmm, 0.0);
-  at.redo(static_cast<std::uint64_t>(1 + cuts));
-  at.step(60);
-  at.redoAndWait();
-  ASSERT_EQ(at.bodies.digest(), digest);
-  expectSame(at.state(), cut);
-  at.grip();
-  ASSERT_EQ(at.tick.gripped, 1);
-  at.go(at.hand.X_PT.translation_mm + glm::dvec3(0.0, 0.0, 3.0), 0.3);
-  at.release();
-  at.undoAndWait();
-  EXPECT_EQ(at.bodies.digest(), digest);
-  expectSame(at.state(), cut);
+  for (const bool undone : {true, false}) {
+    Operation at;
+    at.luxate(0.14);
+    const int strokes = at.tick.strokes;
+    at.cutTooth();
+    const auto cuts = static_cast<std::uint64_t>(at.tick.strokes - strokes);
+    at.forceps();
+    at.makeReady();
+    const PieceState cut = at.state();
+    const std::uint64_t digest = at.bodies.digest();
+    at.undo(1 + cuts);
+    at.step(60);
+    ASSERT_EQ(at.tick.torn_total_Nmm, 0.0);
+    at.redo(1 + cuts);
+    at.step(60);
+    ASSERT_EQ(at.bodies.digest(), digest);
+    expectSame(at.state(), cut);
+    at.go({2.0, 0.0, 2.0}, 0.1);
+    at.hand.drill_pedal = true;
+    at.step();
+    ASSERT_EQ(at.tick.gripped, 1);
+    at.go({2.0, 0.0, 9.0}, 0.3);
+    at.go({2.0, 0.0, 2.0}, 0.3);
+    at.release();
+    const double torn_share = at.sites.back()->hold.tornShare();
+    ASSERT_GT(torn_share, 0.5);
+    if (undone) {
+      at.undoAndWait();
+      EXPECT_EQ(at.bodies.digest(), digest);
+      expectSame(at.state(), cut);
+    } else {
+      at.cutAt(0.3, 2.8);
+      at.forceps();
+      at.makeReady();
+      ASSERT_NE(at.state().ligament.torn.size(), 0u);
+      EXPECT_GE(at.sites.back()->hold.tornShare(), torn_share - 1e-6);
+    }
+  }
 }
 
 TEST(LuxationStrokes, AStateThatWaitsIsTheMeanForAPieceThatWasCutInstead) {
