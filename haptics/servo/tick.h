@@ -52,8 +52,8 @@ struct Tick {
   calibration::Vector<calibration::Patient> grip_force_P_N;     ///< on the piece, of the model
   calibration::Vector<calibration::Patient> grip_torque_P_Nmm;  ///< the same, about T's origin
   double torn_share = 0.0;                                      ///< of the ligament of the piece held, or last held
-  double torn_total_Nmm = 0.0;                                  ///< since the start, of all pieces, less what was undone
-  SafetyState state = SafetyState::off;                         ///< force in `active` alone
+  double torn_total_Nmm = 0.0;           ///< since the start, of all pieces, less what was undone
+  SafetyState state = SafetyState::off;  ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
 
