@@ -71,7 +71,7 @@ bool isFinite(const Six& six) noexcept {
   return std::all_of(six.begin(), six.end(), [](double part) { return std::isfinite(part); });
 }
 
-void copyInto(const std::vector<float>& from, std::vector<float>& to) noexcept {
+void copyInto(std::span<const float> from, std::vector<float>& to) noexcept {
   assert(from.size() == to.size());
   std::copy(from.begin(), from.end(), to.begin());
 }
@@ -231,11 +231,17 @@ HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles
 }
 
 void PieceHold::restore(const PieceState& state) noexcept {
-  state_.X_PQ = state.X_PQ;
-  copyInto(state.ligament.torn, state_.ligament.torn);
-  copyInto(state.ligament.fluid_N_per_mm2, state_.ligament.fluid_N_per_mm2);
-  copyInto(state.ligament.strain, state_.ligament.strain);
-  copyInto(state.ligament.widened_mm, state_.ligament.widened_mm);
+  const LigamentMemory& from = state.ligament;
+  restore(state.X_PQ, from.torn, from.fluid_N_per_mm2, from.strain, from.widened_mm);
+}
+
+void PieceHold::restore(const PiecePose& X_PQ, std::span<const float> torn, std::span<const float> fluid_N_per_mm2,
+                        std::span<const float> strain, std::span<const float> widened_mm) noexcept {
+  state_.X_PQ = X_PQ;
+  copyInto(torn, state_.ligament.torn);
+  copyInto(fluid_N_per_mm2, state_.ligament.fluid_N_per_mm2);
+  copyInto(strain, state_.ligament.strain);
+  copyInto(widened_mm, state_.ligament.widened_mm);
 }
 
 void PieceHold::takeOver(const PieceHold* before, const PiecePose& X_PQ, double torn_share) noexcept {

@@ -6,6 +6,8 @@
 // to 3.4.
 #pragma once
 
+#include <span>
+
 #include "haptics/body/distance_field.h"
 #include "haptics/ligament/hold_kernels.h"
 #include "haptics/ligament/piece_drive.h"
@@ -45,6 +47,9 @@ class PieceHold {
   const PieceState& state() const noexcept { return state_; }
   /// A state of this piece (assert). No allocation.
   void restore(const PieceState& state) noexcept;
+  /// The same from the values of a LigamentMemory, kept elsewhere.
+  void restore(const PiecePose& X_PQ, std::span<const float> torn, std::span<const float> fluid_N_per_mm2,
+               std::span<const float> strain, std::span<const float> widened_mm) noexcept;
   /// The same piece as another hold, in a socket that has changed since: its memory and pose; with other samples, as
   /// much torn everywhere. Null: a piece at this pose of which `torn_share` is torn everywhere. No allocation.
   void takeOver(const PieceHold* before, const PiecePose& X_PQ, double torn_share) noexcept;

@@ -80,8 +80,6 @@ const PieceMemory* LuxationStrokes::newestOf(const StrokeHistory& strokes, std::
   return nullptr;
 }
 
-std::size_t LuxationStrokes::bytes() const {
-  return kept_.size() * (sizeof(Kept) + 2 * 4 * kMostSamples * sizeof(float));
-}
+std::size_t LuxationStrokes::bytes() const { return kept_.size() * sizeof(Kept); }
 
 }  // namespace haptics

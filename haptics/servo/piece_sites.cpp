@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 namespace haptics {
 namespace {
 
-bool fits(const PieceState& state, const PieceHold& hold) {
-  return state.ligament.torn.size() == hold.state().ligament.torn.size();
+bool fits(const PieceMemory& memory, const PieceHold& hold) { return memory.samples == hold.samples().ligament; }
+
+void restore(PieceHold& hold, const PieceMemory& memory) noexcept {
+  const auto part = [&](std::size_t n) { return std::span(memory.ligament[n]).first(memory.samples); };
+  hold.restore(memory.hold_X_PQ, part(0), part(1), part(2), part(3));
 }
 
 }  // namespace
-
-PieceMemory::PieceMemory() {
-  for (std::vector<float>* values :
-       {&state.ligament.torn, &state.ligament.fluid_N_per_mm2, &state.ligament.strain, &state.ligament.widened_mm})
-    values->assign(kMostSamples, 0.0F);  // so that its pages are there
-}
 
 void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held, const PieceMemory* left) noexcept {
   if (!isNew(order)) return;
@@ -32,8 +30,8 @@ void PieceSites::receive(const Bodies& bodies, const SiteOrder& order, bool held
   const PieceSite* const before = waiting != nullptr ? nullptr : sites_[piece];
   const bool is_other = before == nullptr || piece_digest_[piece] != piece_digest;
   const PieceMemory* const memory = waiting != nullptr ? waiting : is_other ? left : nullptr;
-  if (memory != nullptr && memory->piece_digest == piece_digest && fits(memory->state, hold)) {
-    hold.restore(memory->state);
+  if (memory != nullptr && memory->piece_digest == piece_digest && fits(*memory, hold)) {
+    restore(hold, *memory);
     hold.takeOver(nullptr, bodies.pose(piece), 0.0);
   } else {
     hold.takeOver(before == nullptr ? nullptr : &before->hold, bodies.pose(piece), tornShare(bodies, piece));
@@ -91,28 +89,33 @@ bool PieceSites::settle(Bodies& bodies, double dt_s) noexcept {
 }
 
 void PieceSites::remember(const Bodies& bodies, std::size_t piece, PieceMemory& memory) const noexcept {
-  memory.torn_share = tornShare(bodies, piece);
-  memory.X_PQ = bodies.pose(piece);
   if (const PieceMemory* const waiting = waitingFor(bodies, piece)) {
-    memory.state = waiting->state;
-    memory.piece_digest = waiting->piece_digest;
+    memory = *waiting;
   } else {
     assert(sites_[piece] != nullptr);
-    memory.state = sites_[piece]->hold.state();
+    const PieceState& state = sites_[piece]->hold.state();
+    const LigamentMemory& ligament = state.ligament;
+    memory.hold_X_PQ = state.X_PQ;
+    memory.samples = ligament.torn.size();
     memory.piece_digest = piece_digest_[piece];
+    memory.torn_share = tornShare(bodies, piece);
+    std::ranges::copy(ligament.torn, memory.ligament[0].begin());
+    std::ranges::copy(ligament.fluid_N_per_mm2, memory.ligament[1].begin());
+    std::ranges::copy(ligament.strain, memory.ligament[2].begin());
+    std::ranges::copy(ligament.widened_mm, memory.ligament[3].begin());
   }
+  memory.X_PQ = bodies.pose(piece);
 }
 
 void PieceSites::putBack(Bodies& bodies, std::size_t piece, const PieceMemory& memory) noexcept {
   bodies.putBack(piece, memory.X_PQ);
   settling_s_[piece] = 0.0;
   PieceSite* const site = sites_[piece];
-  is_waiting_[piece] =
-      site == nullptr || piece_digest_[piece] != memory.piece_digest || !fits(memory.state, site->hold);
+  is_waiting_[piece] = site == nullptr || piece_digest_[piece] != memory.piece_digest || !fits(memory, site->hold);
   if (is_waiting_[piece])
     waiting_[piece] = memory;
   else
-    site->hold.restore(memory.state);
+    restore(site->hold, memory);
 }
 
 }  // namespace haptics

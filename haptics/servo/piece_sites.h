@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "haptics/body/bodies.h"
 #include "haptics/ligament/piece_site.h"
@@ -27,17 +28,15 @@ enum class SiteAnswer : std::uint8_t {
   refused = 2,  ///< the bodies have changed since, or a piece is held
 };
 
-/// Where a piece lies and what its ligament remembers, by value. Allocates when made, for as many samples as there may
-/// be; to assign what a hold remembers does not.
+/// Where a piece lies and what its ligament remembers, by value.
 struct PieceMemory {
-  PieceMemory();
-  PieceMemory(PieceMemory&&) = default;
-  PieceMemory& operator=(const PieceMemory&) = default;
-
   PiecePose X_PQ;                  ///< in the bodies
-  PieceState state;                ///< of the hold; its pose may differ in the last bit
+  PiecePose hold_X_PQ;             ///< of the hold; may differ in the last bit
+  std::size_t samples = 0;         ///< with ligament
   std::uint64_t piece_digest = 0;  ///< CarvedBone::digest() of the piece: other bytes have other samples
   double torn_share = 0.0;
+  /// Of LigamentMemory: torn, fluid, strain, widened.
+  std::array<std::array<float, kMostSamples>, 4> ligament{};
 };
 
 class PieceSites {
@@ -91,7 +90,7 @@ class PieceSites {
   std::array<std::uint64_t, kMaxPieces> made_of_{}, piece_digest_{};
   std::array<double, kMaxPieces> torn_share_{};  ///< of a piece without a site yet
   std::array<double, kMaxPieces> settling_s_{};  ///< left for a piece that was let go of
-  std::array<PieceMemory, kMaxPieces> waiting_;
+  std::vector<PieceMemory> waiting_{kMaxPieces};
   std::array<bool, kMaxPieces> is_waiting_{};
   double torn_total_Nmm_ = 0.0;
   SiteOrder order_;
