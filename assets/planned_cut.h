@@ -19,6 +19,7 @@ struct PlannedCut {
   glm::dvec3 sight_P{0.0};                            ///< to the eye that sees the whole cut, unit; zero: any
   glm::dvec3 shaft_P{0.0};                            ///< from the bur to a handpiece that lies clear, unit; zero: any
   double bur_radius_mm = 1.5;
+  double over_mm = 2.0;  ///< above the highest stroke: where the bur goes from one stroke to the next
 };
 
 /// Middle of the box around all strokes.

@@ -6,6 +6,7 @@
 
 #include "app/case/gutter_strokes.h"
 #include "app/case/height_map.h"
+#include "app/case/operated_crown.h"
 #include "app/case/trough_plan.h"
 #include "assets/synthetic/face.h"
 #include "assets/tooth.h"
@@ -17,73 +18,15 @@ using assets::CtVolume;
 using assets::Tissue;
 
 constexpr double kOffTooth_mm = 0.2, kOffNeighbour_mm = 0.8, kOffCanal_mm = 1.5;
-constexpr double kBelowCervix_mm = 0.5;    ///< of the bur's lowest point
-constexpr double kBehindAxis_mm = 1.0;     ///< of the bur's centre, on the crown's far side
-constexpr double kLingual_mm = 1.5;        ///< of the bur's centre from the crown's middle
-constexpr double kWithoutEnamel_mm = 7.5;  ///< height of a crown whose enamel is not labelled
-constexpr double kCervixShare = 0.05;      ///< of the enamel that lies below the cervical line
-constexpr double kBoneReach_mm = 22.0;     ///< of the bone that is looked at
+constexpr double kBelowCervix_mm = 0.5;  ///< of the bur's lowest point
+constexpr double kBehindAxis_mm = 1.0;   ///< of the bur's centre, on the crown's far side
+constexpr double kLingual_mm = 1.5;      ///< of the bur's centre from the crown's middle
+constexpr double kBoneReach_mm = 22.0;   ///< of the bone that is looked at
 constexpr double kLeastDepth_mm = 0.15, kMostDepth_mm = 10.0, kRamusDepth_mm = 13.0;
 constexpr double kSightStep_mm = 0.5, kSightLength_mm = 26.0;
-constexpr double kForwardUpright = 0.3, kForwardPerLean = 0.9, kMostForward = 0.75;  ///< of the way in
 constexpr std::size_t kLeastColumns = 40;
 
-/// The crown of the operated tooth.
-struct Crown {
-  std::vector<glm::dvec3> voxels_P_mm;
-  glm::dvec3 middle_P_mm{0.0};
-  double cervix_mm = 0.0;  ///< along the tooth's axis, from the origin of P
-};
-
-bool isOperated(const CtVolume& ct, std::size_t v, int fdi) {
-  return ct.tooth.empty() ? assets::isToothPart(ct.label[v]) : ct.tooth[v] == fdi;
-}
-
-std::optional<Crown> crownOf(const CtVolume& ct, const assets::OperativeSite& site) {
-  const glm::dvec3 axis = glm::normalize(site.axis_P);
-  std::vector<double> enamel_mm;
-  std::vector<std::pair<glm::dvec3, double>> tooth;
-  double top_mm = kNoHeight_mm;
-  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (!isOperated(ct, v, site.fdi)) return;
-    const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
-    const double along_mm = glm::dot(p, axis);
-    tooth.emplace_back(p, along_mm);
-    top_mm = std::max(top_mm, along_mm);
-    if (Tissue{ct.label[v]} == Tissue::enamel) enamel_mm.push_back(along_mm);
-  });
-  if (tooth.empty()) return std::nullopt;
-  Crown crown;
-  crown.cervix_mm = top_mm - kWithoutEnamel_mm;
-  // A tooth that is enamel alone in its labels has no cervical line.
-  if (!enamel_mm.empty() && enamel_mm.size() < tooth.size()) {
-    const auto cervix = enamel_mm.begin() + static_cast<std::ptrdiff_t>(kCervixShare * double(enamel_mm.size()));
-    std::ranges::nth_element(enamel_mm, cervix);
-    crown.cervix_mm = *cervix;
-  }
-  for (const auto& [p, along_mm] : tooth)
-    if (along_mm >= crown.cervix_mm) crown.voxels_P_mm.push_back(p), crown.middle_P_mm += p;
-  crown.middle_P_mm /= static_cast<double>(crown.voxels_P_mm.size());
-  return crown;
-}
-
-/// Up, to the cheek and to the front: between the surgeon's line of sight and the tooth. The farther the crown leans,
-/// the more to the front: a more upright shaft would stand in bone, behind a mesio-angular crown or before a
-/// disto-angular one. Beside an upright crown a way from far in front would not reach the distal side.
-WayIn wayIn(const CtVolume& ct, const assets::OperativeSite& site, const glm::dvec3& middle_P_mm) {
-  const glm::dvec3 distal = archDirection_P(ct, site), up = assets::occlusalDirection_P(site.fdi);
-  glm::dvec3 buccal = glm::cross(up, distal);
-  if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
-  const double lean = std::abs(glm::dot(glm::normalize(site.axis_P), distal));
-  const double forward = std::min(kForwardUpright + kForwardPerLean * lean, kMostForward);
-  const glm::dvec3 outward = glm::normalize(up + 0.45 * buccal - forward * distal);
-  const glm::dvec3 along = glm::normalize(distal - glm::dot(distal, outward) * outward);
-  glm::dvec3 across = glm::cross(outward, along);
-  if (glm::dot(across, buccal) < 0.0) across = -across;
-  return {middle_P_mm, along, across, outward};
-}
-
-Heights heightsOf(const assets::Patient& patient, const WayIn& way, const Crown& crown, double bur_radius_mm) {
+Heights heightsOf(const assets::Patient& patient, const WayIn& way, const OperatedCrown& crown, double bur_radius_mm) {
   const CtVolume& ct = patient.ct;
   const int fdi = patient.site->fdi;
   const double rest_mm = bur_radius_mm + kOffTooth_mm,
@@ -97,7 +40,7 @@ Heights heightsOf(const assets::Patient& patient, const WayIn& way, const Crown&
   const glm::ivec3 high(glm::ceil(ct.grid.indexFromPoint(way.middle_P_mm + kBoneReach_mm)));
   assets::forVoxels(glm::max(low, glm::ivec3(1)), glm::min(high, ct.grid.size - 1), [&](glm::ivec3 ijk) {
     const std::size_t v = ct.grid.index(ijk);
-    const bool operated = isOperated(ct, v, fdi), other = isOtherTooth(ct, v, fdi), bone = is_bone(v);
+    const bool operated = isOfTooth(ct, v, fdi), other = isOtherTooth(ct, v, fdi), bone = is_bone(v);
     if (!operated && !other && !bone) return;
     const glm::dvec3 q = way.local(ct.grid.centre_P_mm(ijk));
     if (operated) h.tooth.rest(q, rest_mm);
@@ -190,7 +133,7 @@ std::vector<char> largestPart(const std::vector<char>& wanted) {
 
 std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, double bur_radius_mm) {
   if (!patient.site) return std::nullopt;
-  const auto crown = crownOf(patient.ct, *patient.site);
+  const auto crown = operatedCrown(patient.ct, *patient.site);
   if (!crown) return std::nullopt;
   const int fdi = patient.site->fdi;
   const WayIn way = wayIn(patient.ct, *patient.site, crown->middle_P_mm);

@@ -8,11 +8,9 @@
 namespace app {
 namespace {
 
-constexpr int kRow = 4;            ///< columns from one row of strokes to the next
-constexpr double kLevel_mm = 0.5;  ///< depth of one pass
+constexpr int kRow = 4;  ///< columns from one row of strokes to the next
 constexpr double kLeastStroke_mm = 0.25;
 constexpr double kStraight_mm = 0.05;  ///< corners that a stroke leaves out
-constexpr int kFinishingPasses = 2;
 
 /// Leaves out the corners that lie on the line between their neighbours.
 std::vector<glm::dvec3> straightened(const std::vector<glm::dvec3>& stroke) {
@@ -33,8 +31,8 @@ std::vector<glm::dvec3> straightened(const std::vector<glm::dvec3>& stroke) {
 /// Level by level from the top, row by row along the crown, to and fro.
 class Strokes {
  public:
-  Strokes(const WayIn& way, const Heights& heights, const std::vector<char>& planned)
-      : way_(way), h_(heights), planned_(planned) {}
+  Strokes(const WayIn& way, const Heights& heights, const std::vector<char>& planned, const StrokePlan& plan)
+      : way_(way), h_(heights), planned_(planned), plan_(plan) {}
 
   std::vector<std::vector<glm::dvec3>> make() {
     double top_mm = kNoHeight_mm, bottom_mm = -kNoHeight_mm;
@@ -47,12 +45,12 @@ class Strokes {
     double level_mm = top_mm;
     while (level_mm > bottom_mm) {
       const double above_mm = level_mm;
-      level_mm = std::max(level_mm - kLevel_mm, bottom_mm);
+      level_mm = std::max(level_mm - plan_.level_mm, bottom_mm);
       for (int j = HeightMap::kSide - 1; j >= 0; --j)
         if (j % kRow == 0) row(j, level_mm, above_mm);
     }
     // Along the bottom, between the rows too, while the bone gives way.
-    for (int pass = 0; pass < kFinishingPasses; ++pass)
+    for (int pass = 0; pass < plan_.finishing_passes; ++pass)
       for (int j = HeightMap::kSide - 1; j >= 0; --j)
         if (pass > 0 || j % (kRow / 2) == 0) row(j, bottom_mm, -kNoHeight_mm);
     return std::move(strokes_);
@@ -97,14 +95,15 @@ class Strokes {
   const WayIn& way_;
   const Heights& h_;
   const std::vector<char>& planned_;
+  StrokePlan plan_;
   std::vector<std::vector<glm::dvec3>> strokes_;
 };
 
 }  // namespace
 
 std::vector<std::vector<glm::dvec3>> gutterStrokes(const WayIn& way, const Heights& heights,
-                                                   const std::vector<char>& planned) {
-  return Strokes(way, heights, planned).make();
+                                                   const std::vector<char>& planned, const StrokePlan& plan) {
+  return Strokes(way, heights, planned, plan).make();
 }
 
 }  // namespace app

@@ -10,9 +10,14 @@
 
 namespace app {
 
+struct StrokePlan {
+  double level_mm = 0.5;     ///< depth of one pass
+  int finishing_passes = 2;  ///< along the bottom
+};
+
 /// `planned`: 1 for the columns to be cut, in the order of the map. Strokes of the bur's centre in the order of the
 /// work.
 std::vector<std::vector<glm::dvec3>> gutterStrokes(const WayIn& way, const Heights& heights,
-                                                   const std::vector<char>& planned);
+                                                   const std::vector<char>& planned, const StrokePlan& plan = {});
 
 }  // namespace app

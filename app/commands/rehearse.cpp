@@ -72,7 +72,9 @@ std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& o
     plan.remarks.push_back(device.model + ": it measures no orientation, the bur keeps a fixed one, without handpiece");
   // A hand that cannot turn a handpiece out of the way holds the bur alone.
   plan.command.tool.handpiece = turns;
-  for (haptics::Tool& tool : plan.other_tools) tool.handpiece = turns;
+  // Nor does one that works as with an angled handpiece, which is neither drawn nor met.
+  const bool is_angled = !options.procedure.empty();
+  for (haptics::Tool& tool : plan.other_tools) tool.handpiece = turns && !is_angled;
   std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen);
   plan.full_screen = chosen.has_value();
@@ -244,6 +246,14 @@ int run(RehearseOptions& options) {
   RehearsalPlan& plan = options.plan;
   plan.device = withSessionNamed(plan.device);
   plan.second_hand.device = withSessionNamed(plan.second_hand.device);
+  if (!options.procedure.empty()) {
+    if (plan.device != "scripted")
+      throw UsageError("--procedure " + options.procedure + ": the scripted hand shows it, add --device scripted");
+    plan.device += ":" + options.procedure;
+    // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
+    static const RehearseOptions kAsked;
+    if (options.tools == kAsked.tools) options.tools = {options.tools.front(), "capsule:1.05,8", "forceps"};
+  }
   std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
   plan.command.tool = tool_of(options.tools.front());
@@ -310,6 +320,8 @@ int run(RehearseOptions& options) {
     printMessage("left before the patient was ready");
     return 0;
   }
+  // In the whole operation an assistant holds cheek and flap aside.
+  if (!options.procedure.empty()) plan.soft_tissue = {};
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   // Whoever named no tools finds forceps beside the bur.
   const auto grips = [](const haptics::Tool& tool) { return tool.grips; };

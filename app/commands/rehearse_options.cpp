@@ -67,6 +67,10 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .showsDefault()
       .needs(second);
   command.option("--falcon-firmware", options.falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
+  command
+      .option("--procedure", options.procedure,
+              "With --device scripted: the whole operation, shown from the gutter to the last piece of the tooth")
+      .oneOf({"third-molar"});
   command.optionGroup("Workplace and picture");
   Option rig = options.rig.addTo(command, true);
   command.option("--loupes", options.loupes, "Magnification on a desk (without --rig)")

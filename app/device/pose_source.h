@@ -12,6 +12,7 @@
 #include "calibration/rig.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/opened_device.h"
+#include "haptics/device/simulated/led_hand.h"
 #include "haptics/device/simulated/mouse_device.h"
 #include "haptics/loop/served_device.h"
 
@@ -32,6 +33,7 @@ struct PoseSource {
   std::unique_ptr<haptics::HapticDevice> device;
   std::string name;                       ///< for people, also in a recording
   haptics::MouseDevice* mouse = nullptr;  ///< set where the window moves it
+  haptics::LedHand* led = nullptr;        ///< set where a procedure leads it, frame D is P
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;
   std::optional<calibration::MeasuredArm> arm;  ///< corrects the sensors; none: the driver's pose stands

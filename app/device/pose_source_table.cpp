@@ -12,6 +12,7 @@ namespace app {
 namespace {
 
 bool isNothing(const std::string& rest) { return rest.empty(); }
+bool isScript(const std::string& rest) { return rest.empty() || rest == kThirdMolarScript; }
 bool isSomething(const std::string& rest) { return !rest.empty(); }
 bool isModel(const std::string& rest) { return rest.empty() || haptics::findSimulatedPhantom(rest) != nullptr; }
 bool isPractice(const std::string& rest) {
@@ -20,7 +21,7 @@ bool isPractice(const std::string& rest) {
 
 constexpr std::array<PoseSourceKind, 6> kSources = {{
     {"mouse", "", false, false, false, isNothing, openMouse},
-    {"scripted", "", true, false, true, isNothing, openScript},
+    {"scripted", "", true, false, true, isScript, openScript},
     {"simulated", "[:omni|touch|desktop|premium], the script with a simulated Phantom", true, false, true, isModel,
      openSimulated},
     {"practice", ":SCENARIO[:SEED], the same with an Omni that has the errors of a real one, A to G", true, false, true,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/device/pose_source.h"
 #include "haptics/device/simulated/trough_path.h"
@@ -17,7 +18,9 @@ struct PoseSourceContext {
 };
 
 PoseSource openMouse(const std::string& rest, const PoseSourceContext& at);
+/// The planned cut; with kThirdMolarScript a hand that a procedure leads, in front of it.
 PoseSource openScript(const std::string& rest, const PoseSourceContext& at);
+inline constexpr std::string_view kThirdMolarScript = "third-molar";
 PoseSource openSimulated(const std::string& model, const PoseSourceContext& at);
 /// The scripted hand works at the true site; the tool is drawn where the rig's calibration has it.
 PoseSource openPractice(const std::string& unit, const PoseSourceContext& at);

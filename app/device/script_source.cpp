@@ -23,8 +23,16 @@ haptics::CuttingMotion cuttingMotion(const assets::PlannedCut& cut, const calibr
               glm::normalize(glm::normalize(cut.outward_P) + glm::conjugate(rig.X_WP.rotation) * shaftDirection_W())};
 }
 
-PoseSource openScript(const std::string&, const PoseSourceContext& at) {
+PoseSource openScript(const std::string& rest, const PoseSourceContext& at) {
   PoseSource hand;
+  if (rest == kThirdMolarScript) {
+    const haptics::TroughPath gutter(cutFor(at), cuttingMotion(cutFor(at), at.rig));
+    auto led = std::make_unique<haptics::LedHand>(gutter.at(0.0));
+    hand.led = led.get();
+    hand.device = std::move(led);
+    hand.name = "scripted hand, third molar";
+    return hand;
+  }
   auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), cuttingMotion(cutFor(at), at.rig));
   hand.duration_s = scripted->duration_s();
   hand.device = std::move(scripted);

@@ -137,6 +137,7 @@ void nameWhatIsInTheWay(const AroundTooth& around, const Scene& scene, const Way
   std::map<std::string, InTheWay> found;
   for (const std::size_t v : piece.way.in_the_way) {
     const glm::dvec3 p_mm = scene.grid.centre_P_mm(assets::elementAt(scene.grid.size, v));
+    piece.blockers_P_mm.push_back(p_mm);
     const std::string key = keyOf(around, scene, v);
     std::string words = nounOf(key);
     const bool has_side = key.find('_') == std::string::npos && up.arch;
@@ -175,7 +176,7 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
     for (std::size_t n = 0; n < pieces; ++n)
       if (n != piece && std::ranges::find(out, n) == out.end()) others.push_back(n);
     const Scene scene = scenes.of(piece, others, up.direction_P);
-    PieceWay answer{piece, out, {}, {}, {}};
+    PieceWay answer{piece, out, {}, {}, {}, {}};
     answer.way = haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece}, {up.direction_P, kExit_mm});
     nameWhatIsInTheWay(around, scene, up, tooth.pieces()[piece].centroid_mm, answer);
     return answer;

@@ -41,6 +41,7 @@ struct PieceWay {
   std::vector<std::size_t> after;  ///< pieces that come out before it
   haptics::WayOut way;
   std::vector<InTheWay> in_the_way;                       ///< the most first
+  std::vector<glm::dvec3> blockers_P_mm;                  ///< middles of the voxels in the way
   std::map<std::string, double> in_the_way_mm3_by_label;  ///< by key of the tissue, "tooth_47" or "piece_1"
 };
 

@@ -30,6 +30,8 @@ class Equipment {
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
   /// Null unless the mouse is the pose source.
   haptics::MouseDevice* mouse() { return source_.mouse; }
+  /// Null unless a procedure leads the hand.
+  haptics::LedHand* led() { return source_.led; }
   SecondHand* secondHand() { return second_hand_ ? &*second_hand_ : nullptr; }
 
   /// Opens the recording. Throws SessionError or haptics::DeviceError.

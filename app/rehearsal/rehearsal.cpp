@@ -10,6 +10,7 @@
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
 #include "app/procedure/site_desk.h"
+#include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
@@ -72,6 +73,9 @@ class Rehearsal {
     view_.attach(station().bodies());
     tooth_.emplace(station().bodies(), wholeTooth(plan_));
     sites_.emplace(station().bodies());
+    if (equipment_.led() != nullptr)
+      demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
+                             *equipment_.led());
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
@@ -95,12 +99,13 @@ class Rehearsal {
                            static_cast<double>(std::max<std::uint64_t>(1, figures.frames - frames_before));
         std::fputs((plan_.summary ? summaryText(figures) : recordingText(figures)).c_str(),
                    plan_.procedure ? stderr : stdout);
-        return exitStatus(figures);
+        return std::max(exitStatus(figures), demonstrationStatus());
       }
       updateCommand();
       pace_.toNextFrame();
       readServo();
       followTooth();
+      followDemonstration();
       draw();
       status_reporter_->update(pace_.now(), state());
       router_.handleInstructorInput(status_reporter_->updateInstructor(state()), frame_);
@@ -157,8 +162,18 @@ class Rehearsal {
   }
 
   std::optional<Ending> endingNow() {
-    return monitor_.ending(newest_, pace_.now(), interrupted != 0, plan_.procedure && plan_.procedure->isOver(),
-                           !station().isApplied(newest_));
+    return monitor_.ending(newest_, pace_.now(), interrupted != 0, isProcedureOver(), !station().isApplied(newest_));
+  }
+
+  bool isProcedureOver() const {
+    return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver());
+  }
+
+  /// 1: the tooth could not be taken out.
+  int demonstrationStatus() const {
+    if (!demonstration_ || demonstration_->failure().empty()) return 0;
+    printMessage("the operation was not finished: " + demonstration_->failure());
+    return 1;
   }
 
   void updateCommand() {
@@ -228,6 +243,17 @@ class Rehearsal {
       active_command_.makeReady(*order);
   }
 
+  void followDemonstration() {
+    if (!demonstration_) return;
+    const Demonstration::Frame frame{newest_, station().isApplied(newest_), sites_->isReady(), !pace_.isRealTime()};
+    if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
+    while (const auto line = demonstration_->news()) {
+      head_up_.say(*line);
+      event_log_.note("procedure", *line);
+      if (plan_.verbose || plan_.headless) printMessage(fmt::format("at {:.1f} s {}", newest_.t_s, *line));
+    }
+  }
+
   /// Some tenths of a second: once, at the end.
   std::optional<double> exposedShare() {
     const assets::Patient& patient = plan_.patient;
@@ -295,6 +321,7 @@ class Rehearsal {
   std::optional<ToothFollower> tooth_;
   std::optional<SiteDesk> sites_;
   GripLog grips_;
+  std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;
 };

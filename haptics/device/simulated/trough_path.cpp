@@ -13,7 +13,6 @@ constexpr double kTravel_mm_per_s = 40.0;
 constexpr double kApproach_mm_per_s = 13.0;
 constexpr double kPedalBefore = 0.1;  // of the approach
 constexpr double kMeets_mm = 1.6;     // ends of strokes that are joined in the bone
-constexpr double kOver_mm = 2.0;      // above the bone between others
 constexpr double kTilt_rad = 0.35;    // of the shaft towards the cheek, so that the handpiece clears the teeth
 constexpr double kLeastSteep = 0.6;   // cosine between shaft and the way out of the bone
 constexpr double kLeast_s = 0.02;
@@ -41,7 +40,7 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
     throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");
   if (!std::isfinite(glm::length(motion.shaft_P)))
     throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
-  if (!positive(cut.bur_radius_mm) || !positive(motion.speed_mm_per_s) || !positive(motion.clearance_mm))
+  if (!positive(cut.bur_radius_mm) || !positive(cut.over_mm) || !positive(motion.speed_mm_per_s) || !positive(motion.clearance_mm))
     throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
 
   const glm::dvec3 outward = glm::normalize(outward_D), along = across / area;
@@ -59,7 +58,7 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   // Over everything that is cut.
   double over_mm = -1e9;
   for (const auto& stroke : strokes_mm)
-    for (const glm::dvec3& p : stroke) over_mm = std::max(over_mm, glm::dot(p, outward) + kOver_mm);
+    for (const glm::dvec3& p : stroke) over_mm = std::max(over_mm, glm::dot(p, outward) + cut.over_mm);
 
   // From stroke to stroke half that way: along the shaft the bur would pass over the neighbour's crown.
   const glm::dvec3 half_way = glm::normalize(outward + away);

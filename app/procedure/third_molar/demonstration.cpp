@@ -1,0 +1,155 @@
+#include "app/procedure/third_molar/demonstration.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/text/usage_error.h"
+#include "haptics/device/simulated/trough_path.h"
+
+namespace app {
+namespace {
+
+constexpr double kLeastBur_mm = 0.7, kMostBur_mm = 1.3;          ///< radius, of the one that parts the tooth
+constexpr double kSettles_s = 0.6;                               ///< after a step, before it is looked at
+constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
+constexpr double kGutter_mm_per_s = 16.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
+constexpr double kAllTorn = 0.999;                               ///< of the ligament
+constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
+
+HandPose handOf(const haptics::Tick& tick) { return tick.hand.X_PT; }
+
+/// A plan is of the ball at the bur's end; the hand leads the middle of its head.
+haptics::LedPath cutPath(assets::PlannedCut cut, const haptics::Tool& bur, double speed_mm_per_s) {
+  const glm::dvec3 to_middle_mm = (haptics::halfHeight_mm(bur.head) - bur.head.radius_mm) * cut.shaft_P;
+  for (auto& stroke : cut.strokes_P_mm)
+    for (glm::dvec3& p : stroke) p += to_middle_mm;
+  const haptics::TroughPath path(cut, {.shaft_P = cut.shaft_P, .speed_mm_per_s = speed_mm_per_s});
+  return {[path](double t_s) { return path.at(t_s); }, path.duration_s()};
+}
+
+HandPose startOf(const haptics::LedPath& path) {
+  const haptics::HandTarget start = path.script(0.0);
+  return {start.rotation, start.position_mm};
+}
+
+}  // namespace
+
+OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
+  OperationTray found;
+  const auto bur = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
+    return !tool.grips && tool.head.kind == haptics::ShapeKind::capsule && tool.head.radius_mm >= kLeastBur_mm &&
+           tool.head.radius_mm <= kMostBur_mm;
+  });
+  const auto forceps = std::ranges::find_if(tray, [](const haptics::Tool& tool) { return tool.grips; });
+  if (bur == tray.end() || forceps == tray.end())
+    throw UsageError(
+        "--procedure third-molar: its tray needs a long bur with a round end, 1.4 to 2.6 mm thick, and forceps, add "
+        "--tool "
+        "capsule:1.05,8 --tool forceps");
+  found.bur = static_cast<std::size_t>(bur - tray.begin());
+  found.forceps = static_cast<std::size_t>(forceps - tray.begin());
+  return found;
+}
+
+Demonstration::Demonstration(const assets::Patient& patient, const assets::PlannedCut& gutter,
+                             const std::vector<haptics::Tool>& tray, const haptics::Bodies& bodies,
+                             haptics::LedHand& hand)
+    : bodies_(bodies),
+      hand_(hand),
+      tray_(operationTray(tray)),
+      planner_(patient, tray[tray_.bur].head.radius_mm),
+      bur_(tray[tray_.bur]),
+      outside_P_mm_(gutter.surface_P_mm + kOutside_mm * glm::normalize(gutter.sight_P)),
+      forceps_held_P_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
+  news_.push_back("bare the crown");
+  lead(cutPath(gutter, tray[0], kGutter_mm_per_s));
+}
+
+void Demonstration::lead(haptics::LedPath path) { hand_.lead(&paths_.emplace_back(std::move(path))); }
+
+void Demonstration::enter(Phase phase, const Frame& frame) {
+  phase_ = phase;
+  since_s_ = frame.newest.t_s;
+}
+
+std::optional<ControlRequest> Demonstration::startStep(const Frame& frame) {
+  news_.push_back(step_.words);
+  if (const EndStep* const end = std::get_if<EndStep>(&step_.what)) {
+    failure_ = end->why;
+    enter(Phase::over, frame);
+    return {};
+  }
+  const std::size_t tool = std::holds_alternative<CutStep>(step_.what) ? tray_.bur : tray_.forceps;
+  enter(Phase::changing_tool, frame);
+  if (std::exchange(in_hand_, tool) == tool) return {};
+  return ControlRequest{Control::tool, static_cast<int>(tool)};
+}
+
+/// Once the tool is in the hand, and the pieces are ready for it.
+void Demonstration::work(const Frame& frame) {
+  const HandPose hand = handOf(frame.newest);
+  if (const CutStep* const step = std::get_if<CutStep>(&step_.what)) {
+    const haptics::LedPath path = cutPath(step->cut, bur_, kCut_mm_per_s);
+    lead(joined(throughOutside(hand, startOf(path), outside_P_mm_), path));
+    enter(Phase::cutting, frame);
+    return;
+  }
+  if (!frame.is_ready_to_grip) {
+    if (frame.newest.t_s - since_s_ < kLongestWait_s) return;
+    failure_ = "the pieces were not made ready for forceps";
+    enter(Phase::over, frame);
+    return;
+  }
+  lead(gripAndRock(hand, outside_P_mm_, std::get<DeliveryStep>(step_.what), forceps_held_P_));
+  enter(Phase::gripping, frame);
+}
+
+std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
+  const haptics::Tick& tick = frame.newest;
+  switch (phase_) {
+    case Phase::cutting:
+    case Phase::taking_out:
+      if (hand_.hasArrived()) enter(Phase::settling, frame);
+      return {};
+    case Phase::settling: {
+      const bool parts = tick.split == haptics::SplitAnswer::waiting || tick.split == haptics::SplitAnswer::running;
+      if (parts || !frame.is_applied || tick.t_s - since_s_ < kSettles_s) return {};
+      planning_ = std::async(
+          frame.waits ? std::launch::deferred : std::launch::async,
+          [this, copy = copyOf(bodies_), grid = bodies_.bones()[1].grid(),
+           first = bodies_.firstBrick() * assets::kBrickVoxels] { return planner_.next(copy, grid, first); });
+      enter(Phase::planning, frame);
+      return {};
+    }
+    case Phase::planning:
+      if (!frame.waits && planning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+      step_ = planning_.get();
+      return startStep(frame);
+    case Phase::changing_tool:
+      if (frame.is_applied) work(frame);
+      return {};
+    case Phase::gripping: {
+      const DeliveryStep& step = std::get<DeliveryStep>(step_.what);
+      const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= kAllTorn;
+      if (!is_loose && !hand_.hasArrived()) return {};
+      lead(takeOut(handOf(tick), tick.X_PQ[step.piece], step));
+      enter(Phase::taking_out, frame);
+      return {};
+    }
+    case Phase::over:
+      return {};
+  }
+  return {};
+}
+
+std::optional<std::string> Demonstration::news() {
+  if (news_.empty()) return {};
+  std::string line = std::move(news_.front());
+  news_.pop_front();
+  return line;
+}
+
+}  // namespace app

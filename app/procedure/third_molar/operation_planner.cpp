@@ -1,0 +1,162 @@
+#include "app/procedure/third_molar/operation_planner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/procedure/third_molar/clearing_plan.h"
+#include "app/procedure/third_molar/section_plan.h"
+#include "assets/tooth.h"
+#include "haptics/body/components.h"
+
+namespace app {
+namespace {
+
+constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
+constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of one section after another
+constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of one clearing after another
+constexpr int kMostTries = 9;
+constexpr double kTried_mm3 = 6.0;   ///< in the way: it is tried all the same, once
+constexpr double kGripped_mm = 2.0;  ///< radius between the beaks
+constexpr int kGripStep = 2;         ///< voxels from place to place that is looked at
+
+bool isSolid(std::uint8_t solid) { return solid >= assets::kHalfSolid; }
+
+/// Of the places in a piece at which the beaks do not meet bone, the one with the most of it between them; the higher
+/// the better. Where there is none, its highest place.
+glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, const haptics::Components& tooth,
+                  int component, std::span<const std::uint8_t> jaw, const glm::dvec3& out_P) {
+  const int reach = static_cast<int>(std::ceil(kGripped_mm / grid.spacing_mm));
+  glm::dvec3 best_P_mm(0.0), highest_P_mm(0.0);
+  double most = -1e9, highest_mm = -1e9;
+  assets::forVoxels(glm::ivec3(0), grid.size / kGripStep, [&](glm::ivec3 coarse) {
+    const glm::ivec3 ijk = coarse * kGripStep;
+    if (tooth.pieceAt(ijk) != component) return;
+    const glm::dvec3 p = grid.centre_P_mm(ijk);
+    const double height_mm = glm::dot(p, out_P);
+    if (height_mm > highest_mm) highest_mm = height_mm, highest_P_mm = p;
+    int own = 0, bone = 0;
+    const glm::ivec3 in_jaw(glm::round(now.grid.indexFromPoint(p)));
+    assets::forVoxels(glm::ivec3(-reach), glm::ivec3(reach + 1), [&](glm::ivec3 off) {
+      if (glm::dot(glm::dvec3(off), glm::dvec3(off)) > double(reach * reach)) return;
+      own += grid.contains(ijk + off) && tooth.pieceAt(ijk + off) == component ? 1 : 0;
+      bone += now.grid.contains(in_jaw + off) && isSolid(jaw[now.grid.index(in_jaw + off)]) ? 1 : 0;
+    });
+    if (bone > 0) return;
+    const double worth = own * std::pow(grid.spacing_mm, 3) + 3.0 * height_mm;
+    if (worth > most) most = worth, best_P_mm = p;
+  });
+  return most > -1e9 ? best_P_mm : highest_P_mm;
+}
+
+}  // namespace
+
+BodiesCopy copyOf(const haptics::Bodies& bodies) {
+  BodiesCopy copy;
+  copy.jaw = bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size);
+  for (std::size_t n = 0; n < bodies.pieces(); ++n) {
+    const haptics::CarvedBone& piece = bodies.bones()[n + 1];
+    if (!bodies.isSetAside(n)) copy.piece[n] = piece.copyBox(glm::ivec3(0), piece.grid().size);
+  }
+  return copy;
+}
+
+OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_radius_mm)
+    : bur_radius_mm_(bur_radius_mm), up_(wayUp(patient)) {
+  now_.ct = patient.ct;
+  now_.site = patient.site;
+  now_.mandibular_canal_P_mm = patient.mandibular_canal_P_mm;
+  now_.mandibular_canal_radius_mm = patient.mandibular_canal_radius_mm;
+}
+
+OperationStep OperationPlanner::cutStep(assets::PlannedCut cut, bool is_section, std::string words) const {
+  // A shaft along the way in has the room that the head has cut.
+  cut.shaft_P = cut.outward_P;
+  return {CutStep{std::move(cut), is_section}, std::move(words)};
+}
+
+OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& bodies,
+                                        const assets::VolumeGrid& piece_grid, const haptics::Components& tooth) const {
+  DeliveryStep step;
+  step.path_X_PQ = way.way.path_X_PQ;
+  step.out_P = up_.direction_P;
+  if (up_.arch) step.rock_axis_P = up_.arch->distal_P;
+  // The body that holds most of this component.
+  std::array<std::size_t, haptics::kMaxPieces> shared{};
+  assets::forVoxels(piece_grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (tooth.pieceAt(ijk) != static_cast<int>(way.piece)) return;
+    for (std::size_t n = 0; n < shared.size(); ++n)
+      shared[n] += !bodies.piece[n].empty() && isSolid(bodies.piece[n][v]) ? 1 : 0;
+  });
+  step.piece = static_cast<std::size_t>(std::ranges::max_element(shared) - shared.begin());
+  step.grip_P_mm =
+      gripOf(now_.ct, piece_grid, tooth, static_cast<int>(way.piece), bodies.jaw, glm::normalize(step.out_P));
+  const double volume_mm3 = tooth.pieces()[way.piece].volume_mm3;
+  return {step, fmt::format("take out the piece of {:.0f} mm³", volume_mm3)};
+}
+
+OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
+                                     glm::ivec3 first_voxel) {
+  // All that is left, as one volume; the tooth apart.
+  std::vector<std::uint8_t> tooth_solid(piece_grid.voxelCount(), 0);
+  now_.ct.solid = bodies.jaw;
+  assets::forVoxels(piece_grid, [&](glm::ivec3 ijk, std::size_t v) {
+    int sum = 0;
+    for (const auto& piece : bodies.piece) sum += piece.empty() ? 0 : piece[v];
+    tooth_solid[v] = static_cast<std::uint8_t>(std::min(sum, 255));
+    if (sum == 0 || !now_.ct.grid.contains(ijk + first_voxel)) return;
+    std::uint8_t& here = now_.ct.solid[now_.ct.grid.index(ijk + first_voxel)];
+    here = static_cast<std::uint8_t>(std::min(here + sum, 255));
+  });
+  const haptics::Components tooth(piece_grid, tooth_solid);
+  const auto pieces = static_cast<std::size_t>(std::ranges::count_if(
+      tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastPiece_mm3; }));
+  if (pieces == 0) return {EndStep{true, {}}, "the tooth is out"};
+  if (pieces != pieces_left_) {
+    tries_ = 0;
+    was_tried_ = false;
+    tried_.reset();
+  }
+  pieces_left_ = pieces;
+  is_parted_ = is_parted_ || pieces > 1;
+
+  const SiteSolid site(now_);
+  if (!is_parted_) {
+    if (sections_ >= kOvershoot_mm.size()) return {EndStep{false, "it did not come apart"}, "the tooth stays whole"};
+    auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
+    if (!cut) return {EndStep{false, "no bur reaches through it"}, "the tooth stays whole"};
+    return cutStep(std::move(*cut), true, "part the tooth");
+  }
+
+  const int tries = tries_++;
+  const double off_tooth_mm = kOffTooth_mm[std::min(static_cast<std::size_t>(tries), kOffTooth_mm.size() - 1)];
+  if (tried_) {
+    // What the search finds next may be farther from free than what was tried.
+    Tried once_more = std::move(*tried_);
+    tried_.reset();
+    if (once_more.is_cleared) return deliver(once_more.way, bodies, piece_grid, tooth);
+    if (auto cut = planClearing(site, once_more.way.blockers_P_mm, bur_radius_mm_, off_tooth_mm)) {
+      once_more.is_cleared = true;
+      tried_ = std::move(once_more);
+      return cutStep(std::move(*cut), false, "take away what held the piece");
+    }
+  }
+
+  // The piece with the least in its way.
+  const AroundTooth around{now_.ct.grid, bodies.jaw, now_.ct.label, now_.ct.tooth};
+  const std::vector<PieceWay> ways = waysOut(around, tooth, pieces, up_);
+  const PieceWay& way = *std::ranges::min_element(ways, {}, [](const PieceWay& one) { return one.way.in_the_way_mm3; });
+  if (tries >= kMostTries) return {EndStep{false, wordsOf(way)}, wordsOf(way)};
+  const bool is_free = way.way.in_the_way_mm3 < haptics::kBlocked_mm3;
+  if (is_free || (!was_tried_ && way.way.in_the_way_mm3 < kTried_mm3)) {
+    if (!was_tried_) tried_ = Tried{way, false};
+    was_tried_ = true;
+    return deliver(way, bodies, piece_grid, tooth);
+  }
+  auto cut = planClearing(site, way.blockers_P_mm, bur_radius_mm_, off_tooth_mm);
+  if (!cut) return deliver(way, bodies, piece_grid, tooth);
+  return cutStep(std::move(*cut), false, fmt::format("take away what blocks a piece: {}", wordsOf(way)));
+}
+
+}  // namespace app

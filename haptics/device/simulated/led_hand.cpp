@@ -1,0 +1,49 @@
+#include "haptics/device/simulated/led_hand.h"
+
+#include <algorithm>
+
+namespace haptics {
+namespace {
+
+constexpr double kBraced_N_per_mm = 2.0;            // on a finger rest; our default
+constexpr double kSlows_mm = 0.3, kStops_mm = 0.8;  // behind its path
+constexpr double kSlowest = 0.05;                   // of the path's pace: what gives way in the end is not waited for
+
+}  // namespace
+
+LedHand::LedHand(const HandTarget& rest) : target_(rest) {
+  target_.pedal = false;
+  hand_.stiffness_N_per_mm = kBraced_N_per_mm;
+  hand_.damping_Ns_per_mm = criticalDamping_Ns_per_mm(hand_.mass_kg, kBraced_N_per_mm);
+  hand_.position_mm = rest.position_mm;
+  capabilities_.model = "led hand";
+  capabilities_.damping_Ns_per_mm = hand_.totalDamping_Ns_per_mm();
+}
+
+/// Held up, it goes on slowly.
+double LedHand::pace() const noexcept {
+  const double behind_mm = glm::distance(hand_.position_mm, target_.position_mm);
+  return std::clamp((kStops_mm - behind_mm) / (kStops_mm - kSlows_mm), kSlowest, 1.0);
+}
+
+HandleState LedHand::exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept {
+  if (const LedPath* const wanted = wanted_.load(std::memory_order_acquire); wanted != path_) {
+    path_ = wanted;
+    t_s_ = 0.0;
+  }
+  const HandTarget from = target_;
+  if (path_ != nullptr) {
+    t_s_ += pace() * dt_s;
+    target_ = path_->script(t_s_);
+    if (t_s_ >= path_->duration_s) arrived_.store(path_, std::memory_order_release);
+  }
+  hand_.advance(from.position_mm, dt_s > 0.0 ? (target_.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0),
+                wrench_D.force_N.xyz, dt_s);
+  HandleState state;
+  state.X_DH = {target_.rotation, hand_.position_mm};
+  state.velocity_D_mm_per_s.xyz = hand_.velocity_mm_per_s;
+  state.pedal = target_.pedal;
+  return state;
+}
+
+}  // namespace haptics

@@ -1,0 +1,46 @@
+// A simulated hand that is led while a session runs: along one script after another, each from the tick in which it is
+// found, and pushed back by the contact force on its way: where that holds it up it waits for itself, as a hand does
+// for the bur. Without a script it rests. What it did is in the recording; its scripts are not. Frame D, mm, s.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "haptics/device/simulated/hand_script.h"
+#include "haptics/device/simulated/virtual_hand.h"
+#include "haptics/device/simulated_device.h"
+
+namespace haptics {
+
+/// A script with an end.
+struct LedPath {
+  HandScript script;
+  double duration_s = 0.0;
+};
+
+class LedHand final : public SimulatedDevice {
+ public:
+  /// Where it rests to begin with; without pedal.
+  explicit LedHand(const HandTarget& rest);
+  ~LedHand() override { stop(); }
+
+  /// From the next tick; the path begins at its time 0 and must outlive the device. One leading thread.
+  void lead(const LedPath* path) noexcept { wanted_.store(path, std::memory_order_release); }
+  /// The path led last has been gone to its end. The leading thread.
+  bool hasArrived() const noexcept {
+    return arrived_.load(std::memory_order_acquire) == wanted_.load(std::memory_order_relaxed);
+  }
+
+  HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
+
+ private:
+  double pace() const noexcept;
+
+  std::atomic<const LedPath*> wanted_{nullptr}, arrived_{nullptr};
+  const LedPath* path_ = nullptr;
+  double t_s_ = 0.0;  ///< of the path
+  HandTarget target_;
+  VirtualHand hand_;
+};
+
+}  // namespace haptics
