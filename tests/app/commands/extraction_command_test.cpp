@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include <glm/glm.hpp>
@@ -195,6 +196,35 @@ TEST_F(ExtractionCommand, APieceThatWasTakenOutIsPutBackAndTakenOutAgain) {
   ASSERT_EQ(rehearse(hand, again).status, 0);
   EXPECT_EQ(metrics(again).at("pieces_out"), 1.0);
   EXPECT_EQ(molar("replay " + again + " --verify").status, 0);
+}
+
+TEST_F(ExtractionCommand, AScriptedHandTakesAWisdomToothOutFromGutterToLastPiece) {
+  const std::string session = at("shown.molar");
+  const ProgramOutput shown = molar(
+      "rehearse --case shallow --headless --pace fast --device scripted --procedure third-molar --record " + session);
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  for (const char* const step : {"bare the crown", "part the tooth", "take out the piece of", "the tooth is out"})
+    EXPECT_NE(shown.err.find(step), std::string::npos) << step << shown.err;
+  const nlohmann::json measured = metrics(session);
+  EXPECT_GE(measured.at("pieces_out"), 2.0);
+  EXPECT_LT(measured.at("duration_s"), 300.0);
+  // Nothing else was touched or cut.
+  EXPECT_EQ(shown.out.find("second molar"), std::string::npos) << shown.out;
+  EXPECT_EQ(shown.out.find("canal"), std::string::npos) << shown.out;
+  EXPECT_EQ(molar("pieces " + session).status, 2) << "no tooth is left";
+  EXPECT_EQ(molar("replay " + session + " --verify").status, 0);
+}
+
+TEST_F(ExtractionCommand, TheOperationIsRefusedWhereItCannotBeShown) {
+  const ProgramOutput mouse = molar("rehearse --headless --procedure third-molar --device poses:" + at("none.csv"));
+  EXPECT_EQ(mouse.status, 2);
+  EXPECT_NE(mouse.err.find("add --device scripted"), std::string::npos) << mouse.err;
+  const ProgramOutput tray =
+      molar("rehearse --headless --pace fast --device scripted --procedure third-molar --tool round:3.0 --record " +
+            at("t.molar"));
+  EXPECT_EQ(tray.status, 2);
+  EXPECT_NE(tray.err.find("and forceps"), std::string::npos) << tray.err;
+  EXPECT_FALSE(std::filesystem::exists(at("t.molar")));
 }
 
 }  // namespace
