@@ -166,6 +166,17 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
   return true;
 }
 
+/// The whole operation needs a lower third molar that is a body of its own, with a gutter beside it.
+void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& procedure) {
+  const std::optional<assets::OperativeSite>& site = plan.patient.site;
+  if (!site || !assets::isThirdMolar(site->fdi) || assets::isUpper(site->fdi) ||
+      assets::voxelsOfTooth(plan.patient.ct, site->fdi).empty())
+    throw UsageError("--procedure " + procedure +
+                     ": no lower third molar is labelled and numbered in this patient, import teeth.nrrd with it");
+  if (!plan.cut)
+    throw UsageError("--procedure " + procedure + ": no bur reaches bone beside the " + assets::toothName(site->fdi));
+}
+
 /// Without windows, devices and pedals, which run in real time.
 void refuseUnlessSteppable(const RehearseOptions& options) {
   if (!options.plan.headless) throw UsageError("--pace fast: a window needs real time, add --headless");
@@ -320,8 +331,11 @@ int run(RehearseOptions& options) {
     printMessage("left before the patient was ready");
     return 0;
   }
-  // In the whole operation an assistant holds cheek and flap aside.
-  if (!options.procedure.empty()) plan.soft_tissue = {};
+  if (!options.procedure.empty()) {
+    refuseUnlessThirdMolar(plan, options.procedure);
+    // An assistant holds cheek and flap aside.
+    plan.soft_tissue = {};
+  }
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   // Whoever named no tools finds forceps beside the bur.
   const auto grips = [](const haptics::Tool& tool) { return tool.grips; };

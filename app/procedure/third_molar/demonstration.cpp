@@ -30,6 +30,12 @@ haptics::LedPath cutPath(assets::PlannedCut cut, const haptics::Tool& bur, doubl
   return {[path](double t_s) { return path.at(t_s); }, path.duration_s()};
 }
 
+/// In front of the site, along the line of sight where one is known.
+glm::dvec3 outsideOf(const assets::PlannedCut& cut) {
+  const glm::dvec3 way = glm::length(cut.sight_P) > 0.0 ? cut.sight_P : cut.outward_P;
+  return cut.surface_P_mm + kOutside_mm * glm::normalize(way);
+}
+
 HandPose startOf(const haptics::LedPath& path) {
   const haptics::HandTarget start = path.script(0.0);
   return {start.rotation, start.position_mm};
@@ -62,7 +68,7 @@ Demonstration::Demonstration(const assets::Patient& patient, const assets::Plann
       tray_(operationTray(tray)),
       planner_(patient, tray[tray_.bur].head.radius_mm),
       bur_(tray[tray_.bur]),
-      outside_P_mm_(gutter.surface_P_mm + kOutside_mm * glm::normalize(gutter.sight_P)),
+      outside_P_mm_(outsideOf(gutter)),
       forceps_held_P_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
   news_.push_back("bare the crown");
   lead(cutPath(gutter, tray[0], kGutter_mm_per_s));

@@ -225,6 +225,15 @@ TEST_F(ExtractionCommand, TheOperationIsRefusedWhereItCannotBeShown) {
   EXPECT_EQ(tray.status, 2);
   EXPECT_NE(tray.err.find("and forceps"), std::string::npos) << tray.err;
   EXPECT_FALSE(std::filesystem::exists(at("t.molar")));
+  patient();
+  std::filesystem::remove(at("scan/teeth.nrrd"));
+  std::filesystem::remove(at("scan/labels.nrrd"));
+  ASSERT_EQ(molar("import " + at("scan") + " --out " + at("unlabelled")).status, 0);
+  const ProgramOutput unlabelled =
+      molar("rehearse " + at("unlabelled") +
+            " --headless --pace fast --device scripted --procedure third-molar --record " + at("t.molar"));
+  EXPECT_EQ(unlabelled.status, 2) << unlabelled.err;
+  EXPECT_NE(unlabelled.err.find("no lower third molar is labelled"), std::string::npos) << unlabelled.err;
 }
 
 }  // namespace
