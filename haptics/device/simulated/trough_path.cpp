@@ -40,7 +40,8 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
     throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");
   if (!std::isfinite(glm::length(motion.shaft_P)))
     throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
-  if (!positive(cut.bur_radius_mm) || !positive(cut.over_mm) || !positive(motion.speed_mm_per_s) || !positive(motion.clearance_mm))
+  if (!positive(cut.bur_radius_mm) || !positive(cut.over_mm) || !positive(motion.speed_mm_per_s) ||
+      !positive(motion.clearance_mm))
     throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
 
   const glm::dvec3 outward = glm::normalize(outward_D), along = across / area;
