@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "app/procedure/ways_out.h"
+#include "assets/patient.h"
+#include "assets/planned_cut.h"
 #include "haptics/body/bodies.h"
 
 namespace app {
