@@ -257,6 +257,8 @@ int run(RehearseOptions& options) {
   RehearsalPlan& plan = options.plan;
   plan.device = withSessionNamed(plan.device);
   plan.second_hand.device = withSessionNamed(plan.second_hand.device);
+  if (options.procedure.empty() && plan.device.starts_with("scripted:"))
+    throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
   if (!options.procedure.empty()) {
     if (plan.device != "scripted")
       throw UsageError("--procedure " + options.procedure + ": the scripted hand shows it, add --device scripted");
