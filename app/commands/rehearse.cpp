@@ -23,6 +23,7 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
+#include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/continuation.h"
 #include "app/rehearsal/live_view.h"
 #include "app/rehearsal/recording_check.h"
@@ -72,7 +73,7 @@ std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& o
     plan.remarks.push_back(device.model + ": it measures no orientation, the bur keeps a fixed one, without handpiece");
   // A hand that cannot turn a handpiece out of the way holds the bur alone.
   plan.command.tool.handpiece = turns;
-  // Nor does one that works as with an angled handpiece, which is neither drawn nor met.
+  // The shown operation goes on without handpiece: with an angled one, which is not modelled.
   const bool is_angled = !options.procedure.empty();
   for (haptics::Tool& tool : plan.other_tools) tool.handpiece = turns && !is_angled;
   std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
@@ -166,7 +167,7 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
   return true;
 }
 
-/// The whole operation needs a lower third molar that is a body of its own, with a gutter beside it.
+/// The whole operation needs a lower third molar that is a body of its own, and bone to begin with.
 void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& procedure) {
   const std::optional<assets::OperativeSite>& site = plan.patient.site;
   if (!site || !assets::isThirdMolar(site->fdi) || assets::isUpper(site->fdi) ||
@@ -273,6 +274,11 @@ int run(RehearseOptions& options) {
   if (plan.command.tool.grips) throw UsageError("--tool forceps: the first tool is a bur, name one before it");
   for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
     plan.other_tools.push_back(tool_of(*other));
+  if (!options.procedure.empty()) {
+    std::vector<haptics::Tool> tray = plan.other_tools;
+    tray.insert(tray.begin(), plan.command.tool);
+    operationTray(tray);
+  }
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
   applyTo(plan.command, options.settings);

@@ -245,7 +245,10 @@ class Rehearsal {
 
   void followDemonstration() {
     if (!demonstration_) return;
-    const Demonstration::Frame frame{newest_, station().isApplied(newest_), sites_->isReady(), !pace_.isRealTime()};
+    const haptics::Command& command = active_command_.inForce();
+    const Demonstration::Frame frame{
+        newest_,           command.tool,       command.drill_enabled, station().isApplied(newest_),
+        sites_->isReady(), !pace_.isRealTime()};
     if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
     while (const auto line = demonstration_->news()) {
       head_up_.say(*line);

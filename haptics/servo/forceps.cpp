@@ -9,7 +9,6 @@ using calibration::Patient;
 using calibration::Piece;
 
 constexpr std::size_t kNoPiece = kMaxPieces;
-constexpr double kAllTorn = 0.999;  // of the ligament
 
 double movedBy_mm(const PieceSamples& samples, const Bodies::PiecePose& X_PQ) {
   const calibration::Point<Piece> centre{samples.centre_Q_mm};
@@ -37,7 +36,7 @@ std::size_t Forceps::pieceAt(const Bodies& bodies, const PieceSites& sites, doub
 
 void Forceps::letGo(Bodies& bodies, PieceSites& sites) noexcept {
   held_.holds = false;
-  if (held_.torn_share >= kAllTorn &&
+  if (held_.torn_share >= ForcepsLaw::kAllTorn &&
       movedBy_mm(sites.samples(held_.piece), bodies.pose(held_.piece)) >= ForcepsLaw::kClear_mm) {
     bodies.setAside(held_.piece);
     held_.set_aside = true;

@@ -21,6 +21,7 @@ struct ForcepsLaw {
   static constexpr double kMost_N = 165.0;
   static constexpr double kMost_Nmm = 3000.0;  ///< about what a handle of forceps gives. Our default
   static constexpr double kClear_mm = 6.0;
+  static constexpr double kAllTorn = 0.999;  ///< of the ligament: the piece is loose
 };
 
 class Forceps {

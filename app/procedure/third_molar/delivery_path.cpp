@@ -19,7 +19,7 @@ constexpr double kStill_s = 0.3;
 struct Key {
   double t_s = 0.0;
   HandPose X_PT;
-  bool pedal = false;  ///< until the next
+  bool pedal = false;  ///< down until the next key
 };
 
 haptics::HandTarget targetAt(const HandPose& X_PT, bool pedal) {
@@ -64,12 +64,6 @@ class Keys {
 
 }  // namespace
 
-haptics::LedPath transit(const HandPose& from, const HandPose& to, double speed_mm_per_s) {
-  Keys keys(from);
-  keys.moveTo(to, speed_mm_per_s);
-  return keys.path();
-}
-
 haptics::LedPath throughOutside(const HandPose& from, const HandPose& to, const glm::dvec3& outside_P_mm) {
   Keys keys(from);
   keys.moveTo({from.rotation, outside_P_mm}, kTravel_mm_per_s);
@@ -87,8 +81,8 @@ haptics::LedPath joined(const haptics::LedPath& first, const haptics::LedPath& s
 }
 
 haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_mm, const DeliveryStep& step,
-                             const glm::dquat& held_P) {
-  const HandPose grip{held_P, step.grip_P_mm}, over{held_P, step.grip_P_mm + kOver_mm * step.out_P};
+                             const glm::dquat& R_PT) {
+  const HandPose grip{R_PT, step.grip_P_mm}, over{R_PT, step.grip_P_mm + kOver_mm * step.out_P};
   Keys down(over);
   down.moveTo(grip, kDown_mm_per_s);
   down.hold(kStill_s);
@@ -99,17 +93,17 @@ haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_m
     const double swing_rad =
         glm::mix(kFirstSwing_rad, kLastSwing_rad, part) * std::sin(2.0 * calibration::kPi * kSwing_Hz * t_s);
     const glm::dvec3 pulled_mm = std::min(1.0, t_s) * kPull_mm * step.out_P;
-    return targetAt({glm::angleAxis(swing_rad, step.rock_axis_P) * held_P, step.grip_P_mm + pulled_mm}, true);
+    return targetAt({glm::angleAxis(swing_rad, step.rock_axis_P) * R_PT, step.grip_P_mm + pulled_mm}, true);
   };
   return joined(throughOutside(from, over, outside_P_mm), joined(down.path(), {rocked, kRocks_s}));
 }
 
-haptics::LedPath takeOut(const HandPose& hand, const haptics::Bodies::PiecePose& piece_X_PQ, const DeliveryStep& step) {
+haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X_PQ, const DeliveryStep& step) {
   Keys keys(hand);
   keys.press(true);
   const calibration::Pose<calibration::Piece, calibration::Tool> grip_X_QT = piece_X_PQ.inverse() * hand;
   HandPose last = hand;
-  for (const haptics::Bodies::PiecePose& X_PQ : step.path_X_PQ) {
+  for (const haptics::PiecePose& X_PQ : step.path_X_PQ) {
     last = X_PQ * grip_X_QT;
     keys.moveTo(last, kOut_mm_per_s);
   }

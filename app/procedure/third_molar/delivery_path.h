@@ -1,5 +1,6 @@
 // How a scripted hand takes a piece of tooth out with forceps: down to the grip, rocking until the ligament is torn,
-// then along the way out and beyond. Frame P is the device's frame D; handle and tool coincide. mm, s. Pure functions.
+// then along the way out and beyond. Frame P is the device's frame D; handle and tool coincide. mm, s. Pure functions;
+// speeds and swings are our defaults.
 #pragma once
 
 #include "app/procedure/third_molar/operation_planner.h"
@@ -9,21 +10,18 @@ namespace app {
 
 using HandPose = calibration::Pose<calibration::Patient, calibration::Tool>;
 
-/// From a pose to another, straight and without pedal.
-haptics::LedPath transit(const HandPose& from, const HandPose& to, double speed_mm_per_s);
-
 /// Out of the mouth to `outside_P_mm`, turned there, and in again: soft tissue is met by none of it.
 haptics::LedPath throughOutside(const HandPose& from, const HandPose& to, const glm::dvec3& outside_P_mm);
 
-/// First the way as transit(), then the script.
+/// One after the other.
 haptics::LedPath joined(const haptics::LedPath& first, const haptics::LedPath& second);
 
 /// From `from` to over the piece, down, closed, and rocked with growing swings for `kRocks_s`.
 haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_mm, const DeliveryStep& step,
-                             const glm::dquat& held_P);
+                             const glm::dquat& R_PT);
 inline constexpr double kRocks_s = 12.0;
 
 /// Closed, along the way out from where hand and piece are now, then open and away.
-haptics::LedPath takeOut(const HandPose& hand, const haptics::Bodies::PiecePose& piece_X_PQ, const DeliveryStep& step);
+haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X_PQ, const DeliveryStep& step);
 
 }  // namespace app

@@ -4,19 +4,18 @@
 #include <chrono>
 #include <utility>
 
-#include <fmt/core.h>
-
 #include "app/text/usage_error.h"
 #include "haptics/device/simulated/trough_path.h"
+#include "haptics/servo/forceps.h"
 
 namespace app {
 namespace {
 
 constexpr double kLeastBur_mm = 0.7, kMostBur_mm = 1.3;          ///< radius, of the one that parts the tooth
+constexpr double kLeastHalf_mm = 3.0;                            ///< of its head's length
 constexpr double kSettles_s = 0.6;                               ///< after a step, before it is looked at
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
 constexpr double kGutter_mm_per_s = 16.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
-constexpr double kAllTorn = 0.999;                               ///< of the ligament
 constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
 
 HandPose handOf(const haptics::Tick& tick) { return tick.hand.X_PT; }
@@ -47,14 +46,14 @@ OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
   OperationTray found;
   const auto bur = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
     return !tool.grips && tool.head.kind == haptics::ShapeKind::capsule && tool.head.radius_mm >= kLeastBur_mm &&
-           tool.head.radius_mm <= kMostBur_mm;
+           tool.head.radius_mm <= kMostBur_mm && haptics::halfHeight_mm(tool.head) >= kLeastHalf_mm;
   });
   const auto forceps = std::ranges::find_if(tray, [](const haptics::Tool& tool) { return tool.grips; });
   if (bur == tray.end() || forceps == tray.end())
     throw UsageError(
-        "--procedure third-molar: its tray needs a long bur with a round end, 1.4 to 2.6 mm thick, and forceps, add "
-        "--tool "
-        "capsule:1.05,8 --tool forceps");
+        "--procedure third-molar: its tray needs a bur with a round end, 1.4 to 2.6 mm thick and at least 6 mm long, "
+        "and "
+        "forceps; add --tool capsule:1.05,8 --tool forceps");
   found.bur = static_cast<std::size_t>(bur - tray.begin());
   found.forceps = static_cast<std::size_t>(forceps - tray.begin());
   return found;
@@ -67,9 +66,9 @@ Demonstration::Demonstration(const assets::Patient& patient, const assets::Plann
       hand_(hand),
       tray_(operationTray(tray)),
       planner_(patient, tray[tray_.bur].head.radius_mm),
-      bur_(tray[tray_.bur]),
+      tools_(tray),
       outside_P_mm_(outsideOf(gutter)),
-      forceps_held_P_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
+      forceps_R_PT_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
   news_.push_back("bare the crown");
   lead(cutPath(gutter, tray[0], kGutter_mm_per_s));
 }
@@ -81,55 +80,73 @@ void Demonstration::enter(Phase phase, const Frame& frame) {
   since_s_ = frame.newest.t_s;
 }
 
+void Demonstration::fail(const Frame& frame, const std::string& why) {
+  failure_ = why;
+  enter(Phase::over, frame);
+}
+
+/// What keeps the hand from its work; empty: nothing.
+std::string Demonstration::interruption(const Frame& frame) const {
+  const bool works = phase_ == Phase::cutting || phase_ == Phase::gripping || phase_ == Phase::taking_out;
+  if (!works || !frame.is_applied || frame.newest.dt_s == 0.0) return {};
+  if (!(frame.in_hand == tools_[wanted_])) return "another tool was taken";
+  if (phase_ == Phase::cutting && !frame.drill_enabled) return "the drill was locked";
+  if (!haptics::mayRunMotors(frame.newest.state)) return "the motors are off";
+  return {};
+}
+
 std::optional<ControlRequest> Demonstration::startStep(const Frame& frame) {
   news_.push_back(step_.words);
   if (const EndStep* const end = std::get_if<EndStep>(&step_.what)) {
-    failure_ = end->why;
-    enter(Phase::over, frame);
+    fail(frame, end->why_not);
     return {};
   }
-  const std::size_t tool = std::holds_alternative<CutStep>(step_.what) ? tray_.bur : tray_.forceps;
+  wanted_ = std::holds_alternative<CutStep>(step_.what) ? tray_.bur : tray_.forceps;
   enter(Phase::changing_tool, frame);
-  if (std::exchange(in_hand_, tool) == tool) return {};
-  return ControlRequest{Control::tool, static_cast<int>(tool)};
+  if (frame.in_hand == tools_[wanted_]) return {};
+  return ControlRequest{Control::tool, static_cast<int>(wanted_)};
 }
 
 /// Once the tool is in the hand, and the pieces are ready for it.
 void Demonstration::work(const Frame& frame) {
+  if (!(frame.in_hand == tools_[wanted_])) return fail(frame, "its tool could not be taken");
   const HandPose hand = handOf(frame.newest);
   if (const CutStep* const step = std::get_if<CutStep>(&step_.what)) {
-    const haptics::LedPath path = cutPath(step->cut, bur_, kCut_mm_per_s);
+    const haptics::LedPath path = cutPath(step->cut, tools_[tray_.bur], kCut_mm_per_s);
     lead(joined(throughOutside(hand, startOf(path), outside_P_mm_), path));
     enter(Phase::cutting, frame);
-    return;
+  } else if (frame.is_ready_to_grip) {
+    lead(gripAndRock(hand, outside_P_mm_, std::get<DeliveryStep>(step_.what), forceps_R_PT_));
+    enter(Phase::gripping, frame);
+  } else if (frame.newest.t_s - since_s_ >= kLongestWait_s) {
+    fail(frame, "the pieces were not made ready for forceps");
   }
-  if (!frame.is_ready_to_grip) {
-    if (frame.newest.t_s - since_s_ < kLongestWait_s) return;
-    failure_ = "the pieces were not made ready for forceps";
-    enter(Phase::over, frame);
-    return;
-  }
-  lead(gripAndRock(hand, outside_P_mm_, std::get<DeliveryStep>(step_.what), forceps_held_P_));
-  enter(Phase::gripping, frame);
+}
+
+/// Nothing changes any more: no split, no undo, no command on its way.
+bool Demonstration::isStill(const Frame& frame) const {
+  const haptics::Tick& tick = frame.newest;
+  return tick.split != haptics::SplitAnswer::waiting && tick.split != haptics::SplitAnswer::running &&
+         tick.drill_inhibit != haptics::DrillInhibit::undo_running && frame.is_applied &&
+         tick.t_s - since_s_ >= kSettles_s;
 }
 
 std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
   const haptics::Tick& tick = frame.newest;
+  if (const std::string why = interruption(frame); !why.empty()) fail(frame, why);
   switch (phase_) {
     case Phase::cutting:
     case Phase::taking_out:
       if (hand_.hasArrived()) enter(Phase::settling, frame);
       return {};
-    case Phase::settling: {
-      const bool parts = tick.split == haptics::SplitAnswer::waiting || tick.split == haptics::SplitAnswer::running;
-      if (parts || !frame.is_applied || tick.t_s - since_s_ < kSettles_s) return {};
+    case Phase::settling:
+      if (!isStill(frame)) return {};
       planning_ = std::async(
           frame.waits ? std::launch::deferred : std::launch::async,
-          [this, copy = copyOf(bodies_), grid = bodies_.bones()[1].grid(),
+          [this, copy = copyOf(bodies_, tick), grid = bodies_.bones()[1].grid(),
            first = bodies_.firstBrick() * assets::kBrickVoxels] { return planner_.next(copy, grid, first); });
       enter(Phase::planning, frame);
       return {};
-    }
     case Phase::planning:
       if (!frame.waits && planning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
       step_ = planning_.get();
@@ -139,7 +156,7 @@ std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
       return {};
     case Phase::gripping: {
       const DeliveryStep& step = std::get<DeliveryStep>(step_.what);
-      const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= kAllTorn;
+      const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= haptics::ForcepsLaw::kAllTorn;
       if (!is_loose && !hand_.hasArrived()) return {};
       lead(takeOut(handOf(tick), tick.X_PQ[step.piece], step));
       enter(Phase::taking_out, frame);

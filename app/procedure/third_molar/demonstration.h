@@ -1,7 +1,8 @@
 // A lower third molar taken out from beginning to end by a scripted hand: gutter, section, what blocks a piece, piece
 // by piece out. Each step is planned from the bone and tooth as they are when the one before has ended
 // (operation_planner), so it is carried out as a person would, by hand, pedal and change of tool alone. Main thread,
-// once a frame; steps are planned on a thread of their own, or waited for where the servo is stepped.
+// once a frame, of which one a step takes 30 ms for a copy; steps are planned on a thread of their own, for which the
+// destructor waits, or on this one where the servo is stepped.
 #pragma once
 
 #include <deque>
@@ -31,6 +32,8 @@ class Demonstration {
 
   struct Frame {
     haptics::Tick newest;
+    haptics::Tool in_hand;          ///< of the newest command
+    bool drill_enabled = true;      ///< of the same
     bool is_applied = false;        ///< the newest command is in force in `newest`
     bool is_ready_to_grip = false;  ///< the pieces are ready for forceps
     bool waits = false;             ///< for a servo that is stepped
@@ -41,30 +44,33 @@ class Demonstration {
   std::optional<std::string> news();
 
   bool isOver() const { return phase_ == Phase::over; }
-  /// Empty once the tooth is out.
+  /// Why the tooth could not be taken out; empty while it is not over, and where it is out.
   const std::string& failure() const { return failure_; }
 
  private:
   enum class Phase { cutting, settling, planning, changing_tool, gripping, taking_out, over };
 
+  void fail(const Frame& frame, const std::string& why);
+  std::string interruption(const Frame& frame) const;
   void lead(haptics::LedPath path);
   void enter(Phase phase, const Frame& frame);
   std::optional<ControlRequest> startStep(const Frame& frame);
   void work(const Frame& frame);
+  bool isStill(const Frame& frame) const;
 
   const haptics::Bodies& bodies_;
   haptics::LedHand& hand_;
   OperationTray tray_;
   OperationPlanner planner_;
-  haptics::Tool bur_;
-  glm::dvec3 outside_P_mm_;
-  glm::dquat forceps_held_P_;
+  std::vector<haptics::Tool> tools_;
+  glm::dvec3 outside_P_mm_;  ///< of the mouth
+  glm::dquat forceps_R_PT_;
   std::deque<haptics::LedPath> paths_;  ///< the device reads them
   Phase phase_ = Phase::cutting;
   double since_s_ = 0.0;  ///< of the phase
   std::future<OperationStep> planning_;
   OperationStep step_;
-  std::size_t in_hand_ = 0;  ///< of the tray
+  std::size_t wanted_ = 0;  ///< tool of the tray
   std::deque<std::string> news_;
   std::string failure_;
 };

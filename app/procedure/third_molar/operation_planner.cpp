@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -13,13 +14,15 @@
 namespace app {
 namespace {
 
+// Our defaults, found on the built-in cases.
 constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
-constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of one section after another
-constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of one clearing after another
+constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
+constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
 constexpr int kMostTries = 9;
-constexpr double kTried_mm3 = 6.0;   ///< in the way: it is tried all the same, once
-constexpr double kGripped_mm = 2.0;  ///< radius between the beaks
-constexpr int kGripStep = 2;         ///< voxels from place to place that is looked at
+constexpr double kTried_mm3 = 6.0;     ///< with no more in its way than this, a piece is pulled at before more is cut
+constexpr double kSamePiece_mm = 2.0;  ///< that its middle may have moved
+constexpr double kGripped_mm = 2.0;    ///< radius between the beaks
+constexpr int kGripStep = 2;           ///< voxels from place to place that is looked at
 
 bool isSolid(std::uint8_t solid) { return solid >= assets::kHalfSolid; }
 
@@ -28,7 +31,7 @@ bool isSolid(std::uint8_t solid) { return solid >= assets::kHalfSolid; }
 glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, const haptics::Components& tooth,
                   int component, std::span<const std::uint8_t> jaw, const glm::dvec3& out_P) {
   const int reach = static_cast<int>(std::ceil(kGripped_mm / grid.spacing_mm));
-  glm::dvec3 best_P_mm(0.0), highest_P_mm(0.0);
+  glm::dvec3 best_P_mm(0.0), highest_P_mm = tooth.pieces()[static_cast<std::size_t>(component)].centroid_mm;
   double most = -1e9, highest_mm = -1e9;
   assets::forVoxels(glm::ivec3(0), grid.size / kGripStep, [&](glm::ivec3 coarse) {
     const glm::ivec3 ijk = coarse * kGripStep;
@@ -50,14 +53,34 @@ glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, c
   return most > -1e9 ? best_P_mm : highest_P_mm;
 }
 
+/// The nearest voxel counts.
+std::vector<std::uint8_t> whereItLies(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& at_rest,
+                                      const haptics::PiecePose& X_PQ) {
+  std::vector<std::uint8_t> moved(at_rest.size(), 0);
+  const auto X_QP = X_PQ.inverse();
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const calibration::Point<calibration::Patient> p_P{grid.centre_P_mm(ijk)};
+    const glm::ivec3 from(glm::round(grid.indexFromPoint((X_QP * p_P).mm)));
+    if (grid.contains(from)) moved[v] = at_rest[grid.index(from)];
+  });
+  return moved;
+}
+
 }  // namespace
 
-BodiesCopy copyOf(const haptics::Bodies& bodies) {
+BodiesCopy copyOf(const haptics::Bodies& bodies, const haptics::Tick& newest) {
   BodiesCopy copy;
   copy.jaw = bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size);
-  for (std::size_t n = 0; n < bodies.pieces(); ++n) {
+  copy.X_PQ = newest.X_PQ;
+  for (std::size_t n = 0; n < newest.pieces; ++n) {
     const haptics::CarvedBone& piece = bodies.bones()[n + 1];
-    if (!bodies.isSetAside(n)) copy.piece[n] = piece.copyBox(glm::ivec3(0), piece.grid().size);
+    if (haptics::Bodies::isAside(newest.X_PQ[n])) {
+      copy.is_any_out = true;
+      continue;
+    }
+    copy.piece[n] = piece.copyBox(glm::ivec3(0), piece.grid().size);
+    if (!haptics::Bodies::isRest(newest.X_PQ[n]))
+      copy.piece[n] = whereItLies(piece.grid(), copy.piece[n], newest.X_PQ[n]);
   }
   return copy;
 }
@@ -70,16 +93,24 @@ OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_ra
   now_.mandibular_canal_radius_mm = patient.mandibular_canal_radius_mm;
 }
 
-OperationStep OperationPlanner::cutStep(assets::PlannedCut cut, bool is_section, std::string words) const {
+OperationStep OperationPlanner::cutStep(assets::PlannedCut cut, std::string words) {
   // A shaft along the way in has the room that the head has cut.
   cut.shaft_P = cut.outward_P;
-  return {CutStep{std::move(cut), is_section}, std::move(words)};
+  return {CutStep{std::move(cut)}, std::move(words)};
+}
+
+bool OperationPlanner::findAgain(Tried& tried, const haptics::Components& tooth, std::size_t pieces) {
+  for (std::size_t n = 0; n < pieces; ++n) {
+    if (glm::distance(tooth.pieces()[n].centroid_mm, tried.centroid_P_mm) > kSamePiece_mm) continue;
+    tried.way.piece = n;
+    return true;
+  }
+  return false;
 }
 
 OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& bodies,
                                         const assets::VolumeGrid& piece_grid, const haptics::Components& tooth) const {
   DeliveryStep step;
-  step.path_X_PQ = way.way.path_X_PQ;
   step.out_P = up_.direction_P;
   if (up_.arch) step.rock_axis_P = up_.arch->distal_P;
   // The body that holds most of this component.
@@ -90,6 +121,9 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
       shared[n] += !bodies.piece[n].empty() && isSolid(bodies.piece[n][v]) ? 1 : 0;
   });
   step.piece = static_cast<std::size_t>(std::ranges::max_element(shared) - shared.begin());
+  for (const haptics::PiecePose& moved : way.way.path_X_PQ)
+    step.path_X_PQ.push_back({moved.rotation * bodies.X_PQ[step.piece].rotation,
+                              moved.rotation * bodies.X_PQ[step.piece].translation_mm + moved.translation_mm});
   step.grip_P_mm =
       gripOf(now_.ct, piece_grid, tooth, static_cast<int>(way.piece), bodies.jaw, glm::normalize(step.out_P));
   const double volume_mm3 = tooth.pieces()[way.piece].volume_mm3;
@@ -112,51 +146,48 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   const haptics::Components tooth(piece_grid, tooth_solid);
   const auto pieces = static_cast<std::size_t>(std::ranges::count_if(
       tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastPiece_mm3; }));
-  if (pieces == 0) return {EndStep{true, {}}, "the tooth is out"};
+  if (pieces == 0) return {EndStep{}, "the tooth is out"};
   if (pieces != pieces_left_) {
     tries_ = 0;
     was_tried_ = false;
     tried_.reset();
   }
   pieces_left_ = pieces;
-  is_parted_ = is_parted_ || pieces > 1;
 
   const SiteSolid site(now_);
-  if (!is_parted_) {
-    if (sections_ >= kOvershoot_mm.size()) return {EndStep{false, "it did not come apart"}, "the tooth stays whole"};
+  if (pieces == 1 && !bodies.is_any_out) {
+    if (sections_ >= kOvershoot_mm.size()) return {EndStep{"it did not come apart"}, "the tooth stays whole"};
     auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
-    if (!cut) return {EndStep{false, "no bur reaches through it"}, "the tooth stays whole"};
-    return cutStep(std::move(*cut), true, "part the tooth");
+    if (!cut) return {EndStep{"no bur reaches through it"}, "the tooth stays whole"};
+    return cutStep(std::move(*cut), "part the tooth");
   }
 
   const int tries = tries_++;
   const double off_tooth_mm = kOffTooth_mm[std::min(static_cast<std::size_t>(tries), kOffTooth_mm.size() - 1)];
-  if (tried_) {
-    // What the search finds next may be farther from free than what was tried.
-    Tried once_more = std::move(*tried_);
-    tried_.reset();
-    if (once_more.is_cleared) return deliver(once_more.way, bodies, piece_grid, tooth);
-    if (auto cut = planClearing(site, once_more.way.blockers_P_mm, bur_radius_mm_, off_tooth_mm)) {
-      once_more.is_cleared = true;
-      tried_ = std::move(once_more);
-      return cutStep(std::move(*cut), false, "take away what held the piece");
+  if (tried_ && findAgain(*tried_, tooth, pieces)) {
+    if (tried_->is_cleared) return deliver(std::exchange(tried_, std::nullopt)->way, bodies, piece_grid, tooth);
+    if (auto cut = planClearing(site, tried_->way.blockers_P_mm, bur_radius_mm_, off_tooth_mm)) {
+      tried_->is_cleared = true;
+      return cutStep(std::move(*cut), "take away what held the piece");
     }
   }
+  tried_.reset();
 
-  // The piece with the least in its way.
+  // The piece with the least in its way, as things are: those that wait for another do not count.
   const AroundTooth around{now_.ct.grid, bodies.jaw, now_.ct.label, now_.ct.tooth};
-  const std::vector<PieceWay> ways = waysOut(around, tooth, pieces, up_);
+  std::vector<PieceWay> ways = waysOut(around, tooth, pieces, up_);
+  std::erase_if(ways, [](const PieceWay& one) { return !one.after.empty(); });
   const PieceWay& way = *std::ranges::min_element(ways, {}, [](const PieceWay& one) { return one.way.in_the_way_mm3; });
-  if (tries >= kMostTries) return {EndStep{false, wordsOf(way)}, wordsOf(way)};
+  if (tries >= kMostTries) return {EndStep{wordsOf(way)}, wordsOf(way)};
   const bool is_free = way.way.in_the_way_mm3 < haptics::kBlocked_mm3;
   if (is_free || (!was_tried_ && way.way.in_the_way_mm3 < kTried_mm3)) {
-    if (!was_tried_) tried_ = Tried{way, false};
+    if (!was_tried_) tried_ = Tried{way, tooth.pieces()[way.piece].centroid_mm, false};
     was_tried_ = true;
     return deliver(way, bodies, piece_grid, tooth);
   }
   auto cut = planClearing(site, way.blockers_P_mm, bur_radius_mm_, off_tooth_mm);
   if (!cut) return deliver(way, bodies, piece_grid, tooth);
-  return cutStep(std::move(*cut), false, fmt::format("take away what blocks a piece: {}", wordsOf(way)));
+  return cutStep(std::move(*cut), fmt::format("take away what blocks a piece: {}", wordsOf(way)));
 }
 
 }  // namespace app

@@ -14,35 +14,36 @@
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
 #include "haptics/body/bodies.h"
+#include "haptics/servo/tick.h"
 
 namespace app {
 
-/// Bytes of the bodies in the order of their grids; pieces that were set aside are empty.
+/// Bytes of the bodies, in the order of their grids.
 struct BodiesCopy {
   std::vector<std::uint8_t> jaw;
+  /// On the tooth's grid, where each piece lies; empty: not there, or set aside.
   std::array<std::vector<std::uint8_t>, haptics::kMaxPieces> piece;
+  std::array<haptics::PiecePose, haptics::kMaxPieces> X_PQ{};
+  bool is_any_out = false;  ///< a piece was set aside
 };
-/// As the writing thread has them, or as a reading thread sees them; some 30 ms.
-BodiesCopy copyOf(const haptics::Bodies& bodies);
+/// As a reading thread sees them while nothing changes; poses and number of pieces are the newest tick's. Some 30 ms.
+BodiesCopy copyOf(const haptics::Bodies& bodies, const haptics::Tick& newest);
 
-/// A cut with the handpiece's direction.
+/// A cut with the direction of the bur's shaft.
 struct CutStep {
   assets::PlannedCut cut;
-  bool is_section = false;
 };
 
 struct DeliveryStep {
-  std::size_t piece = 0;                              ///< of the bodies
-  std::vector<haptics::Bodies::PiecePose> path_X_PQ;  ///< from where it lies to outside
-  glm::dvec3 grip_P_mm{0.0};                          ///< middle between the beaks
-  glm::dvec3 rock_axis_P{1.0, 0.0, 0.0};              ///< unit: it is rocked to cheek and tongue about it
-  glm::dvec3 out_P{0.0, 0.0, 1.0};                    ///< unit
+  std::size_t piece = 0;                      ///< of the bodies
+  std::vector<haptics::PiecePose> path_X_PQ;  ///< from where it lies to outside
+  glm::dvec3 grip_P_mm{0.0};                  ///< middle between the beaks
+  glm::dvec3 rock_axis_P{1.0, 0.0, 0.0};      ///< unit: it is rocked to cheek and tongue about it
+  glm::dvec3 out_P{0.0, 0.0, 1.0};            ///< unit
 };
 
-/// Nothing more to do, or to be done.
 struct EndStep {
-  bool is_done = false;
-  std::string why;  ///< not done
+  std::string why_not;  ///< the tooth could not be taken out; empty: it is out
 };
 
 struct OperationStep {
@@ -60,7 +61,7 @@ class OperationPlanner {
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
 
  private:
-  OperationStep cutStep(assets::PlannedCut cut, bool is_section, std::string words) const;
+  static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 
@@ -70,12 +71,14 @@ class OperationPlanner {
   std::size_t sections_ = 0;
   int tries_ = 0;  ///< since a piece was taken out or parted
   std::size_t pieces_left_ = 0;
-  bool is_parted_ = false;
-  /// A way that was not quite clear and did not lead out: cleared, then gone once more.
+  /// A way along which a piece did not come out. What is in it is cut away, and the piece pulled along it once more:
+  /// what the search finds next may be farther from free.
   struct Tried {
     PieceWay way;
+    glm::dvec3 centroid_P_mm{0.0};  ///< of the piece
     bool is_cleared = false;
   };
+  static bool findAgain(Tried& tried, const haptics::Components& tooth, std::size_t pieces);
   std::optional<Tried> tried_;
   bool was_tried_ = false;  ///< since a piece was taken out or parted
 };

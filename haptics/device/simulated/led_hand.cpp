@@ -30,6 +30,8 @@ HandleState LedHand::exchange(const Wrench<calibration::Device>& wrench_D, doubl
   if (const LedPath* const wanted = wanted_.load(std::memory_order_acquire); wanted != path_) {
     path_ = wanted;
     t_s_ = 0.0;
+    // It begins where it says, not with a leap from the end of the former.
+    target_ = path_->script(0.0);
   }
   const HandTarget from = target_;
   if (path_ != nullptr) {

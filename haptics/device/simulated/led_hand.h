@@ -1,10 +1,10 @@
 // A simulated hand that is led while a session runs: along one script after another, each from the tick in which it is
-// found, and pushed back by the contact force on its way: where that holds it up it waits for itself, as a hand does
-// for the bur. Without a script it rests. What it did is in the recording; its scripts are not. Frame D, mm, s.
+// found, and pushed back by the contact force. Where it is held up its script waits, as a hand waits for the bur.
+// Without a script it rests. What it did is in the recording, its scripts are not. Frame D, mm, s. exchange(): the
+// thread of the ticks; two calls of a script.
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 
 #include "haptics/device/simulated/hand_script.h"
 #include "haptics/device/simulated/virtual_hand.h"
@@ -24,9 +24,9 @@ class LedHand final : public SimulatedDevice {
   explicit LedHand(const HandTarget& rest);
   ~LedHand() override { stop(); }
 
-  /// From the next tick; the path begins at its time 0 and must outlive the device. One leading thread.
+  /// From the next tick on, from the path's time 0; it must outlive the last tick. One leading thread.
   void lead(const LedPath* path) noexcept { wanted_.store(path, std::memory_order_release); }
-  /// The path led last has been gone to its end. The leading thread.
+  /// The path led last has been gone to its end, or none was led. The leading thread.
   bool hasArrived() const noexcept {
     return arrived_.load(std::memory_order_acquire) == wanted_.load(std::memory_order_relaxed);
   }
