@@ -8,8 +8,6 @@
 namespace haptics {
 namespace {
 
-constexpr double kCrumb = 0.5;  // of a voxel: less than this is met by degrees
-
 /// Depth of a rod on bone from the moment of the shared part about its axis and the surface inside it. Between facing
 /// walls both cancel alike, so the quotient is that of one wall.
 double lyingDepth_mm(double moment_mm4, double area_mm2, double radius_mm, double spacing_mm) {
@@ -48,10 +46,6 @@ Contact shaftContact(const SolidBodies& bodies, const Tool& tool,
   if (contact.depth_mm <= 0.0) return contact;
 
   contact.one_sided = std::min(1.0, off_axis_mm / (r - 0.4 * contact.depth_mm));
-  // A crumb that the head has left stops no rod.
-  const double crumb_mm3 = kCrumb * std::pow(bodies.spacing_mm(), 3);
-  const double met = std::min(1.0, overlap.volume_mm3 / crumb_mm3);
-  contact.depth_mm *= met * met;
   contact.normal_P.xyz = overlap.area_P_mm2.xyz / area_mm2 * std::min(1.0, contact.one_sided / 0.6);
   contact.stiffness_N_per_mm = stiffness_N_per_mm * overlap.stiff_mm3 / overlap.volume_mm3;
   contact.force_P_N = contact.stiffness_N_per_mm * contact.depth_mm * contact.normal_P;

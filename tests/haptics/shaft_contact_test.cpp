@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -80,20 +79,6 @@ TEST(ShaftContact, FadesBetweenFacingWalls) {
     EXPECT_LT(std::abs(glm::length(contact.force_P_N.xyz) - last), 0.1);
     last = glm::length(contact.force_P_N.xyz);
   }
-}
-
-TEST(ShaftContact, IsNotStoppedByACrumb) {
-  // A tenth of a voxel of 0.25 mm, as a bur leaves between two strokes.
-  Phantom phantom = filled(4.0, 0.25, [](const glm::dvec3&) { return 1.0; });
-  phantom.solid[phantom.grid.index({16, 16, 16})] = 26;
-  double deepest_mm = 0.0, most_mm3 = 0.0;
-  for (double z = 0.2; z < 0.8; z += 0.05) {
-    const Contact contact = shaftAt(phantom.field(), {kLying, {-3.5, 0.0, z}});
-    deepest_mm = std::max(deepest_mm, contact.depth_mm);
-    most_mm3 = std::max(most_mm3, contact.volume_mm3);
-  }
-  EXPECT_GT(most_mm3, 0.0);
-  EXPECT_LT(deepest_mm, 0.06);
 }
 
 TEST(ShaftContact, IsNothingWithoutAShaft) {
