@@ -116,7 +116,7 @@ std::vector<char> largestPart(const std::vector<char>& wanted) {
       ++count;
       const int i = at % kSide, j = at / kSide;
       for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
-        const auto next = static_cast<std::size_t>(y * kSide + x);
+        const auto next = HeightMap::column(x, y);
         if (x < 0 || y < 0 || x >= kSide || y >= kSide || !wanted[next] || part[next]) continue;
         part[next] = parts;
         open.push_back(static_cast<int>(next));
@@ -159,7 +159,7 @@ std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, dou
   cut.lateral_P = way.across;
   cut.sight_P = sight;
   cut.bur_radius_mm = bur_radius_mm;
-  std::vector<char> wanted(static_cast<std::size_t>(HeightMap::kSide) * HeightMap::kSide, 0);
+  std::vector<char> wanted(HeightMap::kColumns, 0);
   for (int j = 0; j < HeightMap::kSide; ++j)
     for (int i = 0; i < HeightMap::kSide; ++i) {
       if (h.crown.at(i, j) == kNoHeight_mm || h.bone.at(i, j) == kNoHeight_mm) continue;
@@ -168,7 +168,7 @@ std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, dou
       if (depth_mm > kRamusDepth_mm) continue;
       h.lowest.at(i, j) = std::max(h.lowest.at(i, j), h.bone.at(i, j) - kMostDepth_mm);
       if (depth_mm > kLeastDepth_mm && hidden.at(i, j) == kNoHeight_mm)
-        wanted[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)] = 1;
+        wanted[HeightMap::column(i, j)] = 1;
       else if (depth_mm <= kLeastDepth_mm && h.tooth.at(i, j) > h.bone.at(i, j) && i % 3 == 0 && j % 3 == 0)
         cut.bare_P_mm.push_back(at(i, j, h.tooth.at(i, j)));
     }
@@ -182,7 +182,7 @@ std::optional<assets::PlannedCut> planGutter(const assets::Patient& patient, dou
   double nearest = -kNoHeight_mm;
   for (int j = 0; j < HeightMap::kSide; ++j)
     for (int i = 0; i < HeightMap::kSide; ++i) {
-      if (!planned[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)]) continue;
+      if (!planned[HeightMap::column(i, j)]) continue;
       const double off = std::hypot(HeightMap::place_mm(i) - middle.x, HeightMap::place_mm(j) - middle.y);
       if (off >= nearest) continue;
       nearest = off;

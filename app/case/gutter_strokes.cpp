@@ -9,6 +9,7 @@ namespace app {
 namespace {
 
 constexpr int kRow = 4;  ///< columns from one row of strokes to the next
+static_assert(HeightMap::kHalf % kRow == 0, "a cut of the middle row alone has strokes");
 constexpr double kLeastStroke_mm = 0.25;
 constexpr double kStraight_mm = 0.05;  ///< corners that a stroke leaves out
 
@@ -57,9 +58,7 @@ class Strokes {
   }
 
  private:
-  bool isPlanned(int i, int j) const {
-    return planned_[static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i)] != 0;
-  }
+  bool isPlanned(int i, int j) const { return planned_[HeightMap::column(i, j)] != 0; }
 
   void row(int j, double level_mm, double above_mm) {
     std::vector<std::vector<glm::dvec3>> runs;

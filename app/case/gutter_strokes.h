@@ -1,5 +1,5 @@
 // The strokes that cut a gutter from a height map: level by level from the top, row by row along the crown, to and fro,
-// then along the bottom while the bone gives way. Frame P, mm. Start-up only; some ms.
+// then along the bottom while the bone gives way. Frame P, mm. Any thread; some ms.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 
 namespace app {
 
+/// For a bur that cuts with its ball: a longer head takes more in a pass.
 struct StrokePlan {
   double level_mm = 0.5;     ///< depth of one pass
   int finishing_passes = 2;  ///< along the bottom

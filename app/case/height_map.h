@@ -1,5 +1,5 @@
 // A map of the bone around a crown, seen along the bur's way in: lines along `outward` on a square lattice, one number
-// each, the height of the bur's centre. For the plan of the gutter (gutter_plan.h). Frame P, mm. Start-up only.
+// each, the height of the bur's centre. For gutter_plan.h and procedure/third_molar. Frame P, mm. Any thread.
 #pragma once
 
 #include <algorithm>
@@ -28,13 +28,16 @@ inline constexpr double kNoHeight_mm = -1e9;
 /// One number per column of the map.
 class HeightMap {
  public:
-  HeightMap() : mm_(static_cast<std::size_t>(kSide) * kSide, kNoHeight_mm) {}
+  HeightMap() : mm_(kColumns, kNoHeight_mm) {}
   static constexpr double kReach_mm = 12.0;  ///< from the crown's middle
   static constexpr double kColumn_mm = 0.3;  ///< from line to line
   static constexpr int kHalf = static_cast<int>(kReach_mm / kColumn_mm), kSide = 2 * kHalf + 1;
+  static constexpr std::size_t kColumns = static_cast<std::size_t>(kSide) * kSide;
 
-  double& at(int i, int j) { return mm_[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)]; }
-  double at(int i, int j) const { return mm_[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)]; }
+  /// Where a column stands in a list of all kColumns of them.
+  static std::size_t column(int i, int j) { return static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i); }
+  double& at(int i, int j) { return mm_[column(i, j)]; }
+  double at(int i, int j) const { return mm_[column(i, j)]; }
   static double place_mm(int i) { return kColumn_mm * (i - kHalf); }
 
   /// visit(i, j, squared distance) for the columns within a radius.

@@ -52,17 +52,23 @@ std::optional<OperatedCrown> operatedCrown(const CtVolume& ct, const assets::Ope
   return crown;
 }
 
-WayIn wayIn(const CtVolume& ct, const assets::OperativeSite& site, const glm::dvec3& middle_P_mm) {
+WayIn SiteAxes::wayIn(const glm::dvec3& middle_P_mm, double to_cheek, double to_front) const {
+  const glm::dvec3 outward = glm::normalize(up_P + to_cheek * buccal_P - to_front * distal_P);
+  const glm::dvec3 along = glm::normalize(distal_P - glm::dot(distal_P, outward) * outward);
+  const glm::dvec3 across = glm::cross(outward, along);
+  return {middle_P_mm, along, glm::dot(across, buccal_P) < 0.0 ? -across : across, outward};
+}
+
+SiteAxes siteAxes(const CtVolume& ct, const assets::OperativeSite& site) {
   const glm::dvec3 distal = archDirection_P(ct, site), up = assets::occlusalDirection_P(site.fdi);
-  glm::dvec3 buccal = glm::cross(up, distal);
-  if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
-  const double lean = std::abs(glm::dot(glm::normalize(site.axis_P), distal));
-  const double forward = std::min(kForwardUpright + kForwardPerLean * lean, kMostForward);
-  const glm::dvec3 outward = glm::normalize(up + kToCheek * buccal - forward * distal);
-  const glm::dvec3 along = glm::normalize(distal - glm::dot(distal, outward) * outward);
-  glm::dvec3 across = glm::cross(outward, along);
-  if (glm::dot(across, buccal) < 0.0) across = -across;
-  return {middle_P_mm, along, across, outward};
+  const glm::dvec3 buccal = glm::cross(up, distal);
+  return {distal, glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0 ? -buccal : buccal, up};
+}
+
+WayIn wayIn(const CtVolume& ct, const assets::OperativeSite& site, const glm::dvec3& middle_P_mm) {
+  const SiteAxes axes = siteAxes(ct, site);
+  const double lean = std::abs(glm::dot(glm::normalize(site.axis_P), axes.distal_P));
+  return axes.wayIn(middle_P_mm, kToCheek, std::min(kForwardUpright + kForwardPerLean * lean, kMostForward));
 }
 
 }  // namespace app

@@ -12,7 +12,7 @@
 
 namespace app {
 
-/// Of tooth `fdi`; where no tooth is numbered, of any.
+/// Voxel `v` is of tooth `fdi`; where no tooth is numbered, of any.
 bool isOfTooth(const assets::CtVolume& ct, std::size_t v, int fdi);
 
 struct OperatedCrown {
@@ -23,6 +23,15 @@ struct OperatedCrown {
 
 /// None: the tooth has no voxel.
 std::optional<OperatedCrown> operatedCrown(const assets::CtVolume& ct, const assets::OperativeSite& site);
+
+/// Unit, horizontal but for `up`, square to each other.
+struct SiteAxes {
+  glm::dvec3 distal_P, buccal_P, up_P;
+
+  /// Out of the bone along up + to_cheek * buccal - to_front * distal, with its rows along the arch.
+  WayIn wayIn(const glm::dvec3& middle_P_mm, double to_cheek, double to_front) const;
+};
+SiteAxes siteAxes(const assets::CtVolume& ct, const assets::OperativeSite& site);
 
 /// Up, to the cheek and to the front: between the surgeon's line of sight and the tooth. The farther the crown leans,
 /// the more to the front: a more upright shaft would stand in bone, behind a mesio-angular crown or before a

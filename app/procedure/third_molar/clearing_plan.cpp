@@ -42,13 +42,13 @@ Clearing clearingAlong(const SiteSolid& site, const WayIn& way, std::span<const 
     });
     one.reached += is_reached ? 1 : 0;
   }
-  one.planned.assign(static_cast<std::size_t>(HeightMap::kSide) * HeightMap::kSide, 0);
+  one.planned.assign(HeightMap::kColumns, 0);
   for (int j = 0; j < HeightMap::kSide; ++j)
     for (int i = 0; i < HeightMap::kSide; ++i) {
       if (goal.at(i, j) == -kNoHeight_mm) continue;
       h.lowest.at(i, j) = std::max(h.lowest.at(i, j), goal.at(i, j));
       if (h.lowest.at(i, j) >= h.bone.at(i, j)) continue;
-      one.planned[columnAt(i, j)] = 1;
+      one.planned[HeightMap::column(i, j)] = 1;
       one.cut_mm += h.bone.at(i, j) - h.lowest.at(i, j);
     }
   return one;

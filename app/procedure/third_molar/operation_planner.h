@@ -68,6 +68,7 @@ class OperationPlanner {
   assets::Patient now_;  ///< its solid is what is left
   double bur_radius_mm_;
   WayUp up_;
+  double whole_mm3_ = 0.0;  ///< of the tooth before it was parted; 0: not looked at yet
   std::size_t sections_ = 0;
   int tries_ = 0;  ///< since a piece was taken out or parted
   std::size_t pieces_left_ = 0;

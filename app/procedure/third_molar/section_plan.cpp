@@ -85,14 +85,14 @@ std::optional<assets::PlannedCut> planSection(const SiteSolid& site, double bur_
   if (!best) return {};
 
   Heights& h = best->heights;
-  std::vector<char> planned(static_cast<std::size_t>(HeightMap::kSide) * HeightMap::kSide, 0);
+  std::vector<char> planned(HeightMap::kColumns, 0);
   for (int i = 0; i < HeightMap::kSide; ++i) {
     const double x_mm = HeightMap::place_mm(i), fork_mm = best->fork.at(i, kMiddle);
     if (x_mm < best->lingual_mm + bur_radius_mm - overshoot_mm || x_mm > best->buccal_mm || fork_mm == -kNoHeight_mm)
       continue;
     double& lowest_mm = h.lowest.at(i, kMiddle);
     lowest_mm = std::max(lowest_mm, fork_mm + bur_radius_mm - overshoot_mm);
-    planned[columnAt(i, kMiddle)] = lowest_mm < h.bone.at(i, kMiddle) ? 1 : 0;
+    planned[HeightMap::column(i, kMiddle)] = lowest_mm < h.bone.at(i, kMiddle) ? 1 : 0;
   }
   assets::PlannedCut cut = cutAlong(best->way, h, planned, bur_radius_mm);
   if (cut.strokes_P_mm.empty()) return {};

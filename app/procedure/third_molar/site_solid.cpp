@@ -6,7 +6,6 @@
 #include "app/case/gutter_strokes.h"
 #include "app/case/operated_crown.h"
 #include "app/case/trough_plan.h"
-#include "assets/tooth.h"
 
 namespace app {
 namespace {
@@ -47,16 +46,9 @@ SiteSolid::SiteSolid(const assets::Patient& now) : now_(now) {
     surface_.push_back({ct.grid.centre_P_mm(ijk), is_tooth, isOtherTooth(ct, v, fdi)});
   });
 
-  const glm::dvec3 distal = archDirection_P(ct, *now.site), up = assets::occlusalDirection_P(fdi);
-  glm::dvec3 buccal = glm::cross(up, distal);
-  if (glm::dot(buccal, assets::buccalDirection_P(fdi)) < 0.0) buccal = -buccal;
+  const SiteAxes axes = siteAxes(ct, *now.site);
   for (const double to_cheek : kToCheek)
-    for (const double to_front : kToFront) {
-      const glm::dvec3 outward = glm::normalize(up + to_cheek * buccal - to_front * distal);
-      const glm::dvec3 along = glm::normalize(distal - glm::dot(distal, outward) * outward);
-      const glm::dvec3 across = glm::cross(outward, along);
-      ways_.push_back({crown->middle_P_mm, along, glm::dot(across, buccal) < 0.0 ? -across : across, outward});
-    }
+    for (const double to_front : kToFront) ways_.push_back(axes.wayIn(crown->middle_P_mm, to_cheek, to_front));
 }
 
 Heights SiteSolid::heightsAlong(const WayIn& way, double bur_radius_mm, double off_tooth_mm, double within_mm) const {
@@ -93,11 +85,11 @@ assets::PlannedCut cutAlong(const WayIn& way, const Heights& heights, const std:
       for (int i = from.x; i <= to.x; ++i) visit(i, j);
   };
   for_columns(glm::ivec2(0), glm::ivec2(HeightMap::kSide - 1), [&](int i, int j) {
-    if (!planned[columnAt(i, j)]) return;
+    if (!planned[HeightMap::column(i, j)]) return;
     low = glm::min(low, glm::ivec2(i, j));
     high = glm::max(high, glm::ivec2(i, j));
   });
-  for_columns(low, high, [&](int i, int j) { over_mm = std::max(over_mm, heights.lowest.at(i, j)); });
+  for_columns(low, high, [&](int i, int j) { over_mm = std::max(over_mm, heights.bone.at(i, j)); });
   cut.over_mm = std::max(cut.over_mm, over_mm - top_mm + kClear_mm);
   return cut;
 }

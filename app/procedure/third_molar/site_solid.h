@@ -15,9 +15,7 @@ class SiteSolid {
   /// `now`: a patient with a site, whose solid is what is left. Borrowed.
   explicit SiteSolid(const assets::Patient& now);
 
-  /// No voxel of the tooth is solid.
-  bool isEmpty() const { return tooth_P_mm_.empty(); }
-  /// Middles of the voxels that are left of it.
+  /// Middles of the voxels that are left of the tooth.
   const std::vector<glm::dvec3>& tooth_P_mm() const { return tooth_P_mm_; }
   double voxel_mm3() const { return now_.ct.grid.voxelVolume_mm3(); }
   /// From above, the cheek and the front, through the crown's middle.
@@ -38,11 +36,6 @@ class SiteSolid {
   std::vector<glm::dvec3> tooth_P_mm_;
   std::vector<WayIn> ways_;
 };
-
-/// Column of a HeightMap in a list of them.
-inline std::size_t columnAt(int i, int j) {
-  return static_cast<std::size_t>(j) * HeightMap::kSide + static_cast<std::size_t>(i);
-}
 
 /// The strokes that cut these columns down to the lowest heights.
 assets::PlannedCut cutAlong(const WayIn& way, const Heights& heights, const std::vector<char>& planned,
