@@ -8,8 +8,10 @@
 
 #include "app/procedure/third_molar/clearing_plan.h"
 #include "app/procedure/third_molar/delivery_path.h"
+#include "app/procedure/third_molar/demonstration.h"
 #include "app/procedure/third_molar/operation_planner.h"
 #include "app/procedure/third_molar/section_plan.h"
+#include "app/text/usage_error.h"
 #include "haptics/body/components.h"
 
 namespace app {
@@ -257,6 +259,90 @@ TEST(OperationPlanner, TakesAwayWhatBlocksAPieceBeforeItIsGripped) {
   const CutStep* cut = std::get_if<CutStep>(&next.what);
   ASSERT_NE(cut, nullptr) << next.words;
   EXPECT_NE(next.words.find("blocks"), std::string::npos);
+}
+
+TEST(OperationPlanner, PartsAToothOfWhichACornerHasBrokenOff) {
+  Operation operation{phantom(-6.5)};
+  OperationPlanner planner(operation.patient, kBur_mm);
+  assets::CtVolume& ct = operation.patient.ct;
+  EXPECT_EQ(planner.next(operation.copy(), ct.grid, glm::ivec3(0)).words, "part the tooth");
+  // A plane cut through one corner of the crown.
+  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
+    if (ct.tooth[v] == kFdi && std::abs(p.y - 2.2) < 0.5 && p.x < -0.4 && p.z > 2.6) ct.solid[v] = 0;
+    if (ct.tooth[v] == kFdi && std::abs(p.z - 2.8) < 0.5 && p.x < -0.4 && p.y > 1.8) ct.solid[v] = 0;
+    if (ct.tooth[v] == kFdi && std::abs(p.x + 0.6) < 0.5 && p.z > 2.6 && p.y > 1.8) ct.solid[v] = 0;
+  });
+  ASSERT_EQ(piecesOf(ct), 2U);
+  EXPECT_EQ(planner.next(operation.copy(), ct.grid, glm::ivec3(0)).words, "part the tooth");
+}
+
+TEST(OperationPlanner, LeadsAMovedPieceFromWhereItLies) {
+  Operation operation{phantom(-6.5)};
+  operation.is_any_out = true;
+  assets::CtVolume& ct = operation.patient.ct;
+  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (ct.tooth[v] == kFdi && ct.grid.centre_P_mm(ijk).y < 0.0) ct.solid[v] = 0;
+  });
+  OperationPlanner planner(operation.patient, kBur_mm);
+  // A whole tooth was seen first, so that what is left is a part of it.
+  (void)planner.next(Operation{phantom(-6.5)}.copy(), ct.grid, glm::ivec3(0));
+  BodiesCopy bodies = operation.copy();
+  bodies.X_PQ[0] = {glm::angleAxis(0.2, glm::dvec3(0.0, 0.0, 1.0)), {0.4, 0.0, 0.8}};
+  const OperationStep step = planner.next(bodies, ct.grid, glm::ivec3(0));
+  const DeliveryStep* delivery = std::get_if<DeliveryStep>(&step.what);
+  ASSERT_NE(delivery, nullptr) << step.words;
+  EXPECT_LT(glm::distance(delivery->path_X_PQ.front().translation_mm, bodies.X_PQ[0].translation_mm), 1.0);
+  EXPECT_GT(std::abs(glm::dot(delivery->path_X_PQ.front().rotation, bodies.X_PQ[0].rotation)), 0.999);
+}
+
+/// The phantom's operation at its first cut.
+struct Shown {
+  assets::Patient patient = phantom(3.0);
+  haptics::Bodies bodies{patient.ct.grid, patient.ct.solid, patient.ct.label, assets::voxelsOfTooth(patient.ct, kFdi)};
+  std::vector<haptics::Tool> tray{{{haptics::ShapeKind::sphere, 1.5, 0.0}, {}},
+                                  {{haptics::ShapeKind::capsule, 1.0, 8.0}, {}},
+                                  haptics::forcepsTool()};
+  assets::PlannedCut gutter = assets::plannedAlong({{-5.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}});
+  haptics::LedHand hand{{}};
+  Demonstration demonstration{patient, gutter, tray, bodies, hand};
+
+  Demonstration::Frame frame() const {
+    Demonstration::Frame one;
+    one.newest.dt_s = 1e-3;
+    one.newest.state = haptics::SafetyState::active;
+    one.in_hand = tray[0];
+    one.is_applied = true;
+    return one;
+  }
+};
+
+TEST(Demonstration, SaysWhatInterruptedIt) {
+  const auto after = [](const auto& change) {
+    Shown shown;
+    Demonstration::Frame frame = shown.frame();
+    EXPECT_FALSE(shown.demonstration.follow(frame));
+    EXPECT_FALSE(shown.demonstration.isOver());
+    change(frame);
+    EXPECT_FALSE(shown.demonstration.follow(frame));
+    EXPECT_EQ(shown.demonstration.isOver(), !shown.demonstration.failure().empty());
+    return shown.demonstration.failure();
+  };
+  EXPECT_EQ(after([](Demonstration::Frame&) {}), "");
+  EXPECT_EQ(after([](Demonstration::Frame& frame) { frame.in_hand = haptics::forcepsTool(); }),
+            "another tool was taken");
+  EXPECT_EQ(after([](Demonstration::Frame& frame) { frame.drill_enabled = false; }), "the drill was locked");
+  EXPECT_EQ(after([](Demonstration::Frame& frame) { frame.newest.state = haptics::SafetyState::fault; }),
+            "the motors are off");
+}
+
+TEST(Demonstration, NeedsALongBurAndForceps) {
+  const haptics::Tool ball{{haptics::ShapeKind::sphere, 1.5, 0.0}, {}},
+      stub{{haptics::ShapeKind::capsule, 1.0, 0.1}, {}}, bur{{haptics::ShapeKind::capsule, 1.0, 8.0}, {}};
+  EXPECT_THROW(operationTray({ball, haptics::forcepsTool()}), UsageError);
+  EXPECT_THROW(operationTray({ball, stub, haptics::forcepsTool()}), UsageError);
+  EXPECT_THROW(operationTray({ball, bur}), UsageError);
+  EXPECT_EQ(operationTray({ball, bur, haptics::forcepsTool()}).forceps, 2U);
 }
 
 TEST(DeliveryPath, LeadsTheToolAsThePieceGoesAndOpensAtTheEnd) {
