@@ -39,13 +39,7 @@ HandleState LedHand::exchange(const Wrench<calibration::Device>& wrench_D, doubl
     target_ = path_->script(t_s_);
     if (t_s_ >= path_->duration_s) arrived_.store(path_, std::memory_order_release);
   }
-  hand_.advance(from.position_mm, dt_s > 0.0 ? (target_.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0),
-                wrench_D.force_N.xyz, dt_s);
-  HandleState state;
-  state.X_DH = {target_.rotation, hand_.position_mm};
-  state.velocity_D_mm_per_s.xyz = hand_.velocity_mm_per_s;
-  state.pedal = target_.pedal;
-  return state;
+  return hand_.follow(from, target_, wrench_D, dt_s);
 }
 
 }  // namespace haptics

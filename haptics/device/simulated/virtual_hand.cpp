@@ -26,6 +26,17 @@ Response responseAfter(double a, double w2, double dt_s) {
 
 }  // namespace
 
+HandleState VirtualHand::follow(const HandTarget& from, const HandTarget& to,
+                                const Wrench<calibration::Device>& wrench_D, double dt_s) {
+  advance(from.position_mm, dt_s > 0.0 ? (to.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0),
+          wrench_D.force_N.xyz, dt_s);
+  HandleState state;
+  state.X_DH = {to.rotation, position_mm};
+  state.velocity_D_mm_per_s.xyz = velocity_mm_per_s;
+  state.pedal = to.pedal;
+  return state;
+}
+
 void VirtualHand::advance(const glm::dvec3& target_mm, const glm::dvec3& target_velocity_mm_per_s,
                           const glm::dvec3& force_N, double dt_s) {
   if (!std::isfinite(glm::length(force_N)) || !std::isfinite(glm::length(target_mm)) ||

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/simulated/hand_script.h"
+
 namespace haptics {
 
 /// 2 sqrt(k m): fastest return without overshoot.
@@ -25,6 +28,9 @@ struct VirtualHand {
 
   double totalDamping_Ns_per_mm() const { return damping_Ns_per_mm + friction_Ns_per_mm; }
 
+  /// Advances from one target of a script to the next under the device's wrench; what the device then measures.
+  HandleState follow(const HandTarget& from, const HandTarget& to, const Wrench<calibration::Device>& wrench_D,
+                     double dt_s);
   /// Advances by `dt_s` towards a target that moves at `target_velocity`, under `force_N`.
   void advance(const glm::dvec3& target_mm, const glm::dvec3& target_velocity_mm_per_s, const glm::dvec3& force_N,
                double dt_s);
