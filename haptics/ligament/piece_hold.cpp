@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "haptics/ligament/series.h"
+#include "haptics/ligament/settle.h"
 
 namespace haptics {
 namespace {
-
-// Longest step of one evaluation: snapping fibres move a piece by at most six of them in a tick.
-constexpr double kMostStep_mm = 0.2, kMostStep_rad = 0.04;
-constexpr double kBalanced_N = 5e-3;
-// Where the field's slope has kinks, at the faces of its cells, the least energy may lie on one with a residual left.
-/// What a step would still gain there is too little to matter,
-constexpr double kGain_Nmm = 5e-7;
-/// or a step as short as this did not halve the residual: the pose is within it.
-constexpr double kKink_mm = 2e-3;
 
 float narrow(double value) { return static_cast<float>(value); }
 
@@ -42,33 +33,6 @@ HoldConstants constantsOf(const LigamentLaw& law) {
   c.creep_floor = narrow(law.creep_floor);
   c.yield = narrow(law.yield_N_per_mm2);
   return c;
-}
-
-/// Turned about the centre, then moved; the turn is that of a rotation vector to the third order.
-PiecePose moved(const PiecePose& X_PQ, const glm::dvec3& centre_Q_mm, const Six& step) noexcept {
-  const glm::dvec3 centre_P_mm =
-      X_PQ.rotation * centre_Q_mm + X_PQ.translation_mm + glm::dvec3(step[0], step[1], step[2]);
-  const glm::dquat turn(1.0, 0.5 * glm::dvec3(step[3], step[4], step[5]));
-  const glm::dquat turned = turn * X_PQ.rotation;
-  const glm::dquat rotation = turned / std::sqrt(glm::dot(turned, turned));
-  return {rotation, centre_P_mm - rotation * centre_Q_mm};
-}
-
-void limit(Six& step) noexcept {
-  double over = 1.0;
-  for (std::size_t n = 0; n < 6; ++n)
-    over = std::max(over, std::fabs(step[n]) / (n < 3 ? kMostStep_mm : kMostStep_rad));
-  for (double& part : step) part /= over;
-}
-
-double largest(const Six& six, double lever) noexcept {
-  double most = 0.0;
-  for (std::size_t n = 0; n < 6; ++n) most = std::max(most, std::fabs(six[n]) * (n < 3 ? 1.0 : lever));
-  return most;
-}
-
-bool isFinite(const Six& six) noexcept {
-  return std::all_of(six.begin(), six.end(), [](double part) { return std::isfinite(part); });
 }
 
 void copyInto(std::span<const float> from, std::vector<float>& to) noexcept {
@@ -146,16 +110,28 @@ PieceHold::KernelInput PieceHold::inputAt(const PiecePose& X_PQ, const DistanceF
   return {constantsFor(period_s), view(), placeAt(X_PQ, obstacles)};
 }
 
+HoldBalance PieceHold::balanceAt(const PiecePose& X_PQ, const DistanceField* obstacles,
+                                 double period_s) const noexcept {
+  return balanceAt(X_PQ, constantsFor(period_s), obstacles);
+}
+
+HoldBalance PieceHold::balanceAt(const PiecePose& X_PQ, const HoldConstants& constants,
+                                 const DistanceField* obstacles) const noexcept {
+  const HoldSums sums = sumHold(constants, view(), placeAt(X_PQ, obstacles));
+  HoldBalance hold;
+  hold.balance.energy_Nmm = sums.energy;
+  std::copy(std::begin(sums.gradient), std::end(sums.gradient), hold.balance.gradient.begin());
+  std::copy(std::begin(sums.hessian), std::end(sums.hessian), hold.balance.hessian.upper.begin());
+  hold.contact_Nmm = sums.contact_energy;
+  return hold;
+}
+
 /// `drive` with its load already about the centre.
 PieceHold::Tried PieceHold::tryAt(const PiecePose& X_PQ, const HoldConstants& constants, const DistanceField* obstacles,
                                   const PieceDrive& drive, double drag_N_per_mm) const noexcept {
-  const HoldSums sums = sumHold(constants, view(), placeAt(X_PQ, obstacles));
-  Tried tried{.X_PQ = X_PQ};
+  const HoldBalance hold = balanceAt(X_PQ, constants, obstacles);
+  Tried tried{.X_PQ = X_PQ, .balance = hold.balance, .contact_Nmm = hold.contact_Nmm};
   Balance& balance = tried.balance;
-  balance.energy_Nmm = sums.energy;
-  std::copy(std::begin(sums.gradient), std::end(sums.gradient), balance.gradient.begin());
-  std::copy(std::begin(sums.hessian), std::end(sums.hessian), balance.hessian.upper.begin());
-  tried.contact_Nmm = sums.contact_energy;
 
   // The load's work along the way and, to second order, the turn of this tick.
   const glm::dvec3& centre_Q_mm = samples_.centre_Q_mm;
@@ -174,35 +150,6 @@ PieceHold::Tried PieceHold::tryAt(const PiecePose& X_PQ, const HoldConstants& co
   return tried;
 }
 
-PieceHold::Tried PieceHold::settle(const HoldConstants& constants, const DistanceField* obstacles,
-                                   const PieceDrive& drive, double drag_N_per_mm, HoldTick& tick) const noexcept {
-  Tried best = tryAt(state_.X_PQ, constants, obstacles, drive, drag_N_per_mm);
-  tick.evaluations = 1;
-  while (best.residual_N >= kBalanced_N) {
-    Six down{}, step{};
-    for (std::size_t n = 0; n < 6; ++n) down[n] = -best.balance.gradient[n];
-    if (!isFinite(down) || !solve(best.balance.hessian, down, step)) break;
-    if (0.5 * std::inner_product(down.begin(), down.end(), step.begin(), 0.0) < kGain_Nmm) return best;
-    limit(step);
-
-    // A step is taken if energy or residual falls, else halved.
-    const double length_mm = largest(step, law_.drag_lever_mm), before_N = best.residual_N;
-    bool is_taken = false;
-    while (!is_taken && tick.evaluations < kMostEvaluations) {
-      const Tried next =
-          tryAt(moved(best.X_PQ, samples_.centre_Q_mm, step), constants, obstacles, drive, drag_N_per_mm);
-      ++tick.evaluations;
-      is_taken = next.balance.energy_Nmm <= best.balance.energy_Nmm || next.residual_N < best.residual_N;
-      if (is_taken) best = next;
-      for (double& part : step) part *= 0.5;
-    }
-    if (!is_taken) break;
-    if (length_mm < kKink_mm && best.residual_N > 0.5 * before_N) return best;
-  }
-  tick.unsettled = !(best.residual_N < kBalanced_N);
-  return best;
-}
-
 HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles, double period_s) noexcept {
   HoldTick tick{.X_PQ = state_.X_PQ};
   tick.refused = !isUsable(drive) || !(period_s > 0.0 && period_s <= kLongestTick_s);
@@ -214,18 +161,34 @@ HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles
   about_centre.torque_Nmm.xyz += glm::cross(drive.load_at_P.mm - centre_P_mm, drive.force_N.xyz);
 
   const HoldConstants constants = constantsFor(period_s);
-  const Tried end = settle(constants, obstacles, about_centre, law_.drag_Ns_per_mm / period_s, tick);
+  const double drag_N_per_mm = law_.drag_Ns_per_mm / period_s;
+  const auto try_at = [&](const PiecePose& X_PQ) {
+    return tryAt(X_PQ, constants, obstacles, about_centre, drag_N_per_mm);
+  };
+  SettleEffort effort;
+  const Tried end = settled<6>(
+      try_at(state_.X_PQ), law_.drag_lever_mm,
+      [&](const Tried& from, const Six& step) { return try_at(moved(from.X_PQ, samples_.centre_Q_mm, step)); }, effort);
+
+  tick = moveTo(end.X_PQ, obstacles, end.contact_Nmm, period_s);
+  tick.evaluations = effort.evaluations;
+  tick.unsettled = effort.unsettled;
   if (tick.unsettled) ++unsettled_;
-  state_.X_PQ = tick.X_PQ = end.X_PQ;
   tick.on_hand = -1.0 * end.spring;
   tick.residual_N = end.residual_N;
+  return tick;
+}
 
+HoldTick PieceHold::moveTo(const PiecePose& X_PQ, const DistanceField* obstacles, double contact_Nmm,
+                           double period_s) noexcept {
+  HoldTick tick{.X_PQ = X_PQ};
+  state_.X_PQ = X_PQ;
   LigamentMemory& ligament = state_.ligament;
   const HoldAge age = ageHold(
-      constants, view(), placeAt(end.X_PQ, obstacles),
+      constantsFor(period_s), view(), placeAt(X_PQ, obstacles),
       {ligament.torn.data(), ligament.fluid_N_per_mm2.data(), ligament.strain.data(), ligament.widened_mm.data()});
   tick.torn_Nmm = age.torn_Nmm;
-  tick.stored_Nmm = age.stored_Nmm + end.contact_Nmm;
+  tick.stored_Nmm = age.stored_Nmm + contact_Nmm;
   tick.torn_share = ligament_area_mm2_ > 0.0 ? age.torn_area_mm2 / ligament_area_mm2_ : 1.0;
   return tick;
 }

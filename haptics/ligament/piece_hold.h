@@ -12,6 +12,7 @@
 #include "haptics/ligament/hold_kernels.h"
 #include "haptics/ligament/piece_drive.h"
 #include "haptics/ligament/piece_samples.h"
+#include "haptics/ligament/settle.h"
 
 namespace haptics {
 
@@ -33,8 +34,13 @@ struct HoldTick {
   bool refused = false;    ///< input that is no number, or a period outside kLongestTick_s: nothing changed
 };
 
-inline constexpr int kMostEvaluations = 6;
 inline constexpr double kLongestTick_s = 0.05;
+
+/// Ligament, wall and contact at a pose, without drive and drag.
+struct HoldBalance {
+  Balance balance;  ///< about the samples' centre
+  double contact_Nmm = 0.0;
+};
 
 class PieceHold {
  public:
@@ -43,6 +49,12 @@ class PieceHold {
 
   /// `obstacles` may be null: then each sample of ligament meets the plane of its own socket point and nothing else.
   HoldTick step(const PieceDrive& drive, const DistanceField* obstacles, double period_s) noexcept;
+
+  /// For a solve together with other bodies: what holds the piece at a pose,
+  HoldBalance balanceAt(const PiecePose& X_PQ, const DistanceField* obstacles, double period_s) const noexcept;
+  /// and the piece where that solve had it, `contact_Nmm` of it: it tears, creeps, flows and widens its socket. Leaves
+  /// evaluations, residual and on_hand of the tick empty.
+  HoldTick moveTo(const PiecePose& X_PQ, const DistanceField* obstacles, double contact_Nmm, double period_s) noexcept;
 
   const PieceState& state() const noexcept { return state_; }
   /// A state of this piece (assert). No allocation.
@@ -76,11 +88,10 @@ class PieceHold {
   HoldPlace placeAt(const PiecePose& X_PQ, const DistanceField* obstacles) const noexcept;
   HoldSamples view() const noexcept;
   HoldConstants constantsFor(double period_s) const noexcept;
+  HoldBalance balanceAt(const PiecePose& X_PQ, const HoldConstants& constants,
+                        const DistanceField* obstacles) const noexcept;
   Tried tryAt(const PiecePose& X_PQ, const HoldConstants& constants, const DistanceField* obstacles,
               const PieceDrive& drive, double drag_N_per_mm) const noexcept;
-  Tried settle(const HoldConstants& constants, const DistanceField* obstacles, const PieceDrive& drive,
-               double drag_N_per_mm, HoldTick& tick) const noexcept;
-
   PieceSamples samples_;
   LigamentLaw law_;
   HoldConstants constants_;
