@@ -34,20 +34,6 @@ void addTurn(const glm::dvec3& slope_Nmm, const glm::dmat3& stiffness_Nmm, Balan
   }
 }
 
-glm::dvec3 springForce_N(const PieceSpring& spring, const glm::dvec3& arm_mm, const glm::dvec3& way_mm,
-                         Balance& balance) noexcept {
-  const double k = spring.stiffness_N_per_mm, most = spring.most_force_N, length_mm = glm::length(way_mm);
-  if (k * length_mm <= most) {
-    balance.energy_Nmm += 0.5 * k * length_mm * length_mm;
-    balance.addForce(arm_mm, -k * way_mm, glm::dmat3(k));
-    return k * way_mm;
-  }
-  const glm::dvec3 along = way_mm / length_mm;
-  balance.energy_Nmm += most * length_mm - 0.5 * most * most / k;
-  balance.addForce(arm_mm, -most * along, most / length_mm * acrossOf(along));
-  return most * along;
-}
-
 glm::dvec3 springTorque_Nmm(const PieceSpring& spring, const HalfTurn& turn, Balance& balance) noexcept {
   const double k = spring.stiffness_Nmm_per_rad, most = spring.most_torque_Nmm, sine = glm::length(turn.sine);
   if (2.0 * k * sine <= most) {
@@ -62,6 +48,21 @@ glm::dvec3 springTorque_Nmm(const PieceSpring& spring, const HalfTurn& turn, Bal
   balance.energy_Nmm += at_bound + 2.0 * most * (arcSineOf(std::fmin(1.0, sine)) - arcSineOf(bound));
   addTurn(-most * axis, 0.5 * most * turn.cosine / sine * acrossOf(axis), balance);
   return most * axis;
+}
+
+template <class Body>
+void addDragOf(const calibration::Pose<calibration::Patient, Body>& start,
+               const calibration::Pose<calibration::Patient, Body>& now, const glm::dvec3& centre_mm, double N_per_mm,
+               double lever_mm, Balance& balance) noexcept {
+  const calibration::Point<Body> centre{centre_mm};
+  const glm::dvec3 way_mm = (now * centre).mm - (start * centre).mm;
+  balance.energy_Nmm += 0.5 * N_per_mm * glm::dot(way_mm, way_mm);
+  balance.addForce(glm::dvec3(0.0), N_per_mm * way_mm, glm::dmat3(N_per_mm));
+
+  const HalfTurn turn = halfTurn(start.rotation, now.rotation);
+  const double turn_Nmm_per_rad = N_per_mm * lever_mm * lever_mm;
+  balance.energy_Nmm += turnEnergy(turn_Nmm_per_rad, turn);
+  addTurn(2.0 * turn_Nmm_per_rad * turn.sine, glm::dmat3(turn_Nmm_per_rad * turn.cosine), balance);
 }
 
 bool isFinite(const PiecePose& pose) noexcept {
@@ -92,25 +93,37 @@ void Balance::addForce(const glm::dvec3& arm_mm, const glm::dvec3& slope_N,
   }
 }
 
+glm::dvec3 addPull(double stiffness_N_per_mm, double most_N, const glm::dvec3& arm_mm, const glm::dvec3& way_mm,
+                   Balance& balance) noexcept {
+  const double k = stiffness_N_per_mm, most = most_N, length_mm = glm::length(way_mm);
+  if (k * length_mm <= most) {
+    balance.energy_Nmm += 0.5 * k * length_mm * length_mm;
+    balance.addForce(arm_mm, -k * way_mm, glm::dmat3(k));
+    return k * way_mm;
+  }
+  const glm::dvec3 along = way_mm / length_mm;
+  balance.energy_Nmm += most * length_mm - 0.5 * most * most / k;
+  balance.addForce(arm_mm, -most * along, most / length_mm * acrossOf(along));
+  return most * along;
+}
+
 Wrench<calibration::Patient> addSpring(const PieceSpring& spring, const PiecePose& X_PQ, const glm::dvec3& centre_Q_mm,
                                        Balance& balance) noexcept {
   const glm::dvec3 arm_mm = X_PQ.rotation * (spring.grip_Q.mm - centre_Q_mm);
   const glm::dvec3 way_mm = (spring.target_X_PQ * spring.grip_Q).mm - (X_PQ * spring.grip_Q).mm;
-  const glm::dvec3 force_N = springForce_N(spring, arm_mm, way_mm, balance);
+  const glm::dvec3 force_N = addPull(spring.stiffness_N_per_mm, spring.most_force_N, arm_mm, way_mm, balance);
   return {{force_N}, {springTorque_Nmm(spring, halfTurn(X_PQ.rotation, spring.target_X_PQ.rotation), balance)}};
 }
 
 void addDrag(const PiecePose& start_X_PQ, const PiecePose& X_PQ, const glm::dvec3& centre_Q_mm, double N_per_mm,
              double lever_mm, Balance& balance) noexcept {
-  const calibration::Point<calibration::Piece> centre{centre_Q_mm};
-  const glm::dvec3 way_mm = (X_PQ * centre).mm - (start_X_PQ * centre).mm;
-  balance.energy_Nmm += 0.5 * N_per_mm * glm::dot(way_mm, way_mm);
-  balance.addForce(glm::dvec3(0.0), N_per_mm * way_mm, glm::dmat3(N_per_mm));
+  addDragOf(start_X_PQ, X_PQ, centre_Q_mm, N_per_mm, lever_mm, balance);
+}
 
-  const HalfTurn turn = halfTurn(start_X_PQ.rotation, X_PQ.rotation);
-  const double turn_Nmm_per_rad = N_per_mm * lever_mm * lever_mm;
-  balance.energy_Nmm += turnEnergy(turn_Nmm_per_rad, turn);
-  addTurn(2.0 * turn_Nmm_per_rad * turn.sine, glm::dmat3(turn_Nmm_per_rad * turn.cosine), balance);
+void addDrag(const calibration::Pose<calibration::Patient, calibration::Tool>& start_X_PT,
+             const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const glm::dvec3& centre_T_mm,
+             double N_per_mm, double lever_mm, Balance& balance) noexcept {
+  addDragOf(start_X_PT, X_PT, centre_T_mm, N_per_mm, lever_mm, balance);
 }
 
 bool isUsable(const PieceDrive& drive) noexcept {

@@ -41,6 +41,10 @@ struct Balance {
   void addForce(const glm::dvec3& arm_mm, const glm::dvec3& slope_N, const glm::dmat3& stiffness_N_per_mm) noexcept;
 };
 
+/// A pull along a way to its target, at most `most_N`, on a point at an arm. Returns the force on it.
+glm::dvec3 addPull(double stiffness_N_per_mm, double most_N, const glm::dvec3& arm_mm, const glm::dvec3& way_mm,
+                   Balance& balance) noexcept;
+
 /// Force and torque of the spring on the piece; torque about the grip.
 Wrench<calibration::Patient> addSpring(const PieceSpring& spring, const PiecePose& X_PQ, const glm::dvec3& centre_Q_mm,
                                        Balance& balance) noexcept;
@@ -48,6 +52,10 @@ Wrench<calibration::Patient> addSpring(const PieceSpring& spring, const PiecePos
 /// Drag of a way and a turn since `start_X_PQ`, and stiffness of both.
 void addDrag(const PiecePose& start_X_PQ, const PiecePose& X_PQ, const glm::dvec3& centre_Q_mm, double N_per_mm,
              double lever_mm, Balance& balance) noexcept;
+/// The same of a tool, about a point of it.
+void addDrag(const calibration::Pose<calibration::Patient, calibration::Tool>& start_X_PT,
+             const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const glm::dvec3& centre_T_mm,
+             double N_per_mm, double lever_mm, Balance& balance) noexcept;
 
 /// Finite, no stiffness or bound below zero, the target's rotation of length one.
 bool isUsable(const PieceDrive& drive) noexcept;

@@ -17,6 +17,8 @@ namespace haptics {
 
 struct PieceSite {
   DistanceField obstacles;  ///< jaw, its other teeth, the other pieces
+  DistanceField teeth;      ///< the jaw's other teeth alone, where they are; the band if there are none
+  DistanceField piece;      ///< of the piece itself, frame Q
   PieceHold hold;           ///< unworn, at rest, in the first socket
   SocketChange change;      ///< of the socket since then, to be met
   double volume_mm3 = 0.0;
@@ -28,6 +30,8 @@ struct SocketScene {
   std::vector<std::uint8_t> around;  ///< all but the piece
   assets::VolumeGrid piece_grid;
   std::vector<std::uint8_t> piece, label;  ///< of the piece
+  assets::VolumeGrid teeth_grid;           ///< around the other teeth
+  std::vector<std::uint8_t> teeth;
 };
 
 class SocketSource {
@@ -44,12 +48,16 @@ class SocketSource {
   SocketScene scene(std::size_t piece, std::span<const PiecePose, kMaxPieces> X_PQ) const;
 
  private:
+  void findTeeth();
   void addPiece(std::size_t piece, const PiecePose& X_PQ, SocketScene& scene) const;
 
   const Bodies& bodies_;
   assets::VolumeGrid grid_;
   glm::ivec3 first_brick_{0};
   std::vector<std::uint8_t> bone_at_first_;
+  assets::VolumeGrid teeth_grid_;
+  glm::ivec3 teeth_first_{0};           ///< voxel of grid_ where that begins
+  std::vector<std::uint8_t> is_teeth_;  ///< labels do not change
 };
 
 /// `first_socket`: of the scene's source.

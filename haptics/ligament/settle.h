@@ -1,7 +1,7 @@
 // Newton steps to the least energy of one rigid body or of two, the same for forceps and elevators. Settled is below
 // 5 mN, or 5e-7 mJ still to gain, or a step below 2 µm that did not halve the residual: where a distance field's slope
-// has kinks, at the faces of its cells, the least energy may lie on one with a residual left. mm, N, N mm. Servo thread;
-// bounded by 6 evaluations. Method: reference/extraction 3.2.
+// has kinks, at the faces of its cells, the least energy may lie on one with a residual left. mm, N, N mm. Servo
+// thread; bounded by 6 evaluations. Method: reference/extraction 3.2.
 #pragma once
 
 #include <algorithm>

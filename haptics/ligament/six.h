@@ -58,7 +58,8 @@ bool solve(const SymmetricMatrix<N>& m, const std::array<double, N>& b, std::arr
 template <class A, class B>
 calibration::Pose<A, B> moved(const calibration::Pose<A, B>& X_AB, const glm::dvec3& about_B_mm,
                               const Six& step) noexcept {
-  const glm::dvec3 about_A_mm = X_AB.rotation * about_B_mm + X_AB.translation_mm + glm::dvec3(step[0], step[1], step[2]);
+  const glm::dvec3 about_A_mm =
+      X_AB.rotation * about_B_mm + X_AB.translation_mm + glm::dvec3(step[0], step[1], step[2]);
   const glm::dquat turn(1.0, 0.5 * glm::dvec3(step[3], step[4], step[5]));
   const glm::dquat turned = turn * X_AB.rotation;
   const glm::dquat rotation = turned / std::sqrt(glm::dot(turned, turned));
