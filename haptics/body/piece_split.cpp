@@ -2,67 +2,43 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <map>
 
 #include "assets/ct_volume.h"
 #include "haptics/bone/solid_field.h"
 
 namespace haptics {
-namespace {
-
-/// is_first(voxel of at least half) decides; what is less solid follows its neighbours.
-template <class IsFirst>
-std::vector<std::uint8_t> bytesWhere(const Components& components, const IsFirst& is_first) {
+std::vector<std::uint8_t> bytesOf(const Components& components, std::span<const std::uint8_t> chosen) {
   const assets::VolumeGrid& grid = components.grid();
+  assert(chosen.size() == grid.voxelCount());
   std::vector<std::uint8_t> bytes(grid.voxelCount(), 0);
   const auto follows = [&](glm::ivec3 ijk) {
     std::uint8_t most = 0;
-    bool first = false;
+    bool goes = false;
     for (int reach = 1; reach <= 3 && most < assets::kHalfSolid; ++reach)
       assets::forVoxels(ijk - 1, ijk + 2, [&](glm::ivec3 beside) {
         const glm::ivec3 away = glm::abs(beside - ijk);
         const std::uint8_t solid = components.solidAt(beside);
         if (away.x + away.y + away.z != reach || solid < assets::kHalfSolid || solid <= most) return;
         most = solid;
-        first = is_first(beside);
+        goes = chosen[grid.index(beside)] != 0;
       });
-    return first;
+    return goes;
   };
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     const std::uint8_t solid = components.solidAt(ijk);
     if (solid == 0) return;
-    if (solid >= assets::kHalfSolid ? is_first(ijk) : follows(ijk)) bytes[v] = solid;
+    if (solid >= assets::kHalfSolid ? chosen[v] != 0 : follows(ijk)) bytes[v] = solid;
   });
   return bytes;
 }
 
-}  // namespace
-
 std::vector<std::uint8_t> bytesOfPiece(const Components& components, std::size_t piece) {
-  return bytesWhere(components, [&](glm::ivec3 ijk) { return components.pieceAt(ijk) == static_cast<int>(piece); });
-}
-
-std::vector<std::uint8_t> bytesBeforeBreak(const Components& components, const BridgeSearch& search,
-                                           std::size_t bridge) {
-  std::vector<std::uint8_t> bytes =
-      bytesWhere(components, [&](glm::ivec3 ijk) { return search.isOnFirstSide(bridge, ijk); });
-
-  const assets::VolumeGrid& grid = components.grid();
-  const Bridge& broken = search.bridges()[bridge];
-  const glm::dvec3 n = glm::abs(broken.normal);
-  const double across_mm = grid.spacing_mm * (n.x + n.y + n.z);
-  const auto share = [&](glm::ivec3 ijk) {
-    const double beyond_mm = glm::dot(grid.centre_P_mm(ijk) - broken.centre_mm, broken.normal);
-    if (std::abs(beyond_mm) > grid.spacing_mm) return;
-    const double first = std::clamp(0.5 - beyond_mm / across_mm, 0.0, 1.0);
-    bytes[grid.index(ijk)] = static_cast<std::uint8_t>(std::lround(components.solidAt(ijk) * first));
-  };
-  for (const BridgeSearch::CutFace& face : search.facesOf(bridge)) {
-    share(face.first);
-    share(face.second);
-  }
-  return bytes;
+  std::vector<std::uint8_t> chosen(components.grid().voxelCount());
+  assets::forVoxels(components.grid(), [&](glm::ivec3 ijk, std::size_t v) {
+    chosen[v] = components.pieceAt(ijk) == static_cast<int>(piece) ? 1 : 0;
+  });
+  return bytesOf(components, chosen);
 }
 
 SplitPlan splitPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t> bytes) {

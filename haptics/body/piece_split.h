@@ -13,13 +13,12 @@
 
 namespace haptics {
 
-/// In the order of the grid: a connected piece with what is partly solid next to it. A voxel that is less than half
-/// solid goes with the most solid of its six neighbours, else of its 26.
-std::vector<std::uint8_t> bytesOfPiece(const Components& components, std::size_t piece);
+/// Of the voxels that are chosen (not 0), in the order of the grid: whole, with what is partly solid next to them. A
+/// voxel that is less than half solid goes with the most solid of its six neighbours, else of its 26.
+std::vector<std::uint8_t> bytesOf(const Components& components, std::span<const std::uint8_t> chosen);
 
-/// The first side of a bridge that breaks. Voxels at the break are shared by its plane, so that it is flat.
-std::vector<std::uint8_t> bytesBeforeBreak(const Components& components, const BridgeSearch& search,
-                                           std::size_t bridge);
+/// Of a connected piece, alike.
+std::vector<std::uint8_t> bytesOfPiece(const Components& components, std::size_t piece);
 
 /// `bytes` as of the functions above.
 SplitPlan splitPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t> bytes);

@@ -134,16 +134,6 @@ std::vector<CutRegion> ToothSurvey::cutRegions(double& cut_mm3) const {
   return regions;
 }
 
-std::optional<BridgeSearch> ToothSurvey::searchOf(std::size_t piece, double cell_mm) const {
-  double cut_mm3 = 0.0;
-  std::optional<BridgeSearch> search;
-  for (const CutRegion& region : cutRegions(cut_mm3)) {
-    search.emplace(components_, piece, region, cell_mm);
-    if (search->parts().size() >= 2) break;
-  }
-  return search;
-}
-
 void ToothSurvey::findBridges(ToothFindings& findings, double cell_mm) const {
   const std::vector<CutRegion> regions = cutRegions(findings.cut_mm3);
   for (std::size_t piece = 0; piece < std::min(findings.pieces, kMostPieces); ++piece) {

@@ -9,12 +9,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
 
-#include "haptics/body/bridge.h"
+#include "haptics/body/bridge_search.h"
 #include "haptics/body/components.h"
 
 namespace haptics {
@@ -49,8 +48,6 @@ class ToothSurvey {
   /// Of the pieces found last.
   void findBridges(ToothFindings& findings, double cell_mm) const;
 
-  /// A search of this piece in a region of its own: for a break (piece_split.h). None: nothing was cut.
-  std::optional<BridgeSearch> searchOf(std::size_t piece, double cell_mm) const;
   const Components& components() const { return components_; }
 
  private:

@@ -1,4 +1,4 @@
-#include "haptics/body/bridge.h"
+#include "haptics/body/bridge_search.h"
 
 #include <algorithm>
 #include <cassert>
@@ -143,36 +143,28 @@ void BridgeSearch::linkCells(GridMinCut& graph) const {
   });
 }
 
-std::optional<std::size_t> BridgeSearch::outsideRoot(glm::ivec3 ijk) const {
-  if (!components_.grid().contains(ijk)) return std::nullopt;
+std::size_t BridgeSearch::outsidePart(glm::ivec3 ijk) const {
+  if (!components_.grid().contains(ijk)) return parts_.size();
   const std::size_t brick = components_.brickOf(ijk);
   for (std::size_t n = 0; n < outside_[brick].size(); ++n)
-    if (holds(outside_[brick][n].mask, ijk & (assets::kBrickVoxels - 1))) return outside_join_.rootOf(brick, n);
-  return std::nullopt;
+    if (holds(outside_[brick][n].mask, ijk & (assets::kBrickVoxels - 1)))
+      return part_of_root_[outside_join_.rootOf(brick, n)];
+  return parts_.size();
 }
 
-std::size_t BridgeSearch::outsidePart(glm::ivec3 ijk) const {
-  const auto root = outsideRoot(ijk);
-  return root ? part_of_root_[*root] : parts_.size();
-}
-
-BridgeSearch::Terminals BridgeSearch::terminals() const {
-  Terminals found{std::vector<std::vector<glm::ivec3>>(parts_.size()),
-                  std::vector<std::optional<glm::ivec3>>(part_of_root_.size())};
+std::vector<std::vector<glm::ivec3>> BridgeSearch::terminals() const {
+  std::vector<std::vector<glm::ivec3>> found(parts_.size());
   std::vector<bool> taken(assets::countIn(cells_), false);
   assets::forVoxels(box().first, box().last + 1, [&](glm::ivec3 ijk) {
     if (!isMine(ijk)) return;
     for (const glm::ivec3 way : kNeighbours) {
       if (isInRegion(ijk + way)) continue;
-      const auto root = outsideRoot(ijk + way);
-      if (!root) continue;
       const glm::ivec3 cell = cellOf(ijk);
-      if (!found.of_root[*root]) found.of_root[*root] = cell;
-      const std::size_t part = part_of_root_[*root];
+      const std::size_t part = outsidePart(ijk + way);
       // A coarse cell that meets two parts belongs to the first.
       if (part == parts_.size() || taken[assets::indexIn(cells_, cell)]) continue;
       taken[assets::indexIn(cells_, cell)] = true;
-      found.of_part[part].push_back(cell);
+      found[part].push_back(cell);
     }
   });
   return found;
@@ -201,35 +193,28 @@ std::vector<BridgeSearch::Group> BridgeSearch::groups() const {
 void BridgeSearch::separate() {
   GridMinCut graph(cells_);
   linkCells(graph);
-  const Terminals ends = terminals();
+  const std::vector<std::vector<glm::ivec3>> ends = terminals();
   for (const Group& group : groups()) {
     std::array<std::vector<glm::ivec3>, 2> cells;
     for (std::size_t part = 0; part < parts_.size(); ++part) {
       auto& of_side = cells[group[part] ? 0 : 1];
-      of_side.insert(of_side.end(), ends.of_part[part].begin(), ends.of_part[part].end());
+      of_side.insert(of_side.end(), ends[part].begin(), ends[part].end());
     }
     if (cells[0].empty() || cells[1].empty()) continue;
     graph.cut(cells[0], cells[1]);
-    Side side = sideOf(graph, ends, group);
+    Side side = sideOf(graph);
     if (side.faces.empty()) continue;
     Bridge bridge = measured(side);
     const auto largest = static_cast<std::size_t>(std::ranges::find(group, true) - group.begin());
     bridge.between = {largest, partBeyond(side, group)};
     bridges_.push_back(bridge);
-    sides_.push_back(std::move(side));
   }
 }
 
-BridgeSearch::Side BridgeSearch::sideOf(const GridMinCut& graph, const Terminals& ends, const Group& group) const {
+BridgeSearch::Side BridgeSearch::sideOf(const GridMinCut& graph) const {
   Side side;
   side.cell.reserve(assets::countIn(cells_));
   assets::forVoxels(glm::ivec3(0), cells_, [&](glm::ivec3 cell) { side.cell.push_back(graph.isOnSourceSide(cell)); });
-  side.outside.resize(part_of_root_.size());
-  for (std::size_t root = 0; root < part_of_root_.size(); ++root) {
-    const bool is_part = part_of_root_[root] < parts_.size();
-    side.outside[root] =
-        is_part ? group[part_of_root_[root]] : ends.of_root[root] && graph.isOnSourceSide(*ends.of_root[root]);
-  }
   forLinkedFaces([&](glm::ivec3 before, glm::ivec3 after, int) {
     const bool first = isFirst(side, before);
     if (first == isFirst(side, after)) return;
@@ -295,6 +280,19 @@ Bridge BridgeSearch::measured(const Side& side) const {
   bridge.width_mm = std::sqrt(12.0 * (mean + swing));
   bridge.thickness_mm = std::sqrt(12.0 * std::max(mean - swing, 0.0));
   bridge.width_axis = std::cos(angle) * u + std::sin(angle) * v;
+  if (glm::dot(region_.centre_mm - bridge.centre_mm, bridge.floorwards()) < 0.0) bridge.width_axis *= -1.0;
+
+  // The farthest edges of what is at least half solid.
+  for (const WeighedFace& face : faces) {
+    if (weight_mm2(face) < 0.5 * s * s) continue;
+    const glm::dvec3 from_centre = centre_mm(face) - bridge.centre_mm;
+    const auto reach_mm = [&](const glm::dvec3& along) {
+      const glm::dvec3 n = glm::abs(along);
+      return std::abs(glm::dot(from_centre, along)) + 0.5 * s * (n.x + n.y + n.z - n[face.axis]);
+    };
+    bridge.half_width_mm = std::max(bridge.half_width_mm, reach_mm(bridge.width_axis));
+    bridge.half_thickness_mm = std::max(bridge.half_thickness_mm, reach_mm(bridge.floorwards()));
+  }
   return bridge;
 }
 
@@ -319,13 +317,6 @@ std::size_t BridgeSearch::partBeyond(const Side& side, const Group& group) const
     }
   }
   return largest;
-}
-
-bool BridgeSearch::isOnFirstSide(std::size_t bridge, glm::ivec3 ijk) const {
-  const Side& side = sides_[bridge];
-  if (isMine(ijk)) return isFirst(side, ijk);
-  const auto root = outsideRoot(ijk);
-  return root && side.outside[*root];
 }
 
 }  // namespace haptics
