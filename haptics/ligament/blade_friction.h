@@ -6,14 +6,14 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "haptics/ligament/blade_contact.h"
+#include "haptics/ligament/elevator_law.h"
 
 namespace haptics {
 
 struct BladeFriction {
-  static constexpr double kFriction = 0.3;  ///< wet tooth on steel
-  static constexpr double kStick_N_per_mm = 200.0;
   static constexpr std::size_t kRegions = 8;
 
   struct Region {
@@ -27,11 +27,12 @@ struct BladeFriction {
   static bool isAgainstPiece(std::size_t n) { return n >= kRegions / 2; }
 
   /// Since a tick began at X_PT0, X_PQ0. Returns the energy in the springs.
-  double add(const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT, const PiecePose& X_PQ,
-             const glm::dvec3& middle_T_mm, const glm::dvec3& centre_Q_mm, PairBalance& balance) const noexcept;
+  double add(const ElevatorLaw& law, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
+             const PiecePose& X_PQ, const glm::dvec3& middle_T_mm, const glm::dvec3& centre_Q_mm,
+             PairBalance& balance) const noexcept;
   /// As the tick ends.
-  void slide(const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT, const PiecePose& X_PQ,
-             const BladeContacts& contacts) noexcept;
+  void slide(const ElevatorLaw& law, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
+             const PiecePose& X_PQ, std::span<const BladeContact> pressing) noexcept;
 
  private:
   glm::dvec3 stretch_P_mm(std::size_t n, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,

@@ -13,9 +13,6 @@ using calibration::Piece;
 using calibration::Point;
 using calibration::Tool;
 
-// Of the blade, as of a piece.
-constexpr double kDrag_Ns_per_mm = LigamentLaw{}.drag_Ns_per_mm, kLever_mm = LigamentLaw{}.drag_lever_mm;
-
 Six partOf(const Twelve& step, std::size_t body) noexcept {
   Six part{};
   std::copy_n(step.begin() + static_cast<std::ptrdiff_t>(6 * body), 6, part.begin());
@@ -28,11 +25,11 @@ struct Walls {
   glm::dvec3 push_N[2]{}, at_N_mm[2]{};
   double sum_N[2]{};
 
-  void add(const BladeContact& contact, double push_N_) noexcept {
+  void add(const BladeContact& contact) noexcept {
     const std::size_t side = glm::dot(contact.out_P, reference) >= 0.0 ? 0 : 1;
-    push_N[side] -= push_N_ * contact.out_P;
-    at_N_mm[side] += push_N_ * contact.at_P_mm;
-    sum_N[side] += push_N_;
+    push_N[side] -= contact.push_N() * contact.out_P;
+    at_N_mm[side] += contact.push_N() * contact.at_P_mm;
+    sum_N[side] += contact.push_N();
   }
   Wedging wedging() const noexcept {
     const glm::dvec3 apart = push_N[1] - push_N[0];
@@ -63,12 +60,12 @@ bool ElevatorHold::take(ElevatorKind kind, const ToolPose& X_PT) noexcept {
 }
 
 ElevatorHold::Tried ElevatorHold::tryAt(const ElevatorHand& hand, const ElevatorScene& scene, const PieceHold* piece,
-                                        const ToolPose& X_PT, const PiecePose& X_PQ, double period_s) const noexcept {
+                                        const ToolPose& X_PT, const PiecePose& X_PQ, double period_s) noexcept {
   Tried tried{.X_PT = X_PT, .X_PQ = X_PQ};
   PairBalance& balance = tried.balance;
   Balance blade;
   tried.pull = addHand(hand, X_PT, shape_.middle_T_mm, blade);
-  addDrag(state_.X_PT, X_PT, shape_.middle_T_mm, kDrag_Ns_per_mm / period_s, kLever_mm, blade);
+  addDrag(state_.X_PT, X_PT, shape_.middle_T_mm, law_.drag_Ns_per_mm / period_s, law_.drag_lever_mm, blade);
   balance.add(blade, 0);
 
   glm::dvec3 centre_Q_mm(0.0);
@@ -84,9 +81,9 @@ ElevatorHold::Tried ElevatorHold::tryAt(const ElevatorHand& hand, const Elevator
   } else {
     for (std::size_t n = 6; n < 12; ++n) balance.hessian(n, n) = 1.0;
   }
-  contacts_.add(X_PT, X_PQ, balance);
-  state_.friction.add(state_.X_PT, start_X_PQ, X_PT, X_PQ, shape_.middle_T_mm, centre_Q_mm, balance);
-  tried.residual_N = largest(balance.gradient, 1.0 / kLever_mm);
+  contacts_.press(X_PT, X_PQ, balance);
+  state_.friction.add(law_, state_.X_PT, start_X_PQ, X_PT, X_PQ, shape_.middle_T_mm, centre_Q_mm, balance);
+  tried.residual_N = largest(balance.gradient, 1.0 / law_.drag_lever_mm);
   return tried;
 }
 
@@ -100,7 +97,7 @@ ElevatorTick ElevatorHold::step(const ElevatorHand& hand, const ElevatorScene& s
 
   ElevatorScene here = scene;
   if (piece == nullptr) here.piece = nullptr;
-  contacts_.find(shape_, here, piece == nullptr ? nullptr : &piece->samples(),
+  contacts_.find(shape_, here, piece == nullptr ? nullptr : &piece->samples(), law_.point_N_per_mm,
                  piece == nullptr ? 0.0 : piece->law().contact_N_per_mm3, state_.X_PT, tick.X_PQ);
 
   const auto try_at = [&](const ToolPose& X_PT, const PiecePose& X_PQ) {
@@ -109,15 +106,18 @@ ElevatorTick ElevatorHold::step(const ElevatorHand& hand, const ElevatorScene& s
   const glm::dvec3 centre_Q_mm = piece == nullptr ? glm::dvec3(0.0) : piece->samples().centre_Q_mm;
   SettleEffort effort;
   const Tried end = settled<12>(
-      try_at(state_.X_PT, tick.X_PQ), kLever_mm,
+      try_at(state_.X_PT, tick.X_PQ), law_.drag_lever_mm,
       [&](const Tried& from, const Twelve& step) {
         return try_at(moved(from.X_PT, shape_.middle_T_mm, partOf(step, 0)),
                       piece == nullptr ? from.X_PQ : moved(from.X_PQ, centre_Q_mm, partOf(step, 1)));
       },
       effort);
 
+  // The last pose tried may not be the one taken.
+  PairBalance again;
+  contacts_.press(end.X_PT, end.X_PQ, again);
   sayForces(end, tick);
-  state_.friction.slide(state_.X_PT, tick.X_PQ, end.X_PT, end.X_PQ, contacts_);
+  state_.friction.slide(law_, state_.X_PT, tick.X_PQ, end.X_PT, end.X_PQ, contacts_.pressing());
   state_.X_PT = tick.X_PT = end.X_PT;
   if (piece != nullptr) {
     const HoldTick held = piece->moveTo(end.X_PQ, here.obstacles, end.contact_Nmm, period_s);
@@ -140,27 +140,25 @@ void ElevatorHold::sayForces(const Tried& end, ElevatorTick& tick) const noexcep
 
   double most_N = 0.0, fulcrum_N = 0.0;
   Walls walls;
-  contacts_.forEach(end.X_PT, end.X_PQ, [&](const BladeContact& contact) {
-    const double push_N = contact.N_per_mm * contact.depth_mm;
+  for (const BladeContact& contact : contacts_.pressing()) {
+    const double push_N = contact.push_N();
     if (contact.on != BladeContact::On::piece) {
-      (contact.on == BladeContact::On::teeth ? tick.blade_on_teeth_N : tick.blade_on_bone_N) += push_N;
+      (contacts_.isOnTeeth(contact) ? tick.blade_on_teeth_N : tick.blade_on_bone_N) += push_N;
       tick.fulcrum_P_mm += push_N * contact.at_P_mm;
       fulcrum_N += push_N;
-      return;
+      continue;
     }
     const glm::dvec3 on_piece_N = -push_N * contact.out_P;
     tick.blade_on_piece_N += push_N;
     tick.on_piece.force_N.xyz += on_piece_N;
     tick.on_piece.torque_Nmm.xyz += glm::cross(contact.at_P_mm - end.X_PT.translation_mm, on_piece_N);
-    if (push_N <= most_N) return;
+    if (push_N <= most_N) continue;
     most_N = push_N;
     walls.reference = contact.out_P;
-  });
+  }
   if (fulcrum_N > 0.0) tick.fulcrum_P_mm /= fulcrum_N;
-  if (most_N == 0.0) return;
-  contacts_.forEach(end.X_PT, end.X_PQ, [&](const BladeContact& contact) {
-    if (contact.on == BladeContact::On::piece) walls.add(contact, contact.N_per_mm * contact.depth_mm);
-  });
+  for (const BladeContact& contact : contacts_.pressing())
+    if (contact.on == BladeContact::On::piece) walls.add(contact);
   tick.wedging = walls.wedging();
 }
 

@@ -8,6 +8,7 @@
 
 #include "haptics/ligament/blade_contact.h"
 #include "haptics/ligament/blade_friction.h"
+#include "haptics/ligament/elevator_law.h"
 #include "haptics/ligament/elevator_shape.h"
 #include "haptics/ligament/hand_coupling.h"
 #include "haptics/ligament/piece_hold.h"
@@ -48,7 +49,8 @@ struct ElevatorTick {
 
 class ElevatorHold {
  public:
-  explicit ElevatorHold(ElevatorKind kind = ElevatorKind::straight_301) noexcept : shape_(elevatorShape(kind)) {}
+  explicit ElevatorHold(ElevatorKind kind = ElevatorKind::straight_301, const ElevatorLaw& law = {}) noexcept
+      : law_(law), shape_(elevatorShape(kind)) {}
 
   /// Another instrument, or the blade somewhere else: without friction. A pose that is no number is refused (false).
   bool take(ElevatorKind kind, const ToolPose& X_PT) noexcept;
@@ -65,9 +67,10 @@ class ElevatorHold {
  private:
   struct Tried;
   Tried tryAt(const ElevatorHand& hand, const ElevatorScene& scene, const PieceHold* piece, const ToolPose& X_PT,
-              const PiecePose& X_PQ, double period_s) const noexcept;
+              const PiecePose& X_PQ, double period_s) noexcept;
   void sayForces(const Tried& end, ElevatorTick& tick) const noexcept;
 
+  ElevatorLaw law_;
   ElevatorShape shape_;
   ElevatorState state_;
   BladeContacts contacts_;  ///< of the tick

@@ -1,3 +1,4 @@
 // Compiled for AVX2; see CMakeLists.txt.
 #define MOLAR_KERNEL_SET avx2
+#include "haptics/ligament/blade_kernels_body.h"
 #include "haptics/ligament/hold_kernels_body.h"
