@@ -11,6 +11,7 @@
 #include "app/options/volume_option.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
+#include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -39,7 +40,7 @@ struct ExportOptions {
 SolidVolume sourceOf(const ExportOptions& options) {
   if (options.session.empty()) {
     if (options.patient.empty()) return options.volume.load();
-    assets::Patient patient = assets::loadPatient(options.patient);
+    assets::Patient patient = assets::loadPatient(patientNamed(options.patient));
     return {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   BoneAtTime bone = boneAtTime(options.session, options.to_s);

@@ -1,6 +1,8 @@
 // `molar import SOURCE --out PATIENT` and `molar inspect PATIENT`: scans become patient folders, de-identified.
 
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/core.h>
@@ -8,6 +10,8 @@
 
 #include "app/case/gutter_plan.h"
 #include "app/commands/command.h"
+#include "app/session/data_folder.h"
+#include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/list.h"
 #include "app/text/message.h"
@@ -128,17 +132,26 @@ int import(ImportOptions options) {
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
     throw UsageError("--tooth " + std::to_string(*fdi) + ": not an FDI number, give 11 to 48 or 51 to 85");
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
+  const bool has_no_place = options.out.empty();
+  if (has_no_place) {
+    makeDataFolder(usualPatientFolder());
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    options.out = newPatientPath(usualPatientFolder(), now.time_since_epoch().count());
+  }
   assets::ImportedScan imported = assets::importScan(options.source, options.choices);
   for (const std::string& remark : imported.remarks) printMessage(options.source + ": " + remark);
   assets::Patient& patient = imported.patient;
   patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
   assets::savePatient(patient, options.out, options.force);
   std::fputs(wordsOn(patient).c_str(), stderr);
+  if (has_no_place)
+    printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +
+                 usualPatientFolder().string() + ": rename the folder as you like; molar start offers it");
   return 0;
 }
 
 int inspect(const InspectOptions& options) {
-  const assets::Patient patient = assets::loadPatient(options.patient);
+  const assets::Patient patient = assets::loadPatient(patientNamed(options.patient));
   std::fputs((options.json ? jsonOf(patient).dump(2) + "\n" : wordsOn(patient)).c_str(), stdout);
   return 0;
 }
@@ -150,7 +163,8 @@ void addImport(CommandLine& molar) {
   CommandLine& command = molar.command("import", "A scan becomes a patient folder, de-identified");
   command.option("SOURCE", options->source, "Folder with ct.nrrd, labels.nrrd and teeth.nrrd, or one volume file")
       .required();
-  command.option("--out", options->out, "Patient folder to write").required();
+  command.option("--out", options->out,
+                 "Patient folder to write [a new one in the data folder, which molar start offers]");
   command.option("--iso", options->choices.classification.iso_hu, "Grey value of the bone's surface, HU")
       .from(-1000.0, 4000.0)
       .showsDefault();
@@ -166,7 +180,7 @@ void addImport(CommandLine& molar) {
 void addInspect(CommandLine& molar) {
   auto options = std::make_shared<InspectOptions>();
   CommandLine& command = molar.command("inspect", "What a patient folder holds");
-  command.option("PATIENT", options->patient, "Patient folder").required();
+  command.option("PATIENT", options->patient, kPatientHelp).required();
   command.flag("--json", options->json, "For programs");
   command.does([options] { return inspect(*options); });
 }

@@ -19,6 +19,7 @@
 #include "app/procedure/ways_out.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
+#include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -175,7 +176,8 @@ Source toothOfVolume(const PiecesOptions& options) {
   return result;
 }
 
-Source toothOf(const PiecesOptions& options) {
+Source toothOf(PiecesOptions options) {
+  options.source = patientNamed(options.source);
   const int sources = !options.source.empty() + !options.case_name.empty() + options.volume.given();
   if (sources != 1) throw UsageError("pieces: give exactly one of SOURCE, --case NAME and --volume FILE");
   if (options.volume.given()) return toothOfVolume(options);

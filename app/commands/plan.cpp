@@ -10,6 +10,7 @@
 #include "app/case/extraction_plan.h"
 #include "app/case/patient_source.h"
 #include "app/commands/command.h"
+#include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
@@ -43,7 +44,7 @@ int plan(const PlanOptions& options) {
     throw UsageError("plan: give exactly one of PATIENT and --case NAME");
   const bool built_in = !options.case_name.empty();
   const assets::Patient patient =
-      built_in ? builtInPatient(caseNamed(options.case_name)->jaw) : assets::loadPatient(options.patient);
+      built_in ? builtInPatient(caseNamed(options.case_name)->jaw) : assets::loadPatient(patientNamed(options.patient));
   const ExtractionPlan found = extractionPlan(patient, built_in ? "--case " + options.case_name : options.patient);
   std::fputs((options.json ? jsonOf(found).dump(2) + "\n" : planTable(found)).c_str(), stdout);
   return 0;
@@ -55,7 +56,7 @@ void addPlan(CommandLine& molar) {
   auto options = std::make_shared<PlanOptions>();
   CommandLine& command =
       molar.command("plan", "What the scan tells of an impacted third molar: classes, distances, difficulty");
-  command.option("PATIENT", options->patient, "Patient folder");
+  command.option("PATIENT", options->patient, kPatientHelp);
   command.option("--case", options->case_name, "A case of the built-in patient, see molar rehearse --cases")
       .oneOf(caseNames());
   command.flag("--json", options->json, "All of it as JSON");

@@ -32,6 +32,7 @@
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
 #include "app/station/case_reach.h"
+#include "app/station/patient_list.h"
 #include "app/text/list.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -250,12 +251,23 @@ void goOn(RehearseOptions& options, const Continuation& former) {
   plan.remarks.insert(plan.remarks.end(), former.remarks.begin(), former.remarks.end());
 }
 
+/// Below the cases; empty where there is none or no data folder.
+std::string importedList() {
+  try {
+    const std::string list = patientList(listPatients(usualPatientFolder()));
+    return list.empty() ? list : "\nimported, molar rehearse NAME:\n" + list;
+  } catch (const SessionError&) {
+    return {};
+  }
+}
+
 int run(RehearseOptions& options) {
   if (options.list_cases) {
-    std::fputs(caseList().c_str(), stdout);
+    std::fputs((caseList() + importedList()).c_str(), stdout);
     return 0;
   }
   RehearsalPlan& plan = options.plan;
+  options.patient = patientNamed(options.patient);
   plan.device = withSessionNamed(plan.device);
   plan.second_hand.device = withSessionNamed(plan.second_hand.device);
   if (options.procedure.empty() && plan.device.starts_with("scripted:"))

@@ -8,6 +8,7 @@
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/tool_text.h"
+#include "app/station/patient_list.h"
 #include "assets/instrument/second_instrument.h"
 #include "haptics/device/thread_priority.h"
 #include "render/quality_ladder.h"
@@ -21,8 +22,9 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.example("molar rehearse PATIENT --device openhaptics --record first.molar",
                   "an imported patient, with a haptic device, recorded");
   command.optionGroup("Patient");
-  Option patient = command.option("PATIENT", options.patient, "Patient folder [the built-in patient]");
-  command.flag("--cases", options.list_cases, "List the named cases of the built-in patient, and end");
+  Option patient = command.option("PATIENT", options.patient, std::string(kPatientHelp) + " [the built-in patient]");
+  command.flag("--cases", options.list_cases,
+               "List the named cases of the built-in patient and the imported patients, and end");
   Option named = command.option("--case", options.case_name, "Built-in patient: a case by its name, see --cases");
   named.oneOf(caseNames()).excludes(patient);
   const auto built_in = [&](const std::string& name, auto& value, const std::string& help) {

@@ -17,6 +17,7 @@
 #include "app/options/volume_option.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/session/field_clarity.h"
+#include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -53,7 +54,7 @@ std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
 
 assets::Patient patientOf(const SeeOptions& options) {
   return options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
-                                 : assets::loadPatient(options.patient);
+                                 : assets::loadPatient(patientNamed(options.patient));
 }
 
 /// The patient's jaw unrolled along its arch.

@@ -30,6 +30,7 @@ struct SessionListing {
   SessionVerdict verdict = SessionVerdict::damaged;
   std::string remark;                    ///< why, for people; empty: nothing to say
   std::optional<std::string> continues;  ///< file name of the session it continues
+  bool is_imported = false;              ///< of a patient folder, which it does not name
 
   bool isReadable() const { return verdict != SessionVerdict::damaged && verdict != SessionVerdict::recording; }
 };

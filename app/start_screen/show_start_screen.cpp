@@ -1,6 +1,7 @@
 #include "app/start_screen/show_start_screen.h"
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 #include <variant>
 
@@ -28,6 +29,12 @@ bool showStartScreen(StartMenu& menu, const ReportLine& report) {
     if (const auto* const key = std::get_if<render::KeyPressed>(&event)) {
       changed = true;
       return menu.take(*key);
+    }
+    if (const auto* const wheel = std::get_if<render::WheelTurned>(&event)) {
+      const auto over = startPlaceAt(menu, pointer_px, windows.first().framebufferSize_px());
+      if (over && !over->starts) menu.scroll(over->list, -static_cast<int>(std::lround(wheel->notches)));
+      changed = true;
+      return StartMenu::Answer::none;
     }
     const auto* const button = std::get_if<render::ButtonPressed>(&event);
     if (button == nullptr || !button->down || button->button != render::MouseButton::left)

@@ -1,6 +1,8 @@
 #include "app/start_screen/start_lists.h"
 
+#include <algorithm>
 #include <exception>
+#include <span>
 
 #include <fmt/core.h>
 
@@ -20,8 +22,15 @@ std::string begun(std::string words) {
   return words;
 }
 
-StartList impactionList() {
+/// The surgeon's own patients before the built-in ones.
+StartList caseStartList(std::span<const PatientListing> patients) {
   StartList list{"Case", {}, 0};
+  for (const PatientListing& one : patients.first(std::min(patients.size(), kPatientsOffered)))
+    list.choices.push_back({.words = one.name,
+                            .beside = "imported",
+                            .about = begun(one.title) + ". Its folder is " + one.path + ".",
+                            .arguments = {one.path},
+                            .is_imported = true});
   for (const Case& one : cases()) {
     if (one.name == usualCase().name) list.chosen = list.choices.size();
     list.choices.push_back(
@@ -109,40 +118,44 @@ StartList sessionList(std::span<const SessionListing> sessions) {
     if (list.choices.size() > kSessionsOffered) break;
     list.choices.push_back({.words = localDateTime(one.unix_s) + "  " + one.case_title,
                             .beside = clockText(one.length_s),
-                            .about = "Goes on where this session ended: its bone, case and tools." +
-                                     (one.remark.empty() ? "" : " It has " + one.remark + "."),
-                            .arguments = {"--continue", one.path}});
+                            .about = (one.is_imported ? "Goes on where this session ended, with its bone and tools: "
+                                                        "choose its patient under Case."
+                                                      : "Goes on where this session ended: its bone, case and tools.") +
+                                     (one.remark.empty() ? std::string() : " It has " + one.remark + "."),
+                            .arguments = {"--continue", one.path},
+                            .is_imported = one.is_imported});
   }
   return list;
 }
 
 }  // namespace
 
-StartLists startLists(std::span<const haptics::FoundDevice> devices,
-                      std::span<const calibration::RigLocation> calibrations,
-                      std::span<const SessionListing> sessions) {
-  return {impactionList(), handList(devices), calibrationList(calibrations), positionList(), sessionList(sessions)};
+StartLists startLists(const StartFindings& found) {
+  return {caseStartList(found.patients), handList(found.devices), calibrationList(found.calibrations), positionList(),
+          sessionList(found.sessions)};
 }
 
 StartLists startListsHere() {
-  std::vector<haptics::FoundDevice> devices;
-  std::vector<calibration::RigLocation> calibrations;
-  std::vector<SessionListing> sessions;
+  StartFindings found;
   try {
-    devices = haptics::findDevices().devices;
+    found.patients = listPatients(usualPatientFolder());
+  } catch (const std::exception&) {  // no data folder
+  }
+  try {
+    found.devices = haptics::findDevices().devices;
   } catch (const std::exception&) {  // molar devices tells why
   }
   try {
     const calibration::RigStore store(calibration::RigStore::usualRoot());
     for (const calibration::RigLocation& at : store.locations())
-      if (store.currentName(at)) calibrations.push_back(at);
+      if (store.currentName(at)) found.calibrations.push_back(at);
   } catch (const std::exception&) {  // molar calibrate list tells why
   }
   try {
-    sessions = listSessions(usualSessionFolder(), false, 2 * kSessionsOffered);
+    found.sessions = listSessions(usualSessionFolder(), false, 2 * kSessionsOffered);
   } catch (const std::exception&) {  // molar sessions tells why
   }
-  return startLists(devices, calibrations, sessions);
+  return startLists(found);
 }
 
 }  // namespace app

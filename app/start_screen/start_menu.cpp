@@ -22,10 +22,10 @@ StartMenu::Answer StartMenu::take(const render::KeyPressed& key) {
   if (key.key == Key::tab) moveFocus(key.shift ? -1 : 1);
   if (key.key == Key::right) moveFocus(1);
   if (key.key == Key::left) moveFocus(-1);
-  if (key.key == Key::down) moveChoice(1);
-  if (key.key == Key::up) moveChoice(-1);
-  if (key.key == Key::home) moveChoice(-static_cast<int>(lists_[focus_].choices.size()));
-  if (key.key == Key::end) moveChoice(static_cast<int>(lists_[focus_].choices.size()));
+  if (key.key == Key::down) moveChoice(focus_, 1);
+  if (key.key == Key::up) moveChoice(focus_, -1);
+  if (key.key == Key::home) moveChoice(focus_, -static_cast<int>(lists_[focus_].choices.size()));
+  if (key.key == Key::end) moveChoice(focus_, static_cast<int>(lists_[focus_].choices.size()));
   return Answer::none;
 }
 
@@ -37,8 +37,8 @@ void StartMenu::moveFocus(int by) {
   } while (isOverruled(focus_));
 }
 
-void StartMenu::moveChoice(int by) {
-  StartList& list = lists_[focus_];
+void StartMenu::moveChoice(std::size_t which, int by) {
+  StartList& list = lists_[which];
   const auto last = static_cast<int>(list.choices.size()) - 1;
   list.chosen = static_cast<std::size_t>(std::clamp(static_cast<int>(list.chosen) + by, 0, last));
 }
@@ -52,17 +52,30 @@ void StartMenu::choose(std::size_t list, std::size_t choice) {
   lists_[list].chosen = choice;
 }
 
+void StartMenu::scroll(std::size_t list, int by) {
+  if (list >= lists_.size() || isOverruled(list)) return;
+  message_.clear();
+  focus_ = list;
+  moveChoice(list, by);
+}
+
 StartMenu::Answer StartMenu::start() {
   for (std::size_t n = 0; n < lists_.size(); ++n)
     if (const StartChoice& choice = lists_[n].choice(); !isOverruled(n) && !choice.why_not.empty()) {
       say(choice.words + ": " + choice.why_not, true);
       return Answer::none;
     }
+  if (lists_[kSessions].choice().is_imported && !lists_[kCases].choice().is_imported) {
+    say("This session is of an imported patient: choose that patient under " + lists_[kCases].title + ".", true);
+    return Answer::none;
+  }
   message_.clear();
   return Answer::start;
 }
 
-bool StartMenu::isOverruled(std::size_t list) const { return list == kCases && lists_[kSessions].chosen > 0; }
+bool StartMenu::isOverruled(std::size_t list) const {
+  return list == kCases && lists_[kSessions].chosen > 0 && !lists_[kSessions].choice().is_imported;
+}
 
 std::vector<std::string> StartMenu::arguments() const {
   std::vector<std::string> all{"rehearse"};

@@ -18,6 +18,8 @@ struct StartChoice {
   std::string about;   ///< what it means, one or two lines
   std::vector<std::string> arguments;
   std::string why_not = "";  ///< cannot be started, and what to do; empty: it can
+  /// Of a patient: imported. Of a session to go on with: of an imported patient, which is to be chosen beside it.
+  bool is_imported = false;
 };
 
 struct StartList {
@@ -41,12 +43,14 @@ class StartMenu {
 
   Answer take(const render::KeyPressed& key);
   void choose(std::size_t list, std::size_t choice);
+  /// The wheel over a list: down is positive. A list that does not count stays.
+  void scroll(std::size_t list, int by);
   /// Refused with a message where a choice cannot be started.
   Answer start();
 
   const StartLists& lists() const { return lists_; }
   std::size_t focus() const { return focus_; }
-  /// A session to go on with brings its own case.
+  /// A session to go on with brings its own case, but not an imported patient.
   bool isOverruled(std::size_t list) const;
   /// Of `molar`: "rehearse", then those of all choices.
   std::vector<std::string> arguments() const;
@@ -64,7 +68,7 @@ class StartMenu {
 
  private:
   void moveFocus(int by);
-  void moveChoice(int by);
+  void moveChoice(std::size_t list, int by);
 
   StartLists lists_;
   std::size_t focus_ = 0;

@@ -128,8 +128,8 @@ render::Image startPage(const StartMenu& menu, glm::ivec2 window_px) {
                  kAboutWidth, kText, tells && menu.isTrouble() ? kWarning : kWords, Align::left);
   page.box(kButton, kButtonSize, kAccent);
   page.text("Start", kButton + 0.5 * kButtonSize, 3.4, kGround, Align::centre, true);
-  page.text("Up, Down choose · Tab, Left, Right next list · Enter starts · Esc leaves", {5.0 + kInset, 97.0}, 2.1, kDim,
-            Align::left);
+  page.text("Up, Down or wheel choose · Tab, Left, Right next list · Enter starts · Esc leaves", {5.0 + kInset, 97.0},
+            2.1, kDim, Align::left);
 
   // In the middle of the window.
   const render::Image drawn = page.picture();

@@ -58,14 +58,19 @@ void savePatient(const Patient& patient, const std::string& folder, bool overwri
   output.commit();
 }
 
+Patient describedPatient(const std::string& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw LoadError(folder + ": there is no such patient folder; make one with molar import");
+  const std::string toml = (fs::path(folder) / kToml).string();
+  return patientFromToml(readSmallFile(toml, kMaxToml_bytes, "make the patient with molar import"), toml);
+}
+
 Patient loadPatient(const std::string& folder) {
   std::error_code error;
   const fs::path path = folder;
-  if (!fs::is_directory(path, error))
-    throw LoadError(folder + ": there is no such patient folder; make one with molar import");
-
+  Patient patient = describedPatient(folder);
   const std::string toml = (path / kToml).string();
-  Patient patient = patientFromToml(readSmallFile(toml, kMaxToml_bytes, "make the patient with molar import"), toml);
   patient.ct = readVdb((path / kVolume).string());
   if (patient.site && !isInside(patient.site->centre_P_mm, patient.ct.grid))
     throw LoadError(toml + ": the site lies outside the volume; import the scan again");

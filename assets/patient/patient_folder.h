@@ -17,4 +17,7 @@ void savePatient(const Patient& patient, const std::string& folder, bool overwri
 /// Throws LoadError: no such folder, a file missing, damaged or foreign, a value out of range.
 Patient loadPatient(const std::string& folder);
 
+/// Everything but ct, gingiva and face, of patient.toml alone; microseconds. Throws LoadError.
+Patient describedPatient(const std::string& folder);
+
 }  // namespace assets

@@ -117,6 +117,23 @@ class ExtractionCommand : public ProgramTest {
   }
 };
 
+TEST_F(ExtractionCommand, AnImportWithoutAPlaceIsOfferedFromTheDataFolder) {
+  patient();
+  const ProgramOutput first = molar("import " + at("scan")), second = molar("import " + at("scan"));
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(second.status, 0) << second.err;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(dataFolder() + "/molar/patients"))
+    names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  ASSERT_EQ(names.size(), 2u) << first.err;
+  EXPECT_TRUE(names[0].starts_with("imported-20")) << names[0];
+  EXPECT_EQ(names[1], names[0] + "-2");
+  EXPECT_NE(first.err.find(names[0]), std::string::npos) << first.err;
+  EXPECT_NE(molar("rehearse --cases").out.find("\n" + names[1]), std::string::npos);
+  EXPECT_EQ(molar("inspect " + names[0] + " --json").out, molar("inspect " + at("patient") + " --json").out);
+}
+
 TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBit) {
   Hand hand;
   hand.section();

@@ -23,22 +23,22 @@ class KeptChoices : public testing::Test {
 
 TEST_F(KeptChoices, AreChosenAgainAtTheNextStart) {
   EXPECT_TRUE(keptChoices().empty());
-  StartMenu menu(startLists({}, {}, {}));
+  StartMenu menu(startLists({}));
   menu.choose(0, 5), menu.choose(1, 1), menu.choose(3, 2);
   keepChoices(menu.chosenWords());
-  StartMenu next(startLists({}, {}, {}));
+  StartMenu next(startLists({}));
   next.chooseAsIn(keptChoices());
   EXPECT_EQ(next.chosenWords(), menu.chosenWords());
   EXPECT_EQ(next.arguments(), menu.arguments());
 }
 
 TEST_F(KeptChoices, DamagedOrForeignOnesAreLeftOut) {
-  const StartMenu usual(startLists({}, {}, {}));
+  const StartMenu usual(startLists({}));
   keepChoices(usual.chosenWords());
   for (const std::string& text : {std::string(), std::string("\0\xff\n\n", 4), std::string(100'000, 'x'),
                                   std::string("a\nb\nc\nd\ne\nf\n"), std::string("Demonstration\nMouse\n")}) {
     std::ofstream(file(), std::ios::binary) << text;
-    StartMenu menu(startLists({}, {}, {}));
+    StartMenu menu(startLists({}));
     menu.chooseAsIn(keptChoices());
     EXPECT_EQ(menu.arguments(), usual.arguments());
   }

@@ -31,9 +31,15 @@ std::vector<SessionListing> foundSessions() {
   return sessions;
 }
 
-StartLists someLists() {
-  const std::vector<calibration::RigLocation> rigs{{"rig-02", "SIM-D7", "right"}};
-  return startLists(foundDevices(), rigs, foundSessions());
+StartLists someLists(std::size_t patients = 0) {
+  StartFindings found{.patients = {},
+                      .devices = foundDevices(),
+                      .calibrations = {{"rig-02", "SIM-D7", "right"}},
+                      .sessions = foundSessions()};
+  for (std::size_t n = 0; n < patients; ++n)
+    found.patients.push_back({"/data/patients/mine " + std::to_string(n), "mine " + std::to_string(n),
+                              "imported scan, lower left third molar (38)"});
+  return startLists(found);
 }
 
 /// What the parser of `molar rehearse` makes of them.
@@ -55,6 +61,19 @@ TEST(StartLists, EveryCaseIsOfferedTheUsualOneFirstChosen) {
   for (std::size_t n = 0; n < cases().size(); ++n)
     EXPECT_EQ(list.choices[n].arguments, std::vector<std::string>({"--case", std::string(cases()[n].name)}));
   EXPECT_EQ(list.choice().arguments[1], usualCase().name);
+}
+
+TEST(StartLists, ImportedPatientsAreOfferedBeforeTheCases) {
+  const StartList list = someLists(20)[0];
+  ASSERT_EQ(list.choices.size(), kPatientsOffered + cases().size());
+  EXPECT_EQ(list.choices[1].words, "mine 1");
+  EXPECT_EQ(list.choices[1].arguments, std::vector<std::string>({"/data/patients/mine 1"}));
+  EXPECT_EQ(list.choice().arguments[1], usualCase().name) << "the usual case is chosen at first";
+  StartMenu menu(someLists(20));
+  menu.choose(0, 1);
+  const RehearseOptions options = parsed(menu.arguments());
+  EXPECT_EQ(options.patient, "/data/patients/mine 1");
+  EXPECT_EQ(options.case_name, "");
 }
 
 TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {

@@ -64,6 +64,34 @@ TEST(StartMenu, ASessionToGoOnWithBringsItsOwnCase) {
   EXPECT_EQ(menu.arguments(), Words({"rehearse", "--case", "shallow", "--device", "mouse"}));
 }
 
+TEST(StartMenu, ASessionOfAnImportedPatientGoesOnWithThatPatient) {
+  StartLists lists = smallMenu().lists();
+  lists[0].choices.push_back({.words = "mine", .beside = "", .about = "", .arguments = {"/mine"}, .is_imported = true});
+  lists[4].choices[1].is_imported = true;
+  StartMenu menu(lists);
+  menu.choose(4, 1);
+  EXPECT_FALSE(menu.isOverruled(0));
+  EXPECT_EQ(press(menu, Key::enter), Answer::none) << "a built-in case is chosen";
+  EXPECT_TRUE(menu.isTrouble());
+  menu.choose(0, 2);
+  EXPECT_EQ(menu.lists()[4].chosen, 1u);
+  EXPECT_EQ(press(menu, Key::enter), Answer::start);
+  EXPECT_EQ(menu.arguments(), Words({"rehearse", "/mine", "--device", "mouse", "--continue", "monday.molar"}));
+}
+
+TEST(StartMenu, TheWheelMovesTheChoiceOfTheListUnderIt) {
+  StartMenu menu = smallMenu();
+  menu.scroll(3, 1);
+  EXPECT_EQ(menu.focus(), 3u);
+  EXPECT_EQ(menu.lists()[3].chosen, 1u);
+  menu.scroll(3, 5), menu.scroll(7, 1);
+  EXPECT_EQ(menu.lists()[3].chosen, 1u) << "the last one";
+  menu.scroll(4, 1);
+  menu.scroll(0, -1);
+  EXPECT_EQ(menu.lists()[0].chosen, 1u) << "overruled by the session";
+  EXPECT_EQ(menu.lists()[4].chosen, 1u);
+}
+
 TEST(StartMenu, SaysWhyAChoiceCannotBeStarted) {
   StartMenu menu = smallMenu();
   menu.choose(1, 1);

@@ -15,7 +15,7 @@ StartMenu menuOf(std::size_t sessions) {
     list[n].path = std::to_string(n) + ".molar";
     list[n].verdict = SessionVerdict::complete;
   }
-  return StartMenu(startLists({}, {}, list));
+  return StartMenu(startLists({.patients = {}, .devices = {}, .calibrations = {}, .sessions = list}));
 }
 
 TEST(StartPage, PlacesLieOnThePageApartFromEachOther) {
