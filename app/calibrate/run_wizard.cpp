@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "app/calibrate/page_album.h"
+#include "app/calibrate/page_lines.h"
 #include "app/calibrate/wizard.h"
 #include "app/calibrate/wizard_pages.h"
 
@@ -51,6 +52,8 @@ class WizardShow : GuidedProcedure {
     for (const StylusSample& sample : samples_) wizard_.update(sample);
     view_ = wizard_.takeView();
     if (isPractisedByHand()) view_.practice_keys = kPracticeKeys;
+    if (run_.tells)
+      for (const std::string& line : lines_.newOf(view_)) run_.report(line);
     if (sounds_)
       for (const WizardSound sound : view_.sounds) sounds_->play(sound);
     show();
@@ -76,6 +79,7 @@ class WizardShow : GuidedProcedure {
   Wizard wizard_;
   WizardPages pages_;
   std::optional<PageAlbum> album_;
+  PageLines lines_;
   Clock::time_point shown_;
 };
 

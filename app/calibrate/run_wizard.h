@@ -22,6 +22,7 @@ struct WizardRun : GuidedRun {
   WizardPlan plan;
   std::optional<TechnicianSettings> robot;  ///< holds the practice stylus instead of mouse and keys
   bool hurried = false;                     ///< the robot takes no more time than it needs to think
+  bool tells = false;                       ///< reports what the pages say
   std::filesystem::path pages;              ///< a folder for a picture of each page; empty: none
 };
 

@@ -12,8 +12,6 @@ constexpr double kRate_Hz = 1000.0;
 constexpr double kSilent_s = 0.15;
 /// A robot's clock that fell behind does not hurry after it.
 constexpr std::int64_t kMostTicks = 100, kHurriedTicks = 20;
-/// Where a practice stylus is at first: before the targets, within reach.
-constexpr glm::dvec3 kPracticeStart_mm{20.0, -20.0, 60.0};
 
 double since_s(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -43,6 +43,9 @@ class DeviceSource : public StylusSource {
   haptics::HandleRecorder hand_;
 };
 
+/// Where a practice stylus is at first: before the targets, within reach. Frame W.
+inline constexpr glm::dvec3 kPracticeStart_mm{20.0, -20.0, 60.0};
+
 /// A practice stylus, held by mouse and keys.
 class PracticeSource final : public StylusSource {
  public:

@@ -2,6 +2,7 @@
 
 #include "app/calibrate/choice_menu.h"
 #include "app/calibrate/steps/step.h"
+#include "calibration/record/rig_store.h"
 
 namespace app {
 namespace {
@@ -44,7 +45,9 @@ class IdentityStep final : public WizardStep {
     view.sentence = "Read the lines and compare them with rig, device and stylus. The forces are off.";
     const calibration::RigProvenance& known = context_.plan.record.provenance;
     const calibration::RigDevice& device = context_.plan.device;
-    view.facts = {"rig " + orUnknown(known.rig_id),
+    static const calibration::RigLocation kUnnamed;
+    view.facts = {known.rig_id.empty() || known.rig_id == kUnnamed.rig_id ? "the only rig here, without a name"
+                                                                          : "rig " + known.rig_id,
                   "device " + device.model + ", serial number " + orUnknown(device.serial),
                   "on the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
                   known.created_utc.empty() ? "never calibrated" : "calibrated " + known.created_utc};

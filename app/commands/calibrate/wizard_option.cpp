@@ -21,6 +21,8 @@ namespace {
 
 using namespace calibration;
 
+constexpr double kPracticeSettle_s = 3.0;
+
 volatile std::sig_atomic_t interrupted = 0;
 
 RigLocation placeOf(const MeasurementInfo& info) { return {info.rig_id, info.serial, info.mount}; }
@@ -47,6 +49,7 @@ Option WizardOption::addTo(CommandLine& command) {
   command.option("--monitor", monitor_, "Monitor, from 1").wholeFrom(1, 16);
   command.flag("--windowed", windowed_, "In a window instead of the full screen");
   command.flag("--quiet", quiet_, "Without sounds");
+  command.flag("--verbose", tells_, "What the pages say on the terminal as well, for whoever assists");
   command.option("--pages", pages_, "A picture of every page into this folder").valueNamed("DIR");
   return device;
 }
@@ -132,8 +135,10 @@ WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, 
     run.robot = TechnicianSettings{};
     run.practice->technician.outlier_share = 0.0;
   }
-  if (hurried_) run.plan.settle_s = 0.0;
+  // A simulated arm has no motors that settle: the page is shown.
+  if (held.practice) run.plan.settle_s = hurried_ ? 0.0 : kPracticeSettle_s;
   run.hurried = hurried_;
+  run.tells = tells_;
   run.pages = pages_;
   GuidedOutcome led{run.plan, runWizard(run), info};
   if (!led.outcome.reason.empty()) printMessage(led.outcome.reason);

@@ -65,7 +65,8 @@ class WizardOption {
   std::string device_, pages_, camera_, lens_, camera_size_ = "1920x1080";
   DisplayOption display_;
   std::optional<int> monitor_;
-  bool robot_ = false, hurried_ = false, headless_ = false, windowed_ = false, quiet_ = false, gray_code_ = false;
+  bool robot_ = false, hurried_ = false, headless_ = false, windowed_ = false, quiet_ = false, gray_code_ = false,
+       tells_ = false;
 };
 
 }  // namespace app
