@@ -12,6 +12,9 @@ namespace {
 
 // A notch of the wheel: a part of the gap, within limits; away from the bone it is at least an ordinary step.
 constexpr double kNotchOfGap = 0.2, kFinestNotch_mm = 0.1, kLeavingNotch_mm = 0.3, kCoarsestNotch_mm = 2.0;
+// Walls of a deep hole stay near: whoever turns out notch after notch wants out of it.
+constexpr int kEvenNotches = 3;
+constexpr double kLeavingGrowth = 1.3;
 constexpr double kShiftFactor = 5.0;
 constexpr double kRotation_rad = calibration::radFromDegrees(3.0);
 
@@ -70,7 +73,9 @@ void HandInput::press(const render::KeyPressed& key) {
 void HandInput::roll(double notches) {
   const double way = notches < 0.0 ? -1.0 : 1.0;
   for (double left = std::abs(notches); left > 0.0; left -= 1.0) {
-    const double finest_mm = way > 0.0 ? kFinestNotch_mm : kLeavingNotch_mm;
+    leaving_ = way > 0.0 ? 0 : leaving_ + 1;
+    const double leaving_mm = kLeavingNotch_mm * std::pow(kLeavingGrowth, std::max(leaving_ - kEvenNotches, 0));
+    const double finest_mm = std::min(way > 0.0 ? kFinestNotch_mm : leaving_mm, kCoarsestNotch_mm);
     double step_mm = gap_mm_ ? std::clamp(kNotchOfGap * *gap_mm_, finest_mm, kCoarsestNotch_mm) : kCoarsestNotch_mm;
     if (shift_) step_mm *= kShiftFactor;
     step_mm *= way * std::min(left, 1.0);

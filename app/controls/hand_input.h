@@ -1,8 +1,8 @@
 // Mouse and keyboard as a pose source: window events move and rotate the target pose of the tool, 1:1 on the screen.
 // Drag: in the plane of the screen; wheel: in depth, a notch is a part of the gap to the bone, so that steps are fine
-// near it and no notch passes it; with Shift five times as much; arrows, Q, E: 3 degrees a press; space: the pedal.
-// Other keys become requests (control.h) in order. haptics::MouseDevice smooths the motion. Frame W of the first view,
-// mm; where the view is turned, the hand moves as it is seen. Main thread.
+// near it and no notch passes it, and grows on a longer way out; with Shift five times as much; arrows, Q, E: 3 degrees
+// a press; space: the pedal. Other keys become requests (control.h) in order. haptics::MouseDevice smooths the motion.
+// Frame W of the first view, mm; where the view is turned, the hand moves as it is seen. Main thread.
 #pragma once
 
 #include <optional>
@@ -44,6 +44,7 @@ class HandInput {
   std::vector<ControlRequest> requests_;
   bool pedal_ = false, shift_ = false;
   std::optional<double> gap_mm_;
+  int leaving_ = 0;  ///< notches out without one in
   glm::dquat view_{1.0, 0.0, 0.0, 0.0};
 };
 

@@ -131,6 +131,7 @@ void ControlRouter::showDeskView(render::Frame& frame) {
   const glm::ivec2 px = frame.rig.screen.px;
   frame.rig = desk_view_.rig();
   frame.rig.screen.px = px;
+  frame.face_window_mm = std::max(plan_.face_window_mm, desk_view_.faceWindow_mm());
   input_.setView(desk_view_.rotation());
 }
 

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kTurn_rad_per_px = calibration::radFromDegrees(0.3);
 constexpr double kMostPitch_rad = calibration::radFromDegrees(85.0);
+/// A mouth opened for work leaves some ten degrees about the line of sight (app/case/handpiece_direction.h).
+constexpr double kFree_rad = calibration::radFromDegrees(5.0), kWideOpen_rad = calibration::radFromDegrees(20.0);
+constexpr double kFaceWindow_mm = 20.0;
 const double kMagnifyingStep = std::pow(2.0, 0.25);
 
 }  // namespace
@@ -25,6 +28,11 @@ void DeskView::magnify(int steps) {
 
 glm::dquat DeskView::rotation() const {
   return glm::angleAxis(pitch_rad_, glm::dvec3(1.0, 0.0, 0.0)) * glm::angleAxis(yaw_rad_, glm::dvec3(0.0, 1.0, 0.0));
+}
+
+double DeskView::faceWindow_mm() const {
+  const double turned_rad = std::acos(std::clamp((rotation() * glm::dvec3(0.0, 0.0, 1.0)).z, -1.0, 1.0));
+  return kFaceWindow_mm * std::clamp((turned_rad - kFree_rad) / (kWideOpen_rad - kFree_rad), 0.0, 1.0);
 }
 
 calibration::Rig DeskView::rig() const {

@@ -27,6 +27,9 @@ class DeskView {
   /// From directions of the first view's W, in which the mouse's hand moves, to directions on the screen.
   glm::dquat rotation() const;
   double magnified() const { return magnified_; }
+  /// Radius of the opening in the face around the line to the site, mm: 0 where the mouth leaves the site in sight,
+  /// more the farther the view is turned, as cheek and lips come before it (render::Frame::face_window_mm).
+  double faceWindow_mm() const;
 
   static constexpr double kLeastMagnified = 0.25, kMostMagnified = 4.0;
 

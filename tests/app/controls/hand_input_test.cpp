@@ -53,6 +53,25 @@ TEST(HandInput, FindsContactFromFiveMillimetresInTwentyNotches) {
   EXPECT_LE(notches, 20);
 }
 
+TEST(HandInput, LeavesADeepHoleInFewNotchesAndCreepsOutAtFirst) {
+  HandInput hand({});
+  int notches = 0;
+  for (; hand.X_WT().translation_mm.z < 12.0 && notches < 100; ++notches) {
+    hand.setGap(0.2);  // its walls
+    hand.take(render::WheelTurned{-1.0}, 0.25);
+    if (notches == 2) {
+      EXPECT_NEAR(hand.X_WT().translation_mm.z, 0.9, 1e-12) << "three small ones";
+    }
+  }
+  EXPECT_LE(notches, 14);
+  const double out_mm = hand.X_WT().translation_mm.z;
+  hand.setGap(0.2);
+  hand.take(render::WheelTurned{1.0}, 0.25);
+  hand.setGap(0.2);
+  hand.take(render::WheelTurned{-1.0}, 0.25);
+  EXPECT_NEAR(hand.X_WT().translation_mm.z, out_mm - 0.1 + 0.3, 1e-9) << "a notch in ends the way out";
+}
+
 TEST(HandInput, MovesAsSeenInATurnedView) {
   HandInput hand({});
   const glm::dquat view = glm::angleAxis(0.5 * 3.14159265358979, glm::dvec3(0, 1, 0));

@@ -57,6 +57,28 @@ TEST(DeskView, LoupesShowASmallerPartOfTheScreenWithinLimits) {
   EXPECT_EQ(view.magnified(), DeskView::kLeastMagnified);
 }
 
+TEST(DeskView, TheFaceOpensBeforeTheSiteAsTheViewIsTurned) {
+  for (const glm::dvec2 way : {glm::dvec2(1.0, 0.0), glm::dvec2(-1.0, 0.0), glm::dvec2(0.0, 1.0)}) {
+    DeskView view(deskRig(), {});
+    EXPECT_EQ(view.faceWindow_mm(), 0.0) << "as the mouth is open";
+    double before_mm = 0.0;
+    for (int px = 0; px < 300; ++px) {
+      view.turn(way);
+      EXPECT_GE(view.faceWindow_mm(), before_mm);
+      EXPECT_LE(view.faceWindow_mm() - before_mm, 0.5) << "without a jump";
+      before_mm = view.faceWindow_mm();
+      if (px == 10) {
+        EXPECT_EQ(before_mm, 0.0);
+      }
+      if (px == 100) {
+        EXPECT_GT(before_mm, 15.0) << "a third of a turn of the hand hides nothing";
+      }
+    }
+    view.backToFirst();
+    EXPECT_EQ(view.faceWindow_mm(), 0.0);
+  }
+}
+
 TEST(DeskView, ComesBackToTheFirstView) {
   const calibration::Rig first = deskRig();
   DeskView view(first, {{1.0, 2.0, 3.0}});
