@@ -63,11 +63,15 @@ std::string surgeonsText(const RehearsalFigures& f) {
           : fmt::format(", cutting {}, {} of it without water", clockText(f.times.cutting_s), clockText(f.times.dry_s));
   line("time", clockText(f.last.tick.t_s + f.last.tick.dt_s) + cutting);
   const auto is_bone = [](std::uint8_t label) { return !assets::isTooth(label) && assets::isHard(label); };
-  const auto is_soft = [&](std::uint8_t label) { return !assets::isTooth(label) && !is_bone(label); };
+  // Of the gingiva the scan has a rough share a voxel, and what is drawn and felt is its surface: where the bur turned
+  // on it is told below.
+  const auto is_other = [&](std::uint8_t label) {
+    return !assets::isTooth(label) && !is_bone(label) && label != static_cast<std::uint8_t>(assets::Tissue::gingiva);
+  };
   const std::string bone = removedText(f, is_bone);
   line("bone removed", bone.empty() ? "none" : bone);
   line("tooth removed", removedText(f, assets::isTooth));
-  line("other removed", removedText(f, is_soft));
+  line("other removed", removedText(f, is_other));
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("tooth", f.tooth);
   line("forceps", f.forceps);

@@ -1,6 +1,7 @@
 #include "app/session/metrics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -213,6 +214,9 @@ nlohmann::ordered_json calibrationMetrics(const SessionCalibration& c) {
 
 namespace {
 
+/// As touches are recorded, to 1 ms.
+double inMilliseconds(double time_s) { return std::round(1e3 * time_s) / 1e3; }
+
 /// By the key of the tissue; all of them, so that a table has the same columns for every session.
 nlohmann::ordered_json softTouchesJson(const SoftTouches& touches) {
   nlohmann::ordered_json json;
@@ -252,7 +256,8 @@ std::string metricsJson(const SessionMetrics& metrics) {
   if (metrics.touched) {
     json["touched"] = nlohmann::ordered_json::array();
     for (const TouchCount& count : *metrics.touched)
-      json["touched"].push_back({{"what", count.what}, {"times", count.times}, {"contact_s", count.contact_s}});
+      json["touched"].push_back(
+          {{"what", count.what}, {"times", count.times}, {"contact_s", inMilliseconds(count.contact_s)}});
   }
   json["measured"] = nlohmann::ordered_json::array();
   for (const MeasuredWay& way : metrics.measured)
