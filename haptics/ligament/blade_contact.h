@@ -28,12 +28,19 @@ struct BladeContact {
   enum class On : std::uint8_t { obstacle, piece };
   On on = On::obstacle;
   glm::dvec3 at_P_mm{0.0};
-  glm::dvec3 out_P{0.0};  ///< pushes the blade
+  glm::dvec3 out_P{0.0};  ///< unit, pushes the blade
   double depth_mm = 0.0;  ///< above zero
   double N_per_mm = 0.0;
 
   double push_N() const { return N_per_mm * depth_mm; }
 };
+
+/// What the kernels read: u, v, s of a vector of T, and back; the blade; where the samples lie.
+glm::dvec3 inOutline(const ElevatorShape& shape, const glm::dvec3& v_T) noexcept;
+glm::dvec3 fromOutline(const ElevatorShape& shape, const glm::dvec3& v_uvs) noexcept;
+BladeOutline outlineOf(const ElevatorShape& shape) noexcept;
+BladePlace placeOf(const ElevatorShape& shape, const ToolPose& X_PT, const PiecePose& X_PQ,
+                   const glm::dvec3& centre_Q_mm) noexcept;
 
 class BladeContacts {
  public:
@@ -57,7 +64,6 @@ class BladeContacts {
     std::array<std::uint16_t, N> index{};
     std::size_t count = 0;
   };
-  BladePlace placeOf(const ToolPose& X_PT, const PiecePose& X_PQ) const noexcept;
   void add(const BladeContact& contact) noexcept { pressing_[pressing_count_++] = contact; }
 
   const ElevatorShape* shape_ = nullptr;

@@ -13,6 +13,9 @@ using calibration::Piece;
 using calibration::Point;
 using calibration::Tool;
 
+/// Edges press with hundreds of newtons, of which a device renders a fiftieth.
+constexpr double kStill_N = 0.02, kStillShare = 5e-4;
+
 Six partOf(const Twelve& step, std::size_t body) noexcept {
   Six part{};
   std::copy_n(step.begin() + static_cast<std::ptrdiff_t>(6 * body), 6, part.begin());
@@ -104,9 +107,12 @@ ElevatorTick ElevatorHold::step(const ElevatorHand& hand, const ElevatorScene& s
     return tryAt(hand, here, piece, X_PT, X_PQ, period_s);
   };
   const glm::dvec3 centre_Q_mm = piece == nullptr ? glm::dvec3(0.0) : piece->samples().centre_Q_mm;
+  const Tried first = try_at(state_.X_PT, tick.X_PQ);
+  double pressed_N = 0.0;
+  for (const BladeContact& contact : contacts_.pressing()) pressed_N += contact.push_N();
   SettleEffort effort;
   const Tried end = settled<12>(
-      try_at(state_.X_PT, tick.X_PQ), law_.drag_lever_mm,
+      first, kStill_N + kStillShare * pressed_N, law_.drag_lever_mm,
       [&](const Tried& from, const Twelve& step) {
         return try_at(moved(from.X_PT, shape_.middle_T_mm, partOf(step, 0)),
                       piece == nullptr ? from.X_PQ : moved(from.X_PQ, centre_Q_mm, partOf(step, 1)));

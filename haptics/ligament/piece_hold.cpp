@@ -167,7 +167,7 @@ HoldTick PieceHold::step(const PieceDrive& drive, const DistanceField* obstacles
   };
   SettleEffort effort;
   const Tried end = settled<6>(
-      try_at(state_.X_PQ), law_.drag_lever_mm,
+      try_at(state_.X_PQ), kBalanced_N, law_.drag_lever_mm,
       [&](const Tried& from, const Six& step) { return try_at(moved(from.X_PQ, samples_.centre_Q_mm, step)); }, effort);
 
   tick = moveTo(end.X_PQ, obstacles, end.contact_Nmm, period_s);

@@ -1,7 +1,7 @@
 // Newton steps to the least energy of one rigid body or of two, the same for forceps and elevators. Settled is below
-// 5 mN, or 5e-7 mJ still to gain, or a step below 2 µm that did not halve the residual: where a distance field's slope
-// has kinks, at the faces of its cells, the least energy may lie on one with a residual left. mm, N, N mm. Servo
-// thread; bounded by 6 evaluations. Method: reference/extraction 3.2.
+// 5 mN (or what the caller bears), or 5e-7 mJ still to gain, or a step below 2 µm that did not halve the residual:
+// where a distance field's slope has kinks, at the faces of its cells, the least energy may lie on one with a residual
+// left. mm, N, N mm. Servo thread; bounded by 6 evaluations. Method: reference/extraction 3.2.
 #pragma once
 
 #include <algorithm>
@@ -35,6 +35,9 @@ void limit(std::array<double, N>& step) noexcept {
   for (double& part : step) part /= over;
 }
 
+/// What counts as balanced.
+inline constexpr double kBalanced_N = 5e-3;
+
 struct SettleEffort {
   int evaluations = 0;
   bool unsettled = false;
@@ -43,11 +46,12 @@ struct SettleEffort {
 /// A `Tried` has balance.energy_Nmm, balance.gradient, balance.hessian and residual_N. `first` counts as one
 /// evaluation; after_step(from, step) is the next.
 template <std::size_t N, class Tried, class AfterStep>
-Tried settled(const Tried& first, double lever_mm, const AfterStep& after_step, SettleEffort& effort) noexcept {
-  constexpr double kBalanced_N = 5e-3, kGain_Nmm = 5e-7, kKink_mm = 2e-3;
+Tried settled(const Tried& first, double balanced_N, double lever_mm, const AfterStep& after_step,
+              SettleEffort& effort) noexcept {
+  constexpr double kGain_Nmm = 5e-7, kKink_mm = 2e-3;
   Tried best = first;
   effort = {1, false};
-  while (best.residual_N >= kBalanced_N) {
+  while (best.residual_N >= balanced_N) {
     std::array<double, N> down{}, step{};
     for (std::size_t n = 0; n < N; ++n) down[n] = -best.balance.gradient[n];
     const bool is_finite = std::all_of(down.begin(), down.end(), [](double part) { return std::isfinite(part); });
@@ -68,7 +72,7 @@ Tried settled(const Tried& first, double lever_mm, const AfterStep& after_step, 
     if (!is_taken) break;
     if (length_mm < kKink_mm && best.residual_N > 0.5 * before_N) return best;
   }
-  effort.unsettled = !(best.residual_N < kBalanced_N);
+  effort.unsettled = !(best.residual_N < balanced_N);
   return best;
 }
 
