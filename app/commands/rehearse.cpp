@@ -283,7 +283,8 @@ int run(RehearseOptions& options) {
   std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
   plan.command.tool = tool_of(options.tools.front());
-  if (plan.command.tool.grips) throw UsageError("--tool forceps: the first tool is a bur, name one before it");
+  if (plan.command.tool.luxates())
+    throw UsageError("--tool " + options.tools.front() + ": the first tool is a bur, name one before it");
   for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
     plan.other_tools.push_back(tool_of(*other));
   if (!options.procedure.empty()) {
@@ -357,12 +358,10 @@ int run(RehearseOptions& options) {
     plan.soft_tissue = {};
   }
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
-  // Whoever named no tools finds forceps beside the bur.
-  const auto grips = [](const haptics::Tool& tool) { return tool.grips; };
+  // Whoever named no tools finds an elevator and forceps beside the bur.
   static const RehearseOptions kUntouched;
-  if (!former && options.tools == kUntouched.tools && plan.patient.site &&
-      std::none_of(plan.other_tools.begin(), plan.other_tools.end(), grips))
-    plan.other_tools.push_back(haptics::forcepsTool());
+  if (!former && options.tools == kUntouched.tools && plan.patient.site && plan.other_tools.empty())
+    plan.other_tools = {haptics::elevatorTool(haptics::ElevatorKind::straight_301), haptics::forcepsTool()};
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) {

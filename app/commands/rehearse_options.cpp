@@ -55,9 +55,9 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.option("--device", options.plan.device, poseSourceHelp()).showsDefault();
   command
       .option("--tool", options.tools,
-              headHelp() +
-                  "; or forceps, which the pedal closes on a tooth. Give several to change between them by key T or "
-                  "pedal; without any, forceps lie beside the bur where a tooth is to be removed")
+              headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() +
+                  ". Give several to change between them by key T or pedal; without any, an elevator and forceps lie "
+                  "beside the bur where a tooth is to be removed")
       .repeated()
       .showsDefault();
   command.option("--shaft", options.shaft,

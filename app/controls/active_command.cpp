@@ -101,6 +101,7 @@ void ActiveCommand::moveStroke(Control control, const std::string& where) {
     undone = stroke_change_->undone_before + sign * stroke_change_->requests;
   }
   if (tick.gripped != 0) return refuse(where, "open the forceps first");
+  if (tick.lever.piece != 0) return refuse(where, "take the elevator off the tooth first");
   if ((undoes ? strokes : undone) <= 0)
     return refuse(where, undoes ? "there is no stroke to undo" : "there is no undone stroke to redo");
   ++(undoes ? command_.undo_serial : command_.redo_serial);

@@ -39,7 +39,7 @@ class ActiveCommand {
   void pollSettingsFile(LiveParameters::Clock::time_point now);
   /// Makes a piece of tooth that has fallen apart two; its serial is set here. Unreported.
   void split(const haptics::SplitOrder& order);
-  /// Makes a piece ready for the forceps, alike.
+  /// Makes a piece ready for forceps or elevator, alike.
   void makeReady(const haptics::SiteOrder& order);
   /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, site and rearm stay as they are.
   void adopt(const haptics::Command& command);

@@ -22,7 +22,7 @@ constexpr std::array<KeyMeaning, 8> kMovements = {{
     {"Wheel", "on a CT slice: through the slices"},
     {"Right drag", "turn the view (on a desk)"},
     {"Arrows", "tilt the handpiece"},
-    {"Q, E", "rotate the handpiece"},
+    {"Q, E", "rotate the handpiece, twist an elevator"},
 }};
 
 constexpr bool isInOrder() {

@@ -28,8 +28,9 @@ int onTray(const std::vector<haptics::Tool>& tray, int index, const std::string&
 int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
   if (const auto number = parseNumber<int>(text)) return onTray(tray, *number - 1, text);
   const haptics::Tool wanted = toolFrom(text, {});
-  const auto found = std::ranges::find_if(
-      tray, [&](const haptics::Tool& tool) { return tool.head == wanted.head && tool.grips == wanted.grips; });
+  const auto found = std::ranges::find_if(tray, [&](const haptics::Tool& tool) {
+    return tool.head == wanted.head && tool.grips == wanted.grips && tool.elevator == wanted.elevator;
+  });
   if (found == tray.end()) throw UsageError("tool " + text + ": it is not on the tray, name it with --tool");
   return static_cast<int>(found - tray.begin());
 }

@@ -63,8 +63,8 @@ void HandInput::press(const render::KeyPressed& key) {
   if (key.key == Key::right) rotate({0, 1, 0}, kRotation_rad);
   if (key.key == Key::up) rotate({1, 0, 0}, -kRotation_rad);
   if (key.key == Key::down) rotate({1, 0, 0}, kRotation_rad);
-  if (key.key == render::keyOf('Q')) rotate({0, 0, 1}, kRotation_rad);
-  if (key.key == render::keyOf('E')) rotate({0, 0, 1}, -kRotation_rad);
+  if (key.key == render::keyOf('Q')) twist(kRotation_rad);
+  if (key.key == render::keyOf('E')) twist(-kRotation_rad);
   if (key.repeated) return;
   if (const auto request = requestOf(key)) requests_.push_back(*request);
 }
@@ -86,6 +86,12 @@ void HandInput::roll(double notches) {
 
 void HandInput::rotate(const glm::dvec3& screen_axis, double angle_rad) {
   X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, glm::conjugate(view_) * screen_axis) * X_WT_.rotation);
+}
+
+/// Anticlockwise as seen from the handle.
+void HandInput::twist(double angle_rad) {
+  if (!twisting_) return rotate({0, 0, 1}, angle_rad);
+  X_WT_.rotation = glm::normalize(X_WT_.rotation * glm::angleAxis(angle_rad, glm::dvec3(0.0, 0.0, 1.0)));
 }
 
 std::vector<ControlRequest> HandInput::takeRequests() { return std::exchange(requests_, {}); }

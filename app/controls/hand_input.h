@@ -1,8 +1,9 @@
 // Mouse and keyboard as a pose source: window events move and rotate the target pose of the tool, 1:1 on the screen.
 // Drag: in the plane of the screen; wheel: in depth, a notch is a part of the gap to the bone, so that steps are fine
 // near it and no notch passes it, and grows on a longer way out; with Shift five times as much; arrows, Q, E: 3 degrees
-// a press; space: the pedal. Other keys become requests (control.h) in order. haptics::MouseDevice smooths the motion.
-// Frame W of the first view, mm; where the view is turned, the hand moves as it is seen. Main thread.
+// a press, Q and E about the line of sight or, for an elevator, about its shaft; space: the pedal. Other keys become
+// requests (control.h) in order. haptics::MouseDevice smooths the motion. Frame W of the first view, mm; where the view
+// is turned, the hand moves as it is seen. Main thread.
 #pragma once
 
 #include <optional>
@@ -22,6 +23,8 @@ class HandInput {
 
   /// From the tool to the bone, for the next notches; none: far.
   void setGap(std::optional<double> gap_mm) { gap_mm_ = gap_mm; }
+  /// The tool is an elevator.
+  void setTwisting(bool twisting) { twisting_ = twisting; }
   /// From directions in W to directions on the screen.
   void setView(const glm::dquat& rotation) { view_ = rotation; }
   /// For a start elsewhere.
@@ -39,10 +42,11 @@ class HandInput {
   void press(const render::KeyPressed& key);
   void rotate(const glm::dvec3& screen_axis, double angle_rad);
   void roll(double notches);
+  void twist(double angle_rad);
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
   std::vector<ControlRequest> requests_;
-  bool pedal_ = false, shift_ = false;
+  bool pedal_ = false, shift_ = false, twisting_ = false;
   std::optional<double> gap_mm_;
   int leaving_ = 0;  ///< notches out without one in
   glm::dquat view_{1.0, 0.0, 0.0, 0.0};

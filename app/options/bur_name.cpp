@@ -11,6 +11,9 @@ namespace {
 
 // In the order of haptics::ShapeKind.
 constexpr std::array<std::string_view, 4> kShapes{"round", "round-end fissure", "fissure", "cone"};
+// In the order of haptics::ElevatorKind.
+constexpr std::array<std::string_view, 5> kElevators{"none", "elevator 301", "elevator 34S", "Cryer elevator left",
+                                                     "Cryer elevator right"};
 constexpr double kSameSize = 0.02;  ///< tenths of a millimetre
 
 }  // namespace
@@ -22,6 +25,9 @@ std::string burName(const haptics::BurShape& head) {
   return fmt::format("{} {:.1f} mm, ISO {:03}", shape, diameter_mm, std::lround(tenths));
 }
 
-std::string toolName(const haptics::Tool& tool) { return tool.grips ? "extraction forceps" : burName(tool.head); }
+std::string toolName(const haptics::Tool& tool) {
+  if (tool.grips) return "extraction forceps";
+  return tool.isElevator() ? std::string(kElevators[static_cast<std::size_t>(tool.elevator)]) : burName(tool.head);
+}
 
 }  // namespace app

@@ -1,7 +1,9 @@
 #include "app/options/tool_text.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -31,6 +33,8 @@ struct Form {
   /// By diameter, as dentists do; sessions and settings files name the shape and its radius.
   bool isOrdered() const { return measures.front().factor != 1.0; }
 };
+
+constexpr std::string_view kElevator = "elevator";
 
 const Measure kRadius{"radius", 0.1, 20.0}, kDiameter{"diameter", 0.2, 40.0, 0.5};
 
@@ -73,14 +77,33 @@ std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>
   return values;
 }
 
+/// "a, b or c"
+std::string alternatives(std::vector<std::string> ways) {
+  const std::string last = std::move(ways.back());
+  ways.pop_back();
+  return joined(ways) + " or " + last;
+}
+
+haptics::Tool elevatorFrom(const std::string& text) {
+  const std::string_view kind = std::string_view(text).substr(std::min(text.size(), kElevator.size() + 1));
+  for (std::size_t n = 1; n < haptics::kElevatorKeys.size(); ++n)
+    if (haptics::kElevatorKeys[n] == kind) return haptics::elevatorTool(static_cast<haptics::ElevatorKind>(n));
+  throw UsageError("--tool " + text + ": no such elevator, give " + elevatorForms());
+}
+
 }  // namespace
 
 std::string headForms() {
-  std::vector<std::string_view> patterns;
-  for (const Form& form : forms()) patterns.push_back(form.pattern);
-  const std::string_view last = patterns.back();
-  patterns.pop_back();
-  return joined(patterns) + " or " + std::string(last);
+  std::vector<std::string> patterns;
+  for (const Form& form : forms()) patterns.emplace_back(form.pattern);
+  return alternatives(std::move(patterns));
+}
+
+std::string elevatorForms() {
+  std::vector<std::string> ways;
+  for (std::size_t n = 1; n < haptics::kElevatorKeys.size(); ++n)
+    ways.push_back(fmt::format("{}:{}", kElevator, haptics::kElevatorKeys[n]));
+  return alternatives(std::move(ways));
 }
 
 std::map<ShapeKind, std::string_view> headKinds() {
@@ -106,8 +129,10 @@ haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
   if (text == "forceps") return haptics::forcepsTool();
   const std::string_view key = std::string_view(text).substr(0, text.find(':'));
   if (key == "forceps") throw UsageError("--tool " + text + ": forceps have no size, write forceps alone");
+  if (key == kElevator) return elevatorFrom(text);
   if (std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
-    throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps");
+    throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps, or " +
+                     elevatorForms());
   const BurShape head = headFrom(text);
   return {head, shaft.empty() ? haptics::standardShaft(head) : shaftFrom(shaft)};
 }

@@ -23,7 +23,7 @@ void SiteDesk::begin(const haptics::Tick& newest) {
   job_.emplace(std::move(job));
 }
 
-std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, bool gripping_tool, bool waits) {
+std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, bool luxates, bool waits) {
   if (newest.pieces == 0 || newest.dt_s == 0.0) return {};
   const bool is_quiet = std::exchange(last_digest_, newest.bone_digest) == newest.bone_digest;
 
@@ -39,7 +39,7 @@ std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, 
     }
     asked_.reset();
   }
-  if (!is_quiet || newest.gripped != 0) {
+  if (!is_quiet || newest.gripped != 0 || newest.lever.piece != 0) {
     ready_ = false;
     // An undo may bring back the bodies for which not every site was ordered.
     if (!to_order_.empty()) made_for_ = 0;
@@ -47,7 +47,7 @@ std::optional<haptics::SiteOrder> SiteDesk::follow(const haptics::Tick& newest, 
     if (job_ && !job_->confirmed) job_->spoiled = true;
     return {};
   }
-  if (!gripping_tool) return {};
+  if (!luxates) return {};
 
   if (job_ && !job_->spoiled && job_->digest == newest.bone_digest) job_->confirmed = true;
   if (!job_ && to_order_.empty() && made_for_ != newest.bone_digest) {

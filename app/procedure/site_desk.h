@@ -1,7 +1,7 @@
-// Makes the pieces of a tooth ready for the forceps while these are in the hand: copies what is around them, has each
-// piece's site made on a thread of its own (haptics/ligament/piece_site, 0.1 s a piece and once 0.1 s more), and orders
-// the servo to use it. Again whenever bone or pieces have changed and lie still. Main thread, once a frame; a copy
-// takes 8 ms a piece. Without a tooth of its own it does nothing.
+// Makes the pieces of a tooth ready for forceps or elevator while one is in the hand: copies what is around them, has
+// each piece's site made on a thread of its own (haptics/ligament/piece_site, 0.1 s a piece and once 0.1 s more), and
+// orders the servo to use it. Again whenever bone or pieces have changed and lie still. Main thread, once a frame; a
+// copy takes 8 ms a piece. Without a tooth of its own it does nothing.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ class SiteDesk {
   /// Before the first tick. Borrows the bodies.
   explicit SiteDesk(const haptics::Bodies& bodies) : bodies_(bodies), sockets_(bodies) {}
 
-  /// `gripping_tool`: forceps are in the hand, and the newest command was in force in `newest`. The order's serial is
-  /// the caller's. `waits`: for a servo that is stepped, until a site is made.
-  std::optional<haptics::SiteOrder> follow(const haptics::Tick& newest, bool gripping_tool, bool waits);
+  /// `luxates`: forceps or an elevator are in the hand, and the newest command was in force in `newest`. The order's
+  /// serial is the caller's. `waits`: for a servo that is stepped, until a site is made.
+  std::optional<haptics::SiteOrder> follow(const haptics::Tick& newest, bool luxates, bool waits);
   /// Every piece is ready in the state of the newest tick that was followed.
   bool isReady() const { return ready_; }
   /// As it was made ready last; 0: never.

@@ -30,6 +30,7 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
   input_.setGap(frame.gap ? std::optional(frame.gap->mm) : std::nullopt);
+  input_.setTwisting(active_command_.inForce().tool.isElevator());
   readWindow(frame);
   executeScript(newest, frame);
   for (const ControlRequest& request : equipment_.takeRequests()) execute(request, frame);

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/options/bur_name.h"
-#include "app/rehearsal/grip_log.h"
+#include "app/rehearsal/luxation_log.h"
 #include "haptics/tool/spindle.h"
 
 namespace app {
@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSaid_s = 2.0, kReading_s_per_letter = 0.06;
 constexpr double kTurning_rpm = 200.0;
+constexpr double kMostTwist_Nm = 2.0;  // where the coupling ends (haptics/ligament/elevator_hold)
 
 /// "40,000 rpm" in steps of 500, "drill off", "drill locked".
 std::string driveText(double rpm, bool enabled) {
@@ -40,11 +41,16 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.line_shown = line_shown_;
   content.bur = toolName(command.tool);
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
-  content.drive = command.tool.grips ? forcepsText(tick, values.forceps_ready) : driveText(rpm, command.drill_enabled);
+  content.drive = command.tool.luxates() ? luxationText(tick, command.tool, values.pieces_ready)
+                                         : driveText(rpm, command.drill_enabled);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
   content.force_N = glm::length(tick.commanded_force_P_N.xyz);
   content.force_share = content.force_N / std::max(0.1, command.safety.peak_force_N);
+  if (command.tool.isElevator()) {
+    content.torque_Nm = std::abs(tick.lever.twist_Nmm) / 1000.0;
+    content.torque_share = *content.torque_Nm / kMostTwist_Nm;
+  }
   content.gap_mm = values.gap_mm;
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;
   content.time_s = tick.t_s + tick.dt_s;

@@ -36,9 +36,9 @@ class HeadUp {
   struct Values {
     Situation situation;
     std::optional<double> gap_mm;
-    std::string task;   ///< of a procedure
-    std::string ruler;  ///< rulerText()
-    bool forceps_ready = false;
+    std::string task;           ///< of a procedure
+    std::string ruler;          ///< rulerText()
+    bool pieces_ready = false;  ///< for forceps and elevators
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -14,7 +14,7 @@
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
-#include "app/rehearsal/grip_log.h"
+#include "app/rehearsal/luxation_log.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
 #include "app/rehearsal/soft_mark_trail.h"
@@ -190,7 +190,7 @@ class Rehearsal {
     if (ticks.empty()) return;
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
-    followGrip(ticks);
+    followLuxation(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
     for (const Touch& touch : touches_.follow(ticks, command.tool.head)) event_log_.note(kTouchEvent, touchText(touch));
@@ -198,12 +198,12 @@ class Rehearsal {
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
   }
 
-  void followGrip(std::span<const haptics::Tick> ticks) {
+  void followLuxation(std::span<const haptics::Tick> ticks) {
     const auto volume_mm3 = [this](std::size_t piece) { return sites_->volume_mm3(piece); };
-    for (const GripLog::Told& told :
-         grips_.follow(ticks, active_command_.inForce().tool.grips, sites_->isReady(), volume_mm3)) {
+    for (const LuxationLog::Told& told :
+         luxation_.follow(ticks, active_command_.inForce().tool.grips, sites_->isReady(), volume_mm3)) {
       head_up_.say(told.line);
-      if (told.is_event) event_log_.note("forceps", told.line);
+      if (told.is_event) event_log_.note(told.by_elevator ? "elevator" : "forceps", told.line);
     }
   }
 
@@ -228,7 +228,7 @@ class Rehearsal {
 
   void followTooth() {
     tooth_->follow(view_.takeChangedBricks(), newest_, !pace_.isRealTime());
-    if (station().isApplied(newest_)) followForceps();
+    if (station().isApplied(newest_)) makePiecesReady();
     if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {
       head_up_.say(*line);
@@ -236,11 +236,10 @@ class Rehearsal {
     }
   }
 
-  /// Pieces are made ready while forceps are in the hand.
-  void followForceps() {
-    const bool gripping_tool = active_command_.inForce().tool.grips;
-    if (const auto order = sites_->follow(newest_, gripping_tool, !pace_.isRealTime()))
-      active_command_.makeReady(*order);
+  /// While forceps or an elevator are in the hand.
+  void makePiecesReady() {
+    const bool luxates = active_command_.inForce().tool.luxates();
+    if (const auto order = sites_->follow(newest_, luxates, !pace_.isRealTime())) active_command_.makeReady(*order);
   }
 
   void followDemonstration() {
@@ -297,7 +296,7 @@ class Rehearsal {
     figures.times = head_up_.times();
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.tooth = tooth_->ending();
-    figures.forceps = grips_.summary();
+    figures.luxation = luxation_.summary();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
@@ -323,7 +322,7 @@ class Rehearsal {
   render::Frame frame_;
   std::optional<ToothFollower> tooth_;
   std::optional<SiteDesk> sites_;
-  GripLog grips_;
+  LuxationLog luxation_;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;

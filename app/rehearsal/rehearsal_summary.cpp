@@ -74,7 +74,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
   line("other removed", removedText(f, is_other));
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("tooth", f.tooth);
-  line("forceps", f.forceps);
+  line("luxation", f.luxation);
   line("touched", f.touched.empty() ? "no tooth, no canal" : touchesText(f.touched));
   line("soft tissue", softTouchesText(f.soft_touches.touched));
   line("bur turned on", softTouchesText(f.soft_touches.cut));

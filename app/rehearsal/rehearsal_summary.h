@@ -25,7 +25,7 @@ struct RehearsalFigures {
   std::optional<double> exposed_share;  ///< of the crown that the plan lays bare; none without a plan for it
   WorkTimes times;
   std::string tooth;                ///< what it has come apart into, tooth_follower.h; empty: whole
-  std::string forceps;              ///< GripLog::summary()
+  std::string luxation;             ///< LuxationLog::summary()
   std::vector<TouchCount> touched;  ///< teeth and canal
   std::vector<Warnings::Count> warnings;
   bool for_engineers = true;  ///< servo, display and latency as well

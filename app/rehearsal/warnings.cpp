@@ -63,6 +63,10 @@ Words neighbourTouched(const Situation& s) {
   return fmt::format("{} touched", assets::toothName(*s.neighbour));
 }
 
+Words leveredOnTeeth(const Situation& s) {
+  return s.tick.lever.restsOnTeeth() ? "Elevator rests on a neighbouring tooth" : "";
+}
+
 Words dry(const Situation& s) {
   const bool cuts = s.tick.drilling && s.tick.depth_mm > 0.0;
   return cuts && !s.command.irrigating ? "Cutting dry: water on with I" : "";
@@ -104,7 +108,7 @@ Words forceLimited(const Situation& s) {
 
 Words neckTouches(const Situation& s) {
   const bool force_without_head = s.tick.depth_mm <= 0.0 && glm::length(s.tick.law_force_P_N.xyz) > kShaftForce_N;
-  return force_without_head && !s.command.tool.grips && !s.tick.soft.touches() ? "The bur's neck touches" : "";
+  return force_without_head && !s.command.tool.luxates() && !s.tick.soft.touches() ? "The bur's neck touches" : "";
 }
 
 struct Row {
@@ -115,11 +119,12 @@ struct Row {
 };
 
 // The most important first.
-constexpr std::array<Row, 12> kTable = {{
+constexpr std::array<Row, 13> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
     {"bur on soft tissue", true, burOnSoftTissue, true},
     {"neighbour tooth touched", true, neighbourTouched, true},
+    {"elevator on a neighbouring tooth", true, leveredOnTeeth},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},

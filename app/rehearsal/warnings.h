@@ -51,7 +51,7 @@ class Warnings {
   std::vector<Count> counts() const;
 
  private:
-  static constexpr std::size_t kRows = 12;
+  static constexpr std::size_t kRows = 13;
   struct State {
     double last_s = -1e9;
     std::string words;

@@ -45,6 +45,9 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   sum.max_force_N = std::max(sum.max_force_N, force_N);
   if (tick.gripped != 0) sum.grip_s += tick.dt_s;
   sum.max_grip_N = std::max(sum.max_grip_N, glm::length(tick.grip_force_P_N.xyz));
+  if (tick.lever.piece != 0) sum.lever_s += tick.dt_s;
+  sum.max_lever_Nmm = std::max(sum.max_lever_Nmm, std::abs(tick.lever.twist_Nmm));
+  sum.max_fulcrum_N = std::max(sum.max_fulcrum_N, tick.lever.on_teeth_N);
   sum.ligament_torn_Nmm = tick.torn_total_Nmm;
   sum.pieces_out = 0.0;
   for (std::size_t n = 0; n < tick.pieces; ++n)

@@ -35,6 +35,7 @@ struct SessionMetrics {
          obscured_s = 0.0;
   double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
   double grip_s = 0.0, max_grip_N = 0.0, ligament_torn_Nmm = 0.0, pieces_out = 0.0;  ///< by forceps; N of the model
+  double lever_s = 0.0, max_lever_Nmm = 0.0, max_fulcrum_N = 0.0;                    ///< by elevators, of the model
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
   std::vector<MeasuredWay> measured;
@@ -64,6 +65,11 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"max_depth_mm", "mm", "largest equivalent depth of the force law", &SessionMetrics::max_depth_mm},
     {"grip_s", "s", "time with the forceps closed on a piece of tooth", &SessionMetrics::grip_s},
     {"max_grip_N", "N", "largest force of the forceps on a piece, in the model", &SessionMetrics::max_grip_N},
+    {"lever_s", "s", "time with an elevator's blade at work on a piece of tooth", &SessionMetrics::lever_s},
+    {"max_lever_Nmm", "N mm", "largest torque of the hand about an elevator's shaft, in the model",
+     &SessionMetrics::max_lever_Nmm},
+    {"max_fulcrum_N", "N", "largest force of an elevator on a neighbouring tooth, in the model",
+     &SessionMetrics::max_fulcrum_N},
     {"ligament_torn_Nmm", "N mm", "energy that tore ligament, without undone strokes",
      &SessionMetrics::ligament_torn_Nmm},
     {"pieces_out", "pieces", "pieces of tooth taken out at the end", &SessionMetrics::pieces_out},

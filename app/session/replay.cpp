@@ -56,6 +56,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (!same(recorded.grip_force_P_N.xyz, again.grip_force_P_N.xyz) ||
       !same(recorded.grip_torque_P_Nmm.xyz, again.grip_torque_P_Nmm.xyz))
     return "the force of the forceps differs";
+  if (!(recorded.lever == again.lever)) return "the work of the elevator differs";
   if (!same(recorded.torn_share, again.torn_share) || !same(recorded.torn_total_Nmm, again.torn_total_Nmm))
     return "the tearing of the ligament differs";
   if (!same(recorded.restored_total_mm3, again.restored_total_mm3)) return "the restored volume differs";
@@ -86,7 +87,7 @@ class Rerun {
   }
   haptics::Tick step(const haptics::Tick& recorded) {
     const haptics::Tick tick = servo_.step(recorded.hand, command_, recorded.dt_s);
-    grips_ = tick.gripped != 0;
+    grips_ = tick.gripped != 0 || tick.lever.piece != 0;
     return tick;
   }
   const haptics::Command& command() const { return command_; }

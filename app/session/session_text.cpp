@@ -71,7 +71,7 @@ void forEachParameter(auto& jaw, auto&& visit) {
 
 /// Whether there is a handpiece is the device's, not the tray's.
 void forEachNumber(auto& tool, auto&& visit) {
-  auto& [head, shaft, handpiece, grips] = tool;
+  auto& [head, shaft, handpiece, grips, elevator] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("radius_mm", radius_mm), visit("length_mm", length_mm);
@@ -83,7 +83,9 @@ json setupJson(const SessionSetup& setup) {
   if (setup.built_in)
     forEachParameter(*setup.built_in, [&](const char* key, const auto& value) { object["built_in"][key] = value; });
   for (const haptics::Tool& tool : setup.tray) {
-    json one = {{"kind", static_cast<int>(tool.head.kind)}, {"grips", tool.grips}};
+    json one = {{"kind", static_cast<int>(tool.head.kind)},
+                {"grips", tool.grips},
+                {"elevator", static_cast<int>(tool.elevator)}};
     forEachNumber(tool, [&](const char* key, double value) { one[key] = value; });
     object["tray"].push_back(std::move(one));
   }
@@ -106,6 +108,10 @@ SessionSetup setupFrom(const json& object) {
       haptics::Tool tool;
       const int kind = valueOf(one, "kind", 0);
       tool.grips = valueOf(one, "grips", false);
+      const int elevator = valueOf(one, "elevator", 0);
+      if (elevator < 0 || elevator > static_cast<int>(haptics::ElevatorKind::cryer_right))
+        throw damagedSession("it has no valid tray");
+      tool.elevator = static_cast<haptics::ElevatorKind>(elevator);
       if (kind < 0 || kind > static_cast<int>(haptics::ShapeKind::cone)) throw damagedSession("it has no valid tray");
       tool.head.kind = static_cast<haptics::ShapeKind>(kind);
       forEachNumber(tool, [&](const char* key, double& value) { value = valueOf(one, key, value); });

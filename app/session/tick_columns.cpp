@@ -54,6 +54,17 @@ void visitSoftTouch(auto& soft, Visit&& visit) {
 }
 
 template <class Visit>
+void visitLevering(auto& lever, Visit&& visit) {
+  auto& [piece, twist_Nmm, on_bone_N, on_teeth_N, on_piece_N, wedging_N] = lever;
+  visit(Text{"lever.piece", "", "", "", "none 0, else 1 + piece"}, piece);
+  visit(Text{"lever.twist_Nmm", "", "N mm", "T"}, twist_Nmm);
+  visit(Text{"lever.on_bone_N", "", "N"}, on_bone_N);
+  visit(Text{"lever.on_teeth_N", "", "N"}, on_teeth_N);
+  visit(Text{"lever.on_piece_N", "", "N"}, on_piece_N);
+  visit(Text{"lever.wedging_N", "", "N"}, wedging_N);
+}
+
+template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
   auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, handle_velocity_P_mm_per_s, jacobian_P_mm, motor_heat, gap_s, drill_pedal,
          fresh, docked, held, calibrated, stop_requested, device_healthy] = hand;
@@ -83,7 +94,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
          bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
-         split, site, gripped, set_aside, unsettled, X_PQ, grip_force_P_N, grip_torque_P_Nmm, torn_share,
+         split, site, gripped, set_aside, unsettled, X_PQ, grip_force_P_N, grip_torque_P_Nmm, lever, torn_share,
          torn_total_Nmm, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
@@ -121,6 +132,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   }
   visitXyz(Text{"grip_force_P_N", "", "N", "P"}, grip_force_P_N.xyz, visit);
   visitXyz(Text{"grip_torque_P_Nmm", "", "N mm", "P"}, grip_torque_P_Nmm.xyz, visit);
+  visitLevering(lever, visit);
   visit(Text{"torn_share"}, torn_share);
   visit(Text{"torn_total_Nmm", "", "N mm"}, torn_total_Nmm);
   visit(Text{"state", "", "", "", kStates}, state);

@@ -1,5 +1,6 @@
 #include "app/view/patient_renderer.h"
 
+#include "assets/instrument/elevator.h"
 #include "assets/instrument/forceps.h"
 #include "assets/instrument/handpiece.h"
 
@@ -16,6 +17,12 @@ assets::HandpieceParameters drawnAs(const haptics::Tool& tool) {
   return drawn;
 }
 static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));
+
+assets::ElevatorForm formOf(haptics::ElevatorKind kind) {
+  return static_cast<assets::ElevatorForm>(static_cast<int>(kind) - 1);
+}
+static_assert(static_cast<int>(assets::ElevatorForm::cryer_right) + 1 ==
+              static_cast<int>(haptics::ElevatorKind::cryer_right));
 
 /// A little wider than what they grip (haptics::forcepsTool).
 constexpr double kOpenBeaks_mm = 8.0;
@@ -42,6 +49,7 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
   if (tool.grips) return showForceps(renderer, kOpenBeaks_mm);
+  if (tool.isElevator()) return renderer.setInstrument(assets::elevator(formOf(tool.elevator)));
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
 }
 

@@ -6,14 +6,8 @@ namespace haptics {
 namespace {
 
 using calibration::Patient;
-using calibration::Piece;
 
 constexpr std::size_t kNoPiece = kMaxPieces;
-
-double movedBy_mm(const PieceSamples& samples, const Bodies::PiecePose& X_PQ) {
-  const calibration::Point<Piece> centre{samples.centre_Q_mm};
-  return glm::distance((X_PQ * centre).mm, centre.mm);
-}
 
 }  // namespace
 
@@ -34,50 +28,41 @@ std::size_t Forceps::pieceAt(const Bodies& bodies, const PieceSites& sites, doub
   return best;
 }
 
-void Forceps::letGo(Bodies& bodies, PieceSites& sites) noexcept {
-  held_.holds = false;
-  if (held_.torn_share >= ForcepsLaw::kAllTorn &&
-      movedBy_mm(sites.samples(held_.piece), bodies.pose(held_.piece)) >= ForcepsLaw::kClear_mm) {
-    bodies.setAside(held_.piece);
-    held_.set_aside = true;
-  } else {
-    sites.letSettle(held_.piece);
-  }
-}
-
 bool Forceps::grip(const Bodies& bodies, const PieceSites& sites, double radius_mm, const ToolPose& beaks_X_PT,
-                   const ToolPose& hand_X_PT, bool closed) noexcept {
+                   const ToolPose& hand_X_PT, bool closed, LedTool& held) noexcept {
   const bool closes = closed && !was_closed_;
   was_closed_ = closed;
   if (!closes) return false;
   const std::size_t piece = pieceAt(bodies, sites, radius_mm, beaks_X_PT);
   if (piece == kNoPiece) return false;
-  held_.holds = true;
-  held_.piece = piece;
+  held.leads = held.holds = true;
+  held.piece = piece;
   grip_X_QT_ = bodies.pose(piece).inverse() * beaks_X_PT;
   // The hand is where the beaks are: no jump at the grip.
   slack_ = hand_X_PT.inverse() * beaks_X_PT;
   return true;
 }
 
-void Forceps::move(Bodies& bodies, PieceSites& sites, const ToolPose& hand_X_PT, bool closed, double dt_s) noexcept {
-  held_.max_stored_Nmm = 0.0;
-  held_.unsettled = held_.set_aside = false;
+void Forceps::move(Bodies& bodies, PieceSites& sites, const ToolPose& hand_X_PT, bool closed, double dt_s,
+                   LedTool& held) noexcept {
   was_closed_ = closed;
-  if (held_.holds && !closed) letGo(bodies, sites);
-  if (!held_.holds) return;
+  if (!closed) {
+    held.leads = held.holds = false;
+    held.set_aside = sites.letGo(bodies, held.piece);
+    return;
+  }
 
   PieceDrive drive;
   drive.spring = {hand_X_PT * slack_ * grip_X_QT_.inverse(), {grip_X_QT_.translation_mm}, ForcepsLaw::kSpring_N_per_mm,
                   ForcepsLaw::kSpring_Nmm_per_rad,           ForcepsLaw::kMost_N,         ForcepsLaw::kMost_Nmm};
-  const HoldTick tick = sites.move(bodies, held_.piece, drive, dt_s);
-  held_.unsettled = tick.unsettled;
-  held_.torn_share = tick.torn_share;
-  held_.X_PT = bodies.pose(held_.piece) * grip_X_QT_;
-  held_.on_piece = -1.0 * tick.on_hand;
-  held_.felt = (1.0 / ForcepsLaw::kForceScale) * tick.on_hand;
+  const HoldTick tick = sites.move(bodies, held.piece, drive, dt_s);
+  held.unsettled = tick.unsettled;
+  held.torn_share = tick.torn_share;
+  held.X_PT = bodies.pose(held.piece) * grip_X_QT_;
+  held.gripped = -1.0 * tick.on_hand;
+  held.felt = (1.0 / LedTool::kForceScale) * tick.on_hand;
   const double stretch_mm = glm::length(tick.on_hand.force_N.xyz) / ForcepsLaw::kSpring_N_per_mm;
-  held_.max_stored_Nmm = 0.5 * glm::length(held_.felt.force_N.xyz) * stretch_mm;
+  held.max_stored_Nmm = 0.5 * glm::length(held.felt.force_N.xyz) * stretch_mm;
 }
 
 }  // namespace haptics

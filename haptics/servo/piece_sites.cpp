@@ -74,6 +74,26 @@ HoldTick PieceSites::move(Bodies& bodies, std::size_t piece, const PieceDrive& d
   return tick;
 }
 
+ElevatorTick PieceSites::lever(Bodies& bodies, std::size_t piece, ElevatorHold& blade, const ElevatorHand& hand,
+                               double dt_s) noexcept {
+  is_waiting_[piece] = false;
+  const ElevatorTick tick = blade.step(hand, scene(piece), &sites_[piece]->hold, dt_s);
+  if (!tick.refused) bodies.place(piece, tick.X_PQ);
+  torn_total_Nmm_ += tick.torn_Nmm;
+  return tick;
+}
+
+bool PieceSites::letGo(Bodies& bodies, std::size_t piece) noexcept {
+  const calibration::Point<calibration::Piece> centre{samples(piece).centre_Q_mm};
+  const bool is_out = glm::distance((bodies.pose(piece) * centre).mm, centre.mm) >= kOutOfPlace_mm;
+  if (is_out && tornShare(bodies, piece) >= kLooseShare) {
+    bodies.setAside(piece);
+    return true;
+  }
+  settling_s_[piece] = kSettle_s;
+  return false;
+}
+
 bool PieceSites::areSettling() const noexcept {
   return std::ranges::any_of(settling_s_, [](double left_s) { return left_s > 0.0; });
 }

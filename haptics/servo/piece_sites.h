@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "haptics/body/bodies.h"
+#include "haptics/ligament/elevator_hold.h"
 #include "haptics/ligament/piece_site.h"
 
 namespace haptics {
@@ -27,6 +28,9 @@ enum class SiteAnswer : std::uint8_t {
   ready = 1,
   refused = 2,  ///< the bodies have changed since, or a piece is held
 };
+
+inline constexpr double kLooseShare = 0.999;   ///< of the ligament torn: the piece is loose
+inline constexpr double kOutOfPlace_mm = 6.0;  ///< a loose piece let go of so far from its place is set aside
 
 /// Where a piece lies and what its ligament remembers, by value.
 struct PieceMemory {
@@ -59,6 +63,10 @@ class PieceSites {
   bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;
   /// Of a piece that has a site.
   const PieceSamples& samples(std::size_t piece) const noexcept { return sites_[piece]->hold.samples(); }
+  /// What an elevator is among, there.
+  ElevatorScene scene(std::size_t piece) const noexcept {
+    return {&sites_[piece]->obstacles, &sites_[piece]->teeth, &sites_[piece]->piece};
+  }
   /// Of the ligament; of a piece without a site, that of the piece it was part of.
   double tornShare(const Bodies& bodies, std::size_t piece) const noexcept;
   /// Since the start, less what was undone.
@@ -66,8 +74,11 @@ class PieceSites {
 
   /// One tick of a piece that is ready, or was when the instrument took hold of it.
   HoldTick move(Bodies& bodies, std::size_t piece, const PieceDrive& drive, double dt_s) noexcept;
-  /// It is left alone from now on.
-  void letSettle(std::size_t piece) noexcept { settling_s_[piece] = kSettle_s; }
+  /// The same under an elevator's blade.
+  ElevatorTick lever(Bodies& bodies, std::size_t piece, ElevatorHold& blade, const ElevatorHand& hand,
+                     double dt_s) noexcept;
+  /// The instrument leaves it alone from now on: it settles, or (true) is set aside.
+  bool letGo(Bodies& bodies, std::size_t piece) noexcept;
   bool isSettling(std::size_t piece) const noexcept { return settling_s_[piece] > 0.0; }
   bool areSettling() const noexcept;
   void stopSettling(std::size_t piece) noexcept { settling_s_[piece] = 0.0; }

@@ -42,22 +42,23 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
   if (sites_.isNew(command.site))
-    sites_.receive(bodies_, command.site, forceps_.holds(), undo_.leftByLuxation(command.site.piece));
+    sites_.receive(bodies_, command.site, luxation_.holds(), undo_.leftByLuxation(command.site.piece));
   const StrokeUndo::Serials serials{command.undo_serial, command.redo_serial};
   double restored_mm3 = 0.0;
-  if (forceps_.holds())
+  if (luxation_.holds())
     undo_.ignore(serials);
   else if (!split_.isRunning())
     restored_mm3 = undo_.restore(bodies_, sites_, serials, command.tool, at_proxy_X_PT_);
-  if (undo_.hasMovedPieces()) forceps_.lookAgain(bodies_, sites_);
+  if (undo_.hasMovedPieces()) luxation_.lookAgain(bodies_, sites_);
   const bool embedded = undo_.isToolEmbedded(), was_undone = embedded || undo_.hasChanged();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
-  // A pedal that was down when bur and forceps changed, or at an undo, must be released for the forceps.
-  const bool changed = std::exchange(gripped_before_, command.tool.grips) != command.tool.grips;
-  pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (was_undone && command.tool.grips));
+  // A pedal that was down when bur, forceps and elevator changed, or at an undo, must be released for these.
+  const Tool before = std::exchange(tool_before_, command.tool);
+  const bool changed = before.grips != command.tool.grips || before.isElevator() != command.tool.isElevator();
+  pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (was_undone && command.tool.luxates()));
   const bool pedal = valid.drill_pedal && !pedal_spent_;
-  const bool foot = pedal && command.drill_enabled && !command.tool.grips;
+  const bool foot = pedal && command.drill_enabled && !command.tool.luxates();
   tick.drill_inhibit = undo_.inhibitFor((valid.drill_pedal && command.drill_enabled) || !admitted.mayDrill());
   tick.drilling = foot && admitted.mayDrill() && tick.drill_inhibit == DrillInhibit::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
@@ -68,36 +69,37 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
       soft_hold_.update(soft_tissue_, command.tool, valid.X_PT, valid.velocity_P_mm_per_s, tick.drilling);
   tick.soft = soft.touch;
 
-  // A piece that forceps hold leads the tool.
-  const bool closed = command.tool.grips && pedal && admitted.mayDrill();
-  const bool held_before = forceps_.holds();
-  if (held_before) forceps_.move(bodies_, sites_, soft.X_PT, closed, tick.dt_s);
+  // Forceps are led by the piece they hold, an elevator by what its blade meets.
+  const Luxation::Hand luxating{soft.X_PT, pedal, admitted.mayDrill() && !embedded};
+  const bool led_before = luxation_.leads();
+  if (const auto piece = luxation_.reach(bodies_, sites_, command.tool, luxating))
+    undo_.beginLuxation(bodies_, sites_, *piece);
+  luxation_.move(bodies_, sites_, command.tool, luxating, tick.dt_s);
 
   // Contact at the proxy.
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
   const SolidBodies bodies = metBy(command.tool, bodies_);
   Proxy::State proxy;
-  if (!forceps_.holds()) {
+  if (!luxation_.leads()) {
     proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)
                      : proxy_.update(bodies, command.law, command.tool, soft.X_PT, motion,
                                      command.safety.max_stiffness_N_per_mm);
     if (embedded && !proxy.touches()) undo_.release();
     at_proxy_X_PT_ = {soft.X_PT.rotation, proxy.proxy_P.mm};
-    if (!held_before) {
-      if (forceps_.grip(bodies_, sites_, command.tool.head.radius_mm, at_proxy_X_PT_, soft.X_PT, closed))
-        undo_.beginLuxation(bodies_, sites_, forceps_.held().piece);
-      forceps_.move(bodies_, sites_, soft.X_PT, closed, tick.dt_s);
+    if (!led_before && luxation_.takeHold(bodies_, sites_, command.tool, at_proxy_X_PT_, luxating)) {
+      if (luxation_.holds()) undo_.beginLuxation(bodies_, sites_, luxation_.led().piece);
+      luxation_.move(bodies_, sites_, command.tool, luxating, tick.dt_s);
     }
   }
-  const Forceps::Held& held = forceps_.held();
-  tick.unsettled = sites_.settle(bodies_, tick.dt_s) || held.unsettled;
-  if (!held.holds && !sites_.areSettling()) undo_.endLuxation(bodies_, sites_);
-  if (held.holds) {
-    at_proxy_X_PT_ = held.X_PT;
+  const LedTool& led = luxation_.led();
+  tick.unsettled = sites_.settle(bodies_, tick.dt_s) || led.unsettled;
+  if (!led.holds && !sites_.areSettling()) undo_.endLuxation(bodies_, sites_);
+  if (led.leads) {
+    at_proxy_X_PT_ = led.X_PT;
     proxy = {};
-    proxy.proxy_P.mm = held.X_PT.translation_mm;
+    proxy.proxy_P.mm = led.X_PT.translation_mm;
     proxy_.startAt(proxy.proxy_P);
-    tick.soft.turn_P = held.X_PT.rotation * glm::conjugate(valid.X_PT.rotation);
+    tick.soft.turn_P = led.X_PT.rotation * glm::conjugate(valid.X_PT.rotation);
   }
   tick.proxy_P = proxy.proxy_P;
   tick.overlap_mm3 = proxy.head.volume_mm3;
@@ -108,25 +110,26 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // The law's wrench, then the commanded one.
   tick.law_force_P_N = proxy.force_P_N() + dampingForce_N(command.law, proxy.touching(), valid.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = proxy.torque_P_Nmm();
-  if (held.holds) {
-    tick.law_force_P_N = held.felt.force_N;
-    tick.law_torque_P_Nmm = held.felt.torque_Nmm;
-    tick.grip_force_P_N = held.on_piece.force_N;
-    tick.grip_torque_P_Nmm = held.on_piece.torque_Nmm;
-    tick.gripped = static_cast<std::uint8_t>(held.piece + 1);
+  if (led.leads) {
+    tick.law_force_P_N = led.felt.force_N;
+    tick.law_torque_P_Nmm = led.felt.torque_Nmm;
+    tick.grip_force_P_N = led.gripped.force_N;
+    tick.grip_torque_P_Nmm = led.gripped.torque_Nmm;
+    tick.gripped = command.tool.grips ? static_cast<std::uint8_t>(led.piece + 1) : std::uint8_t{0};
   }
-  tick.set_aside = held.set_aside;
-  tick.torn_share = held.torn_share;
+  tick.lever = led.lever;
+  tick.set_aside = led.set_aside;
+  tick.torn_share = led.torn_share;
   tick.torn_total_Nmm = sites_.tornTotal_Nmm();
   const SafetyLayer::Request law{
       {tick.law_force_P_N + tick.soft.force_P_N, tick.law_torque_P_Nmm + tick.soft.torque_P_Nmm},
       proxy.head.vibration_P_N,
       {},
-      proxy.maxStored_Nmm() + soft.max_stored_Nmm + held.max_stored_Nmm,
-      proxy.touches() || held.holds};
-  const Delivery::Changes changes{command.serial != last_serial_ || embedded != was_embedded_ ||
-                                      held.holds != held_before || undo_.hasMovedPieces(),
-                                  admitted.relocated};
+      proxy.maxStored_Nmm() + soft.max_stored_Nmm + led.max_stored_Nmm,
+      proxy.touches() || led.leads};
+  const Delivery::Changes changes{
+      command.serial != last_serial_ || embedded != was_embedded_ || led.leads != led_before || undo_.hasMovedPieces(),
+      admitted.relocated};
   last_serial_ = command.serial;
   was_embedded_ = embedded;
   const SafetyFilter::Delivered delivered = delivery_.deliver(law, changes, valid, safety_, command.safety, tick.dt_s);
@@ -145,7 +148,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // A piece that has fallen apart becomes two.
-  if (split_.step(bodies_, !proxy.touches() && !held.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating(),
+  if (split_.step(bodies_, !proxy.touches() && !led.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating(),
                   undo_.strokes()))
     undo_.keepStrokes();
   if (const auto begun = split_.begun()) sites_.part(bodies_, begun->from, begun->to);

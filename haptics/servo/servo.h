@@ -8,7 +8,7 @@
 #include "haptics/servo/command.h"
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
-#include "haptics/servo/forceps.h"
+#include "haptics/servo/luxation.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/soft_hold.h"
@@ -42,11 +42,11 @@ class Servo {
   StrokeUndo undo_;
   ToothSplit split_;
   PieceSites sites_;
-  Forceps forceps_;
+  Luxation luxation_;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false;
-  bool gripped_before_ = false;  ///< Tool::grips of the last tick
-  bool pedal_spent_ = false;     ///< until it is released
+  Tool tool_before_;          ///< of the last tick
+  bool pedal_spent_ = false;  ///< until it is released
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;
   double t_s_ = 0.0;

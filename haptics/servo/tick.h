@@ -11,6 +11,7 @@
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/safety_state.h"
 #include "haptics/servo/drill_inhibit.h"
+#include "haptics/servo/levering.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/tooth_split.h"
 
@@ -51,6 +52,7 @@ struct Tick {
   std::array<PiecePose, kMaxPieces> X_PQ{};                     ///< of the pieces, after this tick
   calibration::Vector<calibration::Patient> grip_force_P_N;     ///< on the piece, of the model
   calibration::Vector<calibration::Patient> grip_torque_P_Nmm;  ///< the same, about T's origin
+  Levering lever;                                               ///< of an elevator
   double torn_share = 0.0;                                      ///< of the ligament of the piece held, or last held
   double torn_total_Nmm = 0.0;           ///< since the start, of all pieces, less what was undone
   SafetyState state = SafetyState::off;  ///< force in `active` alone

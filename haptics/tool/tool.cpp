@@ -7,13 +7,18 @@ namespace haptics {
 namespace {
 
 constexpr double kShankRadius_mm = 2.35 / 2.0, kNeckPart = 0.6, kOutOfHandpiece_mm = 25.0;
-constexpr double kBetweenBeaks_mm = 2.0;  // radius: a tooth is gripped when it reaches so near
+constexpr double kBetweenBeaks_mm = 2.0;                         // radius: a tooth is gripped when it reaches so near
+constexpr double kBladeHalf_mm = 0.5, kBladeAndShank_mm = 40.0;  // thickness of a blade, its length with the shank
 constexpr double kThickestShaft_mm = 5.0, kLongestShaft_mm = 100.0;
 
 }  // namespace
 
 Tool sanitised(const Tool& tool) noexcept {
-  Tool safe{sanitised(tool.head), {}, tool.handpiece, tool.grips};
+  Tool safe{sanitised(tool.head),
+            {},
+            tool.handpiece,
+            tool.grips,
+            tool.grips || tool.elevator > ElevatorKind::cryer_right ? ElevatorKind::none : tool.elevator};
   const Shaft& shaft = tool.shaft;
   if (shaft.radius_mm > 0.0 && shaft.length_mm > 0.0 && std::isfinite(shaft.radius_mm) &&
       std::isfinite(shaft.length_mm))
@@ -22,6 +27,12 @@ Tool sanitised(const Tool& tool) noexcept {
 }
 
 Tool forcepsTool() noexcept { return {{ShapeKind::sphere, kBetweenBeaks_mm, 0.0}, {}, false, true}; }
+
+Tool elevatorTool(ElevatorKind kind) noexcept {
+  const bool straight = kind == ElevatorKind::straight_301 || kind == ElevatorKind::straight_34s;
+  const Shaft along_blade = straight ? Shaft{kBladeHalf_mm, kBladeAndShank_mm} : Shaft{};
+  return {{ShapeKind::sphere, kBladeHalf_mm, 0.0}, along_blade, false, false, kind};
+}
 
 Shaft standardShaft(const BurShape& head) noexcept {
   return {std::min(kShankRadius_mm, kNeckPart * head.radius_mm), kOutOfHandpiece_mm};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "haptics/tool/bur_shape.h"
+#include "haptics/tool/elevator_kind.h"
 
 namespace haptics {
 
@@ -19,6 +20,11 @@ struct Tool {
   Shaft shaft;
   bool handpiece = true;  ///< false: the bur alone, for a hand that cannot turn it out of the way
   bool grips = false;     ///< forceps: the head is the place between the beaks, the pedal closes them, nothing turns
+  ElevatorKind elevator = ElevatorKind::none;  ///< of this kind: T's origin is its blade's tip, nothing turns
+
+  bool isElevator() const { return elevator != ElevatorKind::none; }
+  /// Moves pieces of tooth: forceps or an elevator.
+  bool luxates() const { return grips || isElevator(); }
   bool operator==(const Tool&) const = default;
 };
 
@@ -27,6 +33,10 @@ Tool sanitised(const Tool& tool) noexcept;
 
 /// Extraction forceps: they meet bone and tooth between their beaks alone.
 Tool forcepsTool() noexcept;
+
+/// Until its blade works on a piece it meets bone and tooth with the tip and, if it is straight, the middle of blade
+/// and shank (ligament/elevator_hold).
+Tool elevatorTool(ElevatorKind kind) noexcept;
 
 /// The usual shaft of a bur: a shank of 2.35 mm (ISO 1797, type 2), or a neck narrower than the head that lets chips
 /// out; 25 mm long, as far as it stands out of a handpiece.

@@ -83,7 +83,7 @@ TEST(Forceps, RockingTearsTheLigamentThenTheToothComesOutAndIsSetAside) {
   mouth.grip();
   mouth.rockOut(0.6);
   EXPECT_GE(mouth.tick.torn_share, 0.999);
-  EXPECT_GT(mouth.tick.X_PQ[0].translation_mm.z, ForcepsLaw::kClear_mm);
+  EXPECT_GT(mouth.tick.X_PQ[0].translation_mm.z, kOutOfPlace_mm);
   // At least what tears an area of fibres: 0.367 N mm a mm2; the root has some 70 mm2.
   EXPECT_GT(mouth.tick.torn_total_Nmm, 15.0);
   EXPECT_LT(mouth.tick.torn_total_Nmm, 45.0);

@@ -14,8 +14,7 @@ namespace haptics::phantom {
 
 /// Bone up to z = 0, the crown above it.
 struct Mouth {
-  Phantom phantom = filled(
-      8.0, 0.25, [](const glm::dvec3& p) { return std::min(inTooth_mm(p), std::max(p.z, 0.25 - inTooth_mm(p))); });
+  Phantom phantom;
   std::vector<std::uint8_t> label, is_tooth;
   Bodies bodies;
   SocketSource sockets{bodies};
@@ -32,8 +31,20 @@ struct Mouth {
     return std::max(std::hypot(p.x, p.y) - radius_mm, std::max(p.z - 3.5, -5.5 - p.z));
   }
 
-  Mouth()
-      : label(phantom.solid.size(), 1), is_tooth(phantom.solid.size(), 0), bodies([this] {
+  /// Between tooth and bone at +x, 2 mm deep; below 0 inside.
+  static double inGutter_mm(const glm::dvec3& p) {
+    return std::max({std::abs(p.y) - 3.0, std::abs(p.x - 2.0) - 1.7, -2.0 - p.z});
+  }
+
+  explicit Mouth(bool gutter = false)
+      : phantom(filled(8.0, 0.25,
+                       [gutter](const glm::dvec3& p) {
+                         const double around_mm = std::max(p.z, 0.25 - inTooth_mm(p));
+                         return std::min(inTooth_mm(p), gutter ? std::max(around_mm, -inGutter_mm(p)) : around_mm);
+                       })),
+        label(phantom.solid.size(), 1),
+        is_tooth(phantom.solid.size(), 0),
+        bodies([this] {
           assets::forVoxels(phantom.grid, [&](glm::ivec3 ijk, std::size_t v) {
             if (inTooth_mm(phantom.grid.centre_P_mm(ijk)) > 0.12) return;
             is_tooth[v] = 1;

@@ -6,7 +6,7 @@
 
 #include "app/text/usage_error.h"
 #include "haptics/device/simulated/trough_path.h"
-#include "haptics/servo/forceps.h"
+#include "haptics/servo/piece_sites.h"
 
 namespace app {
 namespace {
@@ -156,7 +156,7 @@ std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
       return {};
     case Phase::gripping: {
       const DeliveryStep& step = std::get<DeliveryStep>(step_.what);
-      const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= haptics::ForcepsLaw::kAllTorn;
+      const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= haptics::kLooseShare;
       if (!is_loose && !hand_.hasArrived()) return {};
       lead(takeOut(handOf(tick), tick.X_PQ[step.piece], step));
       enter(Phase::taking_out, frame);

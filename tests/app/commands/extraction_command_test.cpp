@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <numbers>
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,15 @@ struct Hand {
     std::ostringstream row;
     row << t_s << ',' << p_mm.x << ',' << p_mm.y << ',' << p_mm.z << ',' << std::cos(tilt_rad / 2.0) << ",0,"
         << std::sin(tilt_rad / 2.0) << ",0," << (pedal ? 1 : 0) << ',' << tool << ',' << action << '\n';
+    rows += row.str();
+  }
+  /// A straight elevator's blade lies along the slot when it is not twisted.
+  void lever(double after_s, const glm::dvec3& p_mm, double twist_rad, const std::string& tool = "") {
+    t_s += after_s;
+    const double half_rad = 0.5 * (std::numbers::pi / 2.0 + twist_rad);
+    std::ostringstream row;
+    row << t_s << ',' << p_mm.x << ',' << p_mm.y << ',' << p_mm.z << ',' << std::cos(half_rad) << ",0,0,"
+        << std::sin(half_rad) << ",0," << tool << ",\n";
     rows += row.str();
   }
   /// Through the bridge at the bottom of the slot.
@@ -110,7 +120,7 @@ class ExtractionCommand : public ProgramTest {
   }
   ProgramOutput rehearse(const Hand& hand, const std::string& session) const {
     return molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
-                 " --tool round:1.2 --tool forceps --record " + session);
+                 " --tool round:1.2 --tool elevator:301 --tool forceps --record " + session);
   }
   nlohmann::json metrics(const std::string& session) const {
     return nlohmann::json::parse(molar("metrics " + session + " --json").out);
@@ -162,6 +172,33 @@ TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBi
   const ProgramOutput verified = molar("replay " + session + " --verify");
   EXPECT_EQ(verified.status, 0);
   EXPECT_EQ(verified.out.rfind("verified: ", 0), 0u) << verified.out;
+}
+
+TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotLoosensAPiece) {
+  Hand hand;
+  hand.section();
+  const glm::dvec3 above_mm(0.0, 0.0, 9.0), in_slot_mm(0.0, 0.0, 0.5);
+  hand.lever(0.2, above_mm, 0.0, "elevator:301");
+  hand.lever(0.6, above_mm, 0.0);
+  hand.lever(1.0, in_slot_mm, 0.0);
+  for (int n = 0; n < 8; ++n) hand.lever(0.4, in_slot_mm, n % 2 == 0 ? 0.9 : -0.9);
+  hand.lever(0.3, in_slot_mm, 0.0);
+  hand.lever(0.8, above_mm, 0.0);
+  hand.lever(0.5, above_mm, 0.0);
+  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string session = at("s.molar");
+  const ProgramOutput said = rehearse(hand, session);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("levered for 0:0"), std::string::npos) << said.out;
+  const nlohmann::json measured = metrics(session);
+  EXPECT_GT(measured.at("lever_s").get<double>(), 2.0);
+  EXPECT_GT(measured.at("max_lever_Nmm").get<double>(), 80.0);
+  EXPECT_LT(measured.at("max_lever_Nmm").get<double>(), 2000.1);
+  EXPECT_GT(measured.at("ligament_torn_Nmm").get<double>(), 1.0);
+  EXPECT_EQ(measured.at("max_fulcrum_N"), 0.0) << "there is no other tooth";
+  EXPECT_EQ(measured.at("grip_s"), 0.0);
+  const ProgramOutput verified = molar("replay " + session + " --verify");
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
 }
 
 TEST_F(ExtractionCommand, ABridgedToothIsGrippedAsOne) {

@@ -116,6 +116,16 @@ TEST(HandInput, KeysRotateAboutTheBur) {
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(1, 2, 3));
 }
 
+TEST(HandInput, AnElevatorIsTwistedAboutItsShaft) {
+  const glm::dquat tilted = glm::angleAxis(0.6, glm::normalize(glm::dvec3(1, 1, 0)));
+  HandInput hand({tilted, {1, 2, 3}});
+  hand.setTwisting(true);
+  for (int i = 0; i < 30; ++i) hand.take(KeyPressed{render::keyOf('E'), true, false, false}, 0.25);
+  const glm::dquat turned = glm::conjugate(tilted) * hand.X_WT().rotation;
+  EXPECT_LT(glm::distance(turned * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1)), 1e-9);
+  EXPECT_LT(glm::distance(turned * glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0)), 1e-9) << "clockwise from the handle";
+}
+
 TEST(HandInput, RequestsComeOnceInTheOrderOfTheKeys) {
   HandInput hand({});
   EXPECT_TRUE(hand.takeRequests().empty());

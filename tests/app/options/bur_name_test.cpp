@@ -15,6 +15,14 @@ TEST(BurName, IsShapeDiameterAndIsoSize) {
   EXPECT_EQ(burName({ShapeKind::cone, 1.0, 5.0}), "cone 2.0 mm, ISO 020");
 }
 
+TEST(BurName, NamesInstrumentsThatAreNoBurs) {
+  EXPECT_EQ(toolName(haptics::forcepsTool()), "extraction forceps");
+  EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::straight_301)), "elevator 301");
+  EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::straight_34s)), "elevator 34S");
+  EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::cryer_left)), "Cryer elevator left");
+  EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::cryer_right)), "Cryer elevator right");
+}
+
 TEST(BurName, HasNoIsoSizeBetweenTenths) { EXPECT_EQ(burName({ShapeKind::sphere, 0.925, 0.0}), "round 1.85 mm"); }
 
 }  // namespace

@@ -28,6 +28,20 @@ TEST(ToolText, ReadsForcepsAndBurs) {
   EXPECT_NE(tests::refusalOf<UsageError>([] { toolFrom("pliers", ""); }).find("in mm, or forceps"), std::string::npos);
 }
 
+TEST(ToolText, ReadsEveryElevator) {
+  for (const auto& [text, kind] : {std::pair{"elevator:301", haptics::ElevatorKind::straight_301},
+                                   {"elevator:34s", haptics::ElevatorKind::straight_34s},
+                                   {"elevator:cryer-left", haptics::ElevatorKind::cryer_left},
+                                   {"elevator:cryer-right", haptics::ElevatorKind::cryer_right}})
+    EXPECT_EQ(toolFrom(text, ""), haptics::elevatorTool(kind)) << text;
+  for (const char* bad : {"elevator", "elevator:", "elevator:none", "elevator:302", "elevator:301,2"})
+    EXPECT_NE(tests::refusalOf<UsageError>([&] {
+                toolFrom(bad, "");
+              }).find("no such elevator, give elevator:301, elevator:34s, elevator:cryer-left or elevator:cryer-right"),
+              std::string::npos)
+        << bad;
+}
+
 TEST(ToolText, ReadsBursAsDentistsOrderThem) {
   EXPECT_EQ(headFrom("round:3.0"), headFrom("sphere:1.5"));
   EXPECT_EQ(headFrom("round:iso023"), headFrom("sphere:1.15"));

@@ -34,6 +34,22 @@ TEST(HeadUp, ShowsWhatTheForcepsDoWhereADrillHasItsSpeed) {
   EXPECT_EQ(picture.at(milliseconds(0)).drive, "torn 42 %");
 }
 
+TEST(HeadUp, ShowsTheTorqueOfAnElevatorInsteadOfTheForce) {
+  Picture picture;
+  EXPECT_FALSE(picture.at(milliseconds(0)).torque_Nm);
+  picture.command.tool = haptics::elevatorTool(haptics::ElevatorKind::straight_301);
+  EXPECT_EQ(picture.at(milliseconds(0)).drive, "not ready");
+  picture.ready = true;
+  EXPECT_EQ(picture.at(milliseconds(0)).drive, "free");
+  picture.tick.lever.piece = 1;
+  picture.tick.lever.twist_Nmm = -500.0;
+  picture.tick.torn_share = 0.42;
+  const HeadUpContent shown = picture.at(milliseconds(0));
+  EXPECT_EQ(shown.drive, "torn 42 %");
+  EXPECT_EQ(shown.torque_Nm, 0.5);
+  EXPECT_EQ(shown.torque_share, 0.25);
+}
+
 TEST(HeadUp, SaysALineForTwoSecondsFromItsFirstFrame) {
   Picture picture;
   EXPECT_EQ(picture.at(milliseconds(0)).said, "");

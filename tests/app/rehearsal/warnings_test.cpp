@@ -65,6 +65,16 @@ TEST(Warnings, TheNeckOfABurAndNotForceps) {
   EXPECT_EQ(with_forceps.first(), "");
 }
 
+TEST(Warnings, AnElevatorThatRestsOnANeighbour) {
+  Scene scene;
+  scene.tick.lever = {1, 400.0, 90.0, 4.0, 100.0, 0.0};
+  EXPECT_EQ(scene.first(), "") << "below 5 N";
+  scene.tick.lever.on_teeth_N = 40.0;
+  EXPECT_EQ(scene.first(), "") << "less than a fifth of what the blade bears";
+  scene.tick.lever.on_teeth_N = 60.0;
+  EXPECT_EQ(scene.first(), "Elevator rests on a neighbouring tooth");
+}
+
 TEST(Warnings, StayLongEnoughToBeReadAndAreCountedOnce) {
   Scene scene;
   scene.command.irrigating = false;

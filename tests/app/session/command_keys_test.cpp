@@ -71,6 +71,7 @@ TEST(CommandKeys, NameLawsShapesAndTissues) {
   command.law.kind = haptics::LawKind::harmonic;
   command.erosion.kind = haptics::ErosionKind::dose;
   command.tool.head.kind = haptics::ShapeKind::cone;
+  command.tool.elevator = haptics::ElevatorKind::cryer_right;
   const std::string text = commandText(command);
   for (const char* part : {"\"law.kind\":\"harmonic\"", "\"erosion.kind\":\"dose\"", "\"tool.head.kind\":\"cone\"",
                            "\"law.tissue.factor.enamel\":1.5"})
@@ -79,6 +80,7 @@ TEST(CommandKeys, NameLawsShapesAndTissues) {
   EXPECT_EQ(back.law.kind, haptics::LawKind::harmonic);
   EXPECT_EQ(back.erosion.kind, haptics::ErosionKind::dose);
   EXPECT_EQ(back.tool.head.kind, haptics::ShapeKind::cone);
+  EXPECT_EQ(back.tool.elevator, haptics::ElevatorKind::cryer_right);
 }
 
 TEST(CommandKeys, OfAnotherProgramArePassedByAndMissingOnesDefaulted) {

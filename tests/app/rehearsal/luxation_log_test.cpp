@@ -1,4 +1,4 @@
-#include "app/rehearsal/grip_log.h"
+#include "app/rehearsal/luxation_log.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace app {
 namespace {
 
 struct Told {
-  GripLog log;
+  LuxationLog log;
   haptics::Tick tick;
   bool ready = true;
 
@@ -16,14 +16,14 @@ struct Told {
   std::vector<std::string> lines(int ticks = 1) {
     std::vector<std::string> lines;
     const std::vector<haptics::Tick> all(static_cast<std::size_t>(ticks), tick);
-    for (const GripLog::Told& told : log.follow(all, true, ready, [](std::size_t) { return 411.6; }))
+    for (const LuxationLog::Told& told : log.follow(all, true, ready, [](std::size_t) { return 411.6; }))
       lines.push_back(told.line);
     return lines;
   }
 };
 using Lines = std::vector<std::string>;
 
-TEST(GripLog, TellsWhyNothingIsHeldOnceForEachClosing) {
+TEST(LuxationLog, TellsWhyNothingIsHeldOnceForEachClosing) {
   Told told;
   EXPECT_EQ(told.lines(), Lines{});
   told.tick.hand.drill_pedal = true;
@@ -37,7 +37,7 @@ TEST(GripLog, TellsWhyNothingIsHeldOnceForEachClosing) {
   EXPECT_EQ(told.log.summary(), "");
 }
 
-TEST(GripLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
+TEST(LuxationLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
   Told told;
   told.tick.hand.drill_pedal = true;
   told.tick.gripped = 2;
@@ -59,7 +59,7 @@ TEST(GripLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
   EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out, held for 0:02", 0), 0u) << told.log.summary();
 }
 
-TEST(GripLog, TakesBackWhatIsUndone) {
+TEST(LuxationLog, TakesBackWhatIsUndone) {
   Told told;
   told.tick.pieces = 2;
   told.tick.gripped = 2;
@@ -82,6 +82,31 @@ TEST(GripLog, TakesBackWhatIsUndone) {
   told.tick.X_PQ[1] = away;
   EXPECT_EQ(told.lines(), Lines{"out: a piece of 412 mm³"}) << "redone";
   EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out", 0), 0u) << told.log.summary();
+}
+
+TEST(LuxationLog, TellsWhatAnElevatorDoes) {
+  Told told;
+  told.tick.lever.piece = 1;
+  told.tick.lever.twist_Nmm = -620.0;
+  told.tick.torn_share = 0.3;
+  EXPECT_EQ(told.lines(1000), Lines{"25 % of the ligament is torn"});
+  EXPECT_EQ(told.log.summary(),
+            "nothing taken out, levered for 0:01 with 0.62 N m at most (model), 30 % of the ligament torn");
+}
+
+TEST(LuxationLog, TellsOfANeighbouringToothThatBearsTheElevator) {
+  Told told;
+  told.tick.lever = {1, 100.0, 10.0, 30.0, 40.0, 0.0};
+  EXPECT_EQ(told.lines(40), Lines{}) << "shorter than 50 ms";
+  told.tick.lever.on_teeth_N = 0.0;
+  EXPECT_EQ(told.lines(), Lines{});
+  told.tick.lever.on_teeth_N = 30.0;
+  EXPECT_EQ(told.lines(60), Lines{"the elevator rests on a neighbouring tooth"});
+  told.tick.lever.on_teeth_N = 44.0;
+  EXPECT_EQ(told.lines(60), Lines{});
+  told.tick.lever.on_teeth_N = 0.0;
+  EXPECT_EQ(told.lines(3), Lines{"a neighbouring tooth bore 44 N of the elevator (model)"});
+  EXPECT_NE(told.log.summary().find(", a neighbouring tooth bore 44 N (model), "), std::string::npos);
 }
 
 }  // namespace
