@@ -358,10 +358,12 @@ int run(RehearseOptions& options) {
     plan.soft_tissue = {};
   }
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
-  // Whoever named no tools finds an elevator and forceps beside the bur.
+  // Whoever named no tools finds an elevator and forceps beside the burs.
   static const RehearseOptions kUntouched;
-  if (!former && options.tools == kUntouched.tools && plan.patient.site && plan.other_tools.empty())
-    plan.other_tools = {haptics::elevatorTool(haptics::ElevatorKind::straight_301), haptics::forcepsTool()};
+  if (!former && options.tools == kUntouched.tools && plan.patient.site) {
+    plan.other_tools.push_back(haptics::elevatorTool(haptics::ElevatorKind::straight_301));
+    plan.other_tools.push_back(haptics::forcepsTool());
+  }
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) {
