@@ -38,10 +38,12 @@ void addParts(const Frame& frame, ToolBlock& block) {
   struct Part {
     double from_mm, from_radius_mm, to_mm, to_radius_mm;
   };
-  const std::array<Part, TOOL_PARTS> parts{{{low, tip_radius, high, radius},
-                                            {top, neck, 20.0, kShankRadius_mm},
-                                            {20.5, 1.9, 40.0, 4.8},
-                                            {44.0, 5.4, 104.0, 8.6}}};
+  std::array<Part, TOOL_PARTS> parts{{{low, tip_radius, high, radius},
+                                      {top, neck, 20.0, kShankRadius_mm},
+                                      {20.5, 1.9, 40.0, 4.8},
+                                      {44.0, 5.4, 104.0, 8.6}}};
+  // A dust grain far away shades nothing.
+  if (!frame.has_handpiece) parts[2] = parts[3] = {1e4, 1e-3, 1e4, 1e-3};
   const auto at = [&](double z_mm) {
     return frame.X_PT.translation_mm + frame.X_PT.rotation * glm::dvec3(0.0, 0.0, z_mm);
   };
