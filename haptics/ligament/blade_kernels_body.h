@@ -112,14 +112,20 @@ void bladeGaps(const BladeOutline& outline, const BladePlace& where, const Blade
   float* __restrict out_u = gaps.out_u;
   float* __restrict out_v = gaps.out_v;
   float* __restrict out_s = gaps.out_s;
-  for (int first = 0; first < samples.count; first += kBladeLanes)
-    for (int n = first; n < first + kBladeLanes; ++n) {
-      const Gap here = gapAt(blade, placedOn(place, x[n], y[n], z[n]));
-      gap[n] = here.mm;
-      out_u[n] = here.out.x;
-      out_v[n] = here.out.y;
-      out_s[n] = here.out.z;
+  alignas(64) float row[4][kBladeLanes];
+  for (int first = 0; first < samples.count; first += kBladeLanes) {
+    for (int n = 0; n < kBladeLanes; ++n) {
+      const Gap here = gapAt(blade, placedOn(place, x[first + n], y[first + n], z[first + n]));
+      row[0][n] = here.mm;
+      row[1][n] = here.out.x;
+      row[2][n] = here.out.y;
+      row[3][n] = here.out.z;
     }
+    for (int n = 0; n < kBladeLanes; ++n) gap[first + n] = row[0][n];
+    for (int n = 0; n < kBladeLanes; ++n) out_u[first + n] = row[1][n];
+    for (int n = 0; n < kBladeLanes; ++n) out_v[first + n] = row[2][n];
+    for (int n = 0; n < kBladeLanes; ++n) out_s[first + n] = row[3][n];
+  }
 }
 
 }  // namespace MOLAR_KERNEL_SET
