@@ -77,11 +77,30 @@ CutRegion regionAround(const Components& components, std::span<const std::vector
     last = glm::max(last, index);
   }
   CutRegion region{VoxelBox(grid, first, last), {}, is_flat ? axes[thin] : glm::dvec3(0.0), centre_mm};
-  assets::forVoxels(region.box.first, region.box.last + 1, [&](glm::ivec3 ijk) {
-    const glm::dvec3 at_mm = into * (grid.centre_P_mm(ijk) - mass.centroid_mm);
-    const bool inside = glm::all(glm::lessThanEqual(low_mm, at_mm)) && glm::all(glm::lessThanEqual(at_mm, high_mm));
-    region.zone.push_back(inside ? 1 : 0);
-  });
+  region.zone.assign(assets::countIn(region.box.last - region.box.first + 1), 0);
+  const glm::dvec3 along_i_mm = grid.spacing_mm * into[0];
+  std::size_t at = 0;
+  for (int k = region.box.first.z; k <= region.box.last.z; ++k)
+    for (int j = region.box.first.y; j <= region.box.last.y; ++j) {
+      // Of a row, those between its crossings of each pair of faces.
+      const glm::ivec3 start(region.box.first.x, j, k);
+      const glm::dvec3 from_mm = into * (grid.centre_P_mm(start) - mass.centroid_mm);
+      double first_i = 0.0, last_i = region.box.last.x - region.box.first.x;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double step_mm = along_i_mm[axis], below_mm = low_mm[axis] - from_mm[axis],
+                     above_mm = high_mm[axis] - from_mm[axis];
+        if (std::abs(step_mm) < 1e-12) {
+          if (below_mm > 0.0 || above_mm < 0.0) last_i = -1.0;
+          continue;
+        }
+        first_i = std::max(first_i, std::ceil(std::min(below_mm / step_mm, above_mm / step_mm)));
+        last_i = std::min(last_i, std::floor(std::max(below_mm / step_mm, above_mm / step_mm)));
+      }
+      const auto row = region.zone.begin() + static_cast<std::ptrdiff_t>(at);
+      if (first_i <= last_i)
+        std::fill(row + static_cast<int>(first_i), row + static_cast<int>(last_i) + 1, std::uint8_t{1});
+      at += static_cast<std::size_t>(region.box.last.x - region.box.first.x + 1);
+    }
   return region;
 }
 

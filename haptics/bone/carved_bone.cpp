@@ -217,6 +217,14 @@ std::vector<std::uint8_t> CarvedBone::solidInGridOrder() const {
   return solid;
 }
 
+std::vector<std::uint8_t> CarvedBone::labelInGridOrder() const {
+  const SolidField at = field();
+  if (at.label == nullptr) return {};
+  std::vector<std::uint8_t> label(grid_.voxelCount());
+  assets::forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) { label[v] = at.labelAt(ijk); });
+  return label;
+}
+
 void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
   const SolidField at = field();
   const glm::ivec3 corner = brick * assets::kBrickVoxels;

@@ -99,6 +99,9 @@ class CarvedBone {
   /// The solid fraction in the order of the grid. O(voxels), allocates; writing thread, or without a writer.
   std::vector<std::uint8_t> solidInGridOrder() const;
 
+  /// The labels in the order of the grid; empty: unlabelled. They never change. O(voxels), allocates; any thread.
+  std::vector<std::uint8_t> labelInGridOrder() const;
+
   /// Copies the 8x8x8 voxels of a brick (i fastest; outside the volume: 0). One reading thread.
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
 

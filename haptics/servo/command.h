@@ -8,6 +8,7 @@
 #include "haptics/contact/law.h"
 #include "haptics/safety/safety_limits.h"
 #include "haptics/servo/piece_sites.h"
+#include "haptics/servo/tooth_break.h"
 #include "haptics/servo/tooth_split.h"
 #include "haptics/tool/spindle.h"
 #include "haptics/tool/tool.h"
@@ -22,6 +23,7 @@ struct Command {
   std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo
   std::uint64_t redo_serial = 0;  ///< rises by one for every stroke to redo
   SplitOrder split;
+  BreakOrder bridge;
   SiteOrder site;
   LawSettings law;
   ErosionSettings erosion;

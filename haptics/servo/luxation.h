@@ -30,6 +30,9 @@ class Luxation {
   bool takeHold(const Bodies& bodies, const PieceSites& sites, const Tool& tool, const ToolPose& tool_X_PT,
                 const Hand& hand) noexcept;
 
+  /// What was held has broken: it stays where it is.
+  void drop() noexcept { led_.leads = led_.holds = false; }
+
   bool leads() const { return led_.leads; }
   /// A piece moves with the tool.
   bool holds() const { return led_.leads && led_.holds; }

@@ -41,6 +41,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
+  breaks_.receive(bodies_, command.bridge);
   if (sites_.isNew(command.site))
     sites_.receive(bodies_, command.site, luxation_.holds(), undo_.leftByLuxation(command.site.piece));
   const StrokeUndo::Serials serials{command.undo_serial, command.redo_serial};
@@ -128,9 +129,10 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
       proxy.maxStored_Nmm() + soft.max_stored_Nmm + led.max_stored_Nmm,
       proxy.touches() || led.leads};
   const Delivery::Changes changes{
-      command.serial != last_serial_ || embedded != was_embedded_ || led.leads != led_before || undo_.hasMovedPieces(),
+      command.serial != last_serial_ || embedded != was_embedded_ || led.leads != was_led_ || undo_.hasMovedPieces(),
       admitted.relocated};
   last_serial_ = command.serial;
+  was_led_ = led.leads;
   was_embedded_ = embedded;
   const SafetyFilter::Delivered delivered = delivery_.deliver(law, changes, valid, safety_, command.safety, tick.dt_s);
   tick.commanded_force_P_N = delivered.wrench_P.force_N;
@@ -147,12 +149,26 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   undo_.update(cuts, proxy.proxy_P, removed.removed_mm3, !split_.isRunning(), tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
+  // The bridge of the piece that is twisted or wedged breaks: the tool leads alone until its parts are ready.
+  breaks_.reset();
+  if (tick.gripped != 0 && !split_.isRunning())
+    breaks_.grip(bodies_, led.piece, led.gripped, {led.X_PT.translation_mm});
+  if (led.lever.piece != 0 && !split_.isRunning()) breaks_.wedge(bodies_, led.piece, led.lever.wedging_N);
+  tick.bridge_share = breaks_.share();
+  tick.broken = breaks_.broken();
+  if (const std::size_t broken = breaks_.broken().piece; broken != 0) {
+    undo_.endLuxation(bodies_, sites_);
+    luxation_.drop();
+    split_.breakOff(bodies_, broken - 1, breaks_.planOf(broken - 1), undo_.strokes());
+  }
+
   // A piece that has fallen apart becomes two.
   if (split_.step(bodies_, !proxy.touches() && !led.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating(),
                   undo_.strokes()))
     undo_.keepStrokes();
   if (const auto begun = split_.begun()) sites_.part(bodies_, begun->from, begun->to);
   tick.split = split_.answer();
+  tick.bridge = split_.isBreaking() ? BreakAnswer::breaking : breaks_.answer(bodies_);
   tick.site = sites_.answer();
   tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());
   for (std::size_t n = 0; n < bodies_.pieces(); ++n) tick.X_PQ[n] = bodies_.pose(n);

@@ -14,6 +14,7 @@
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
 #include "haptics/servo/tick.h"
+#include "haptics/servo/tooth_break.h"
 #include "haptics/servo/tooth_split.h"
 
 namespace haptics {
@@ -41,10 +42,11 @@ class Servo {
   Delivery delivery_;
   StrokeUndo undo_;
   ToothSplit split_;
+  ToothBreak breaks_;
   PieceSites sites_;
   Luxation luxation_;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
-  bool was_embedded_ = false;
+  bool was_embedded_ = false, was_led_ = false;
   Tool tool_before_;          ///< of the last tick
   bool pedal_spent_ = false;  ///< until it is released
   std::uint64_t last_serial_ = 0;

@@ -13,6 +13,7 @@
 #include "haptics/servo/drill_inhibit.h"
 #include "haptics/servo/levering.h"
 #include "haptics/servo/piece_sites.h"
+#include "haptics/servo/tooth_break.h"
 #include "haptics/servo/tooth_split.h"
 
 namespace haptics {
@@ -45,6 +46,9 @@ struct Tick {
   std::uint8_t undone_strokes = 0;                              ///< that can be redone
   std::uint8_t pieces = 0;                                      ///< of the tooth; 0: none of its own
   SplitAnswer split = SplitAnswer::none;                        ///< to the newest Command::split
+  BreakAnswer bridge = BreakAnswer::none;                       ///< to the newest Command::bridge
+  BrokenBridge broken;                                          ///< in this tick
+  double bridge_share = 0.0;                                    ///< of what breaks the bridge under load
   SiteAnswer site = SiteAnswer::none;                           ///< to the newest Command::site
   std::uint8_t gripped = 0;                                     ///< 1 + the piece that the forceps hold; 0: none
   bool set_aside = false;                                       ///< a piece was let go of outside, in this tick

@@ -1,6 +1,8 @@
 #include "haptics/servo/tooth_split.h"
 
 #include <algorithm>
+#include <cassert>
+#include <utility>
 
 namespace haptics {
 
@@ -16,33 +18,46 @@ void ToothSplit::receive(const Bodies& bodies, const SplitOrder& order) noexcept
   answer_ = isPossible(bodies) ? SplitAnswer::waiting : SplitAnswer::refused;
 }
 
+void ToothSplit::begin(Bodies& bodies, std::size_t piece, const SplitPlan& plan, StrokeHistory& strokes) noexcept {
+  plan_ = &plan;
+  from_ = piece;
+  to_ = bodies.pieces();
+  next_ = 0;
+  has_just_begun_ = true;
+  // An empty piece may have been somewhere else before.
+  bodies.place(to_, bodies.pose(piece));
+  strokes.reopen();
+}
+
+void ToothSplit::breakOff(Bodies& bodies, std::size_t piece, const SplitPlan& plan, StrokeHistory& strokes) noexcept {
+  assert(!isRunning() && bodies.pieces() < kMaxPieces);
+  begin(bodies, piece, plan, strokes);
+}
+
 bool ToothSplit::step(Bodies& bodies, bool clear, StrokeHistory& strokes) noexcept {
-  begun_.reset();
-  if (answer_ == SplitAnswer::waiting) {
+  if (answer_ == SplitAnswer::waiting && !isRunning()) {
     if (!isPossible(bodies))
       answer_ = SplitAnswer::refused;
     else if (clear) {
       answer_ = SplitAnswer::running;
-      to_ = bodies.pieces();
-      next_ = 0;
-      begun_ = Begun{static_cast<std::size_t>(order_.piece), to_};
-      // An empty piece may have been somewhere else before.
-      bodies.place(to_, bodies.pose(order_.piece));
-      strokes.reopen();
+      begin(bodies, order_.piece, *order_.plan, strokes);
     }
   }
+  begun_.reset();
+  if (std::exchange(has_just_begun_, false)) begun_ = Begun{from_, to_};
   if (!isRunning()) return false;
 
   // Without a stroke there is nothing to undo, and what was solid apart at first stays so.
   StrokeHistory* const kept = strokes.strokes() > 0 ? &strokes : nullptr;
-  const std::size_t blocks = bodies.bones()[order_.piece + 1].blocks();
-  const std::size_t end = std::min(next_ + kBlocksPerTick, order_.plan->blocks.size());
+  const std::size_t blocks = bodies.bones()[from_ + 1].blocks();
+  const std::size_t end = std::min(next_ + kBlocksPerTick, plan_->blocks.size());
   for (; next_ < end; ++next_) {
-    const SplitPlan::Block& planned = order_.plan->blocks[next_];
-    if (planned.block < blocks) bodies.moveBlock(order_.piece, to_, planned.block, planned.given, kept);
+    const SplitPlan::Block& planned = plan_->blocks[next_];
+    if (planned.block < blocks) bodies.moveBlock(from_, to_, planned.block, planned.given, kept);
   }
-  if (next_ == order_.plan->blocks.size()) {
-    answer_ = SplitAnswer::done;
+  if (next_ == plan_->blocks.size()) {
+    plan_ = nullptr;
+    if (answer_ == SplitAnswer::running) answer_ = SplitAnswer::done;
     strokes.endStroke();
   }
   return true;

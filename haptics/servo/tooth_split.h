@@ -1,8 +1,9 @@
 // A piece of tooth that has fallen apart becomes two, on command: its part moves to the next empty piece, at most
 // kBlocksPerTick blocks a tick, so that 300 mm3 take some 30 ms. Both stay where they are, so no force and no picture
 // changes. It begins when the tool touches nothing, and only on the bodies from which the plan was made. The change
-// belongs to the newest stroke (bone/stroke_history): its undo joins the pieces again. Servo thread; 1 to 2 us
-// a block (haptics_extraction_bench site); no allocation, no throw.
+// belongs to the newest stroke (bone/stroke_history): its undo joins the pieces again. A bridge that breaks
+// (servo/tooth_break) parts its piece alike, at once. Servo thread; 1 to 2 us a block (haptics_extraction_bench site);
+// no allocation, no throw.
 #pragma once
 
 #include <cstdint>
@@ -36,13 +37,17 @@ class ToothSplit {
 
   /// First in a tick: an order holds for the bodies as they are then, or not at all.
   void receive(const Bodies& bodies, const SplitOrder& order) noexcept;
+  /// Of a piece whose bridge breaks, before step(), while none runs and there is room for another piece; the plan is
+  /// borrowed while isRunning().
+  void breakOff(Bodies& bodies, std::size_t piece, const SplitPlan& plan, StrokeHistory& strokes) noexcept;
   /// After the cut. `clear`: the tool touches nothing solid and nothing is being undone. True: the strokes have
   /// changed.
   bool step(Bodies& bodies, bool clear, StrokeHistory& strokes) noexcept;
 
   /// Of the newest order.
   SplitAnswer answer() const { return answer_; }
-  bool isRunning() const { return answer_ == SplitAnswer::running; }
+  bool isRunning() const { return plan_ != nullptr; }
+  bool isBreaking() const { return isRunning() && answer_ != SplitAnswer::running; }
   /// The pieces of a split that began in this tick's step().
   struct Begun {
     std::size_t from = 0, to = 0;
@@ -51,10 +56,13 @@ class ToothSplit {
 
  private:
   bool isPossible(const Bodies& bodies) const noexcept;
+  void begin(Bodies& bodies, std::size_t piece, const SplitPlan& plan, StrokeHistory& strokes) noexcept;
 
   SplitOrder order_;
   SplitAnswer answer_ = SplitAnswer::none;
-  std::size_t to_ = 0, next_ = 0;  ///< piece; block of the plan
+  const SplitPlan* plan_ = nullptr;           ///< that runs; null: none
+  std::size_t from_ = 0, to_ = 0, next_ = 0;  ///< pieces; block of the plan
+  bool has_just_begun_ = false;
   std::optional<Begun> begun_;
 };
 

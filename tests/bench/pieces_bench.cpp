@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "assets/ct_volume.h"
+#include "haptics/body/bridge_break.h"
 #include "haptics/body/tooth_survey.h"
 #include "tests/bench/extraction_parts.h"
 #include "tests/haptics/tooth_phantom.h"
@@ -86,7 +87,7 @@ void benchPieces() {
               flood_us);
   std::printf("  after 12 changed bricks: 1 / %.0f of the flood fill\n", flood_us / (12.0 * brick_us + join_us));
 
-  std::printf("bridge of a slot          0.30 mm: mm2, ms     0.15 mm: mm2, ms    ratio\n");
+  std::printf("bridge of a slot          0.30 mm: mm2, ms     0.15 mm: mm2, ms    ratio, plan of its break, ms\n");
   const ToothPhantom uncut = toothOf(0.15, 0.0);
   for (const double depth_mm : {5.0, 6.0, 7.0, 8.0, 9.0}) {
     const ToothPhantom now = toothOf(0.15, depth_mm);
@@ -99,8 +100,10 @@ void benchPieces() {
       ms[n] = 1e-3 * p10_us(5, [&] { survey.findBridges(found, n == 0 ? 0.30 : 0.15); });
       mm2[n] = found.held[0].bridge[0].area_mm2;
     }
-    std::printf("  depth %.0f mm                    %6.2f %8.2f      %6.2f %8.2f   %6.1f\n", depth_mm, mm2[0], ms[0],
-                mm2[1], ms[1], ms[1] / ms[0]);
+    const haptics::Components& cut_tooth = survey.components();
+    const double break_ms = 1e-3 * p10_us(3, [&] { haptics::breakPlan(cut_tooth, {}, found.held[0].bridge[0]); });
+    std::printf("  depth %.0f mm                    %6.2f %8.2f      %6.2f %8.2f   %6.1f %8.2f\n", depth_mm, mm2[0],
+                ms[0], mm2[1], ms[1], ms[1] / ms[0], break_ms);
   }
 }
 

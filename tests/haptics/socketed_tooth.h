@@ -12,7 +12,7 @@
 
 namespace haptics::phantom {
 
-/// Bone up to z = 0, the crown above it.
+/// Bone up to z = 0, the crown above it; across that a slot that leaves what is below `slot_from_x_mm`.
 struct Mouth {
   Phantom phantom;
   std::vector<std::uint8_t> label, is_tooth;
@@ -36,9 +36,10 @@ struct Mouth {
     return std::max({std::abs(p.y) - 3.0, std::abs(p.x - 2.0) - 1.7, -2.0 - p.z});
   }
 
-  explicit Mouth(bool gutter = false)
+  explicit Mouth(bool gutter = false, double slot_from_x_mm = 1e3)
       : phantom(filled(8.0, 0.25,
-                       [gutter](const glm::dvec3& p) {
+                       [gutter, slot_from_x_mm](const glm::dvec3& p) {
+                         if (p.x > slot_from_x_mm && std::abs(p.z - 1.0) < 0.5) return 1e3;
                          const double around_mm = std::max(p.z, 0.25 - inTooth_mm(p));
                          return std::min(inTooth_mm(p), gutter ? std::max(around_mm, -inGutter_mm(p)) : around_mm);
                        })),
