@@ -19,6 +19,7 @@ void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.undo_serial = from.undo_serial;
   to.redo_serial = from.redo_serial;
   to.split = from.split;
+  to.bridge = from.bridge;
   to.site = from.site;
   to.rearm = from.rearm;
 }
@@ -202,6 +203,13 @@ void ActiveCommand::split(const haptics::SplitOrder& order) {
   const std::uint64_t serial = command_.split.serial + 1;
   command_.split = order;
   command_.split.serial = serial;
+  workstation_->change(command_);
+}
+
+void ActiveCommand::arm(const haptics::BreakOrder& order) {
+  const std::uint64_t serial = command_.bridge.serial + 1;
+  command_.bridge = order;
+  command_.bridge.serial = serial;
   workstation_->change(command_);
 }
 

@@ -39,9 +39,12 @@ class ActiveCommand {
   void pollSettingsFile(LiveParameters::Clock::time_point now);
   /// Makes a piece of tooth that has fallen apart two; its serial is set here. Unreported.
   void split(const haptics::SplitOrder& order);
+  /// Lets a bridge break when enough force comes, alike.
+  void arm(const haptics::BreakOrder& order);
   /// Makes a piece ready for forceps or elevator, alike.
   void makeReady(const haptics::SiteOrder& order);
-  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, site and rearm stay as they are.
+  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, bridge, site and rearm stay as
+  /// they are.
   void adopt(const haptics::Command& command);
 
   /// Tools to change between, in order.

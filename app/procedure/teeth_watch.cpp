@@ -1,8 +1,11 @@
 #include "app/procedure/teeth_watch.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "haptics/body/bridge_break.h"
+#include "haptics/body/bridge_strength.h"
 #include "haptics/body/piece_split.h"
 
 namespace app {
@@ -13,8 +16,9 @@ constexpr int kLooksPerBridge = 4;
 
 }  // namespace
 
-TeethWatch::TeethWatch(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid)
-    : survey_(grid, solid), bricks_(grid.bricks()), thread_([this] { run(); }) {}
+TeethWatch::TeethWatch(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
+                       std::vector<std::uint8_t> label)
+    : survey_(grid, solid), label_(std::move(label)), bricks_(grid.bricks()), thread_([this] { run(); }) {}
 
 TeethWatch::~TeethWatch() {
   {
@@ -31,6 +35,8 @@ void TeethWatch::give(glm::ivec3 brick, const Brick& solid) {
     given_.insert_or_assign(assets::indexIn(bricks_, brick), std::pair{brick, solid});
     confirmed_.reset();
     parting_.reset();
+    break_.reset();
+    ++content_;
   }
   wake_.notify_all();
 }
@@ -48,12 +54,60 @@ std::unique_ptr<TeethWatch::Parting> TeethWatch::takeParting() {
   return std::move(parting_);
 }
 
+void TeethWatch::planBreaks(bool wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(plans_breaks_, wanted) == wanted) return;
+  }
+  wake_.notify_all();
+}
+
+std::unique_ptr<haptics::BreakPlan> TeethWatch::takeBreak() {
+  const std::lock_guard lock(mutex_);
+  return std::move(break_);
+}
+
 void TeethWatch::settle() {
   std::unique_lock lock(mutex_);
   hurry_ = true;
   wake_.notify_all();
-  settled_.wait(lock, [this] { return given_.empty() && !is_looking_ && !owes_bridges_ && !mayPart(); });
+  settled_.wait(lock, [this] { return given_.empty() && !is_looking_ && !owes_bridges_ && !mayPart() && !mayBreak(); });
   hurry_ = false;
+}
+
+/// Nothing new, and it is sure what it is: whether it has fallen apart.
+void TeethWatch::lookForParting(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t digest = *confirmed_;
+  lock.unlock();
+  haptics::SplitPlan plan = haptics::partingPlan(survey_.components());
+  lock.lock();
+  parted_ = digest;
+  if (!plan.blocks.empty() && confirmed_ == digest)
+    parting_ = std::make_unique<Parting>(Parting{std::move(plan), digest});
+}
+
+/// And which bridge breaks first.
+void TeethWatch::lookForBreak(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t content = content_;
+  lock.unlock();
+  std::optional<haptics::BreakPlan> weakest;
+  double least_N = 0.0;
+  const haptics::Components& components = survey_.components();
+  if (haptics::ToothFindings found = survey_.pieces(); found.pieces == 1) {
+    survey_.findBridges(found, components.grid().spacing_mm);
+    const haptics::ToothFindings::Held& held = found.held[0];
+    for (std::size_t n = 0; held.parts > 1 && n < std::min(held.bridges, held.bridge.size()); ++n) {
+      auto plan = haptics::breakPlan(components, label_, held.bridge[n]);
+      if (!plan) continue;
+      const double force_N = haptics::breakingForce_N(plan->bridge, plan->enamel_share);
+      if (weakest && force_N >= least_N) continue;
+      weakest = std::move(plan);
+      least_N = force_N;
+    }
+  }
+  lock.lock();
+  break_of_ = content;
+  if (weakest && content == content_) break_ = std::make_unique<haptics::BreakPlan>(std::move(*weakest));
 }
 
 void TeethWatch::run() {
@@ -61,19 +115,12 @@ void TeethWatch::run() {
   int looks_without = 0;
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return stopping_ || !given_.empty() || owes_bridges_ || mayPart(); });
+    wake_.wait(lock, [this] { return stopping_ || !given_.empty() || owes_bridges_ || mayPart() || mayBreak(); });
     if (stopping_) return;
-    // Nothing new, and it is sure what it is: whether it has fallen apart.
     if (given_.empty() && !owes_bridges_) {
-      const std::uint64_t digest = *confirmed_;
       is_looking_ = true;
-      lock.unlock();
-      haptics::SplitPlan plan = haptics::partingPlan(survey_.components());
-      lock.lock();
+      mayPart() ? lookForParting(lock) : lookForBreak(lock);
       is_looking_ = false;
-      parted_ = digest;
-      if (!plan.blocks.empty() && confirmed_ == digest)
-        parting_ = std::make_unique<Parting>(Parting{std::move(plan), digest});
       settled_.notify_all();
       continue;
     }

@@ -26,6 +26,7 @@ std::vector<LuxationLog::Told> LuxationLog::follow(std::span<const haptics::Tick
     for (std::size_t piece = 0; piece < haptics::kMaxPieces; ++piece)
       if (auto line = follow(tick, piece, volume_mm3)) told.push_back(std::move(*line));
     torn_share_ = tick.torn_share;
+    followBridge(tick.broken, tick.gripped == 0, told);
     followFulcrum(tick, told);
     if (tick.gripped != 0) {
       held_s_ += tick.dt_s;
@@ -49,6 +50,15 @@ void LuxationLog::followLigament(const haptics::Tick& tick, std::size_t piece, b
                     quarters == 4, by_elevator});
   // Fewer than before after an undo.
   before = quarters;
+}
+
+void LuxationLog::followBridge(const haptics::BrokenBridge& broken, bool by_elevator, std::vector<Told>& told) {
+  if (broken.piece == 0) return;
+  ++bridges_broken_;
+  told.push_back(
+      {fmt::format("the bridge of {:.0f} mm² broke at {:.0f} N, {:.2f} N m{}", broken.area_mm2, broken.force_N,
+                   1e-3 * broken.bending_Nmm, broken.is_complete ? "" : ", not clean: a spur stays on the root"),
+       true, by_elevator});
 }
 
 /// Said when it has lasted, recorded with its largest force when it is over.
@@ -89,6 +99,8 @@ std::string LuxationLog::summary() const {
   for (std::size_t n = 0; n < out_.size(); ++n)
     words += fmt::format("{}{:.0f}", n == 0 ? "" : n + 1 == out_.size() ? " and " : ", ", out_[n].mm3);
   words = out_.empty() ? "nothing taken out" : words + " mm³ taken out";
+  if (bridges_broken_ > 0)
+    words += fmt::format(", {} bridge{} broken", bridges_broken_, bridges_broken_ == 1 ? "" : "s");
   if (held_s_ > 0.0)
     words += fmt::format(", held for {}, pulled with {:.0f} N at most (model)", clockText(held_s_), most_N_);
   if (levered_s_ > 0.0)
@@ -100,6 +112,7 @@ std::string LuxationLog::summary() const {
 std::string luxationText(const haptics::Tick& tick, const haptics::Tool& tool, bool ready) {
   const bool works = tool.grips ? tick.gripped != 0 : tick.lever.piece != 0;
   if (!works) return !ready ? "not ready" : tool.grips ? "open" : "free";
+  if (tick.bridge_share > 0.05) return fmt::format("bridge {:.0f} %", 100.0 * tick.bridge_share);
   return tick.torn_share >= haptics::kLooseShare ? "loose" : fmt::format("torn {:.0f} %", 100.0 * tick.torn_share);
 }
 

@@ -236,10 +236,11 @@ class Rehearsal {
     }
   }
 
-  /// While forceps or an elevator are in the hand.
+  /// And the bridge to break, while forceps or an elevator are in the hand.
   void makePiecesReady() {
     const bool luxates = active_command_.inForce().tool.luxates();
     if (const auto order = sites_->follow(newest_, luxates, !pace_.isRealTime())) active_command_.makeReady(*order);
+    if (const auto order = tooth_->bridgeOrder(newest_, luxates, !pace_.isRealTime())) active_command_.arm(*order);
   }
 
   void followDemonstration() {

@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "haptics/body/bridge_strength.h"
+
 namespace app {
 namespace {
 
@@ -19,6 +21,11 @@ const haptics::Bridge* thinnestBridge(const haptics::ToothFindings& findings) {
       if (thinnest == nullptr || held.bridge[b].thickness_mm < thinnest->thickness_mm) thinnest = &held.bridge[b];
   }
   return thinnest;
+}
+
+std::string breakText(const haptics::Bridge& bridge, double enamel_share = 0.0) {
+  if (bridge.area_mm2 > haptics::kMostBreakable_mm2) return "too thick to break: cut on, do not force it";
+  return fmt::format("breaks at about {:.2g} N m", 1e-3 * haptics::breakingTwist_Nmm(bridge, enamel_share));
 }
 
 std::string bridgeText(const haptics::Bridge& bridge) {
@@ -36,7 +43,7 @@ std::string toothText(const haptics::ToothFindings& findings) {
     return words + " mm³";
   }
   const haptics::Bridge* const bridge = thinnestBridge(findings);
-  return bridge == nullptr ? "" : "held by " + bridgeText(*bridge);
+  return bridge == nullptr ? "" : "held by " + bridgeText(*bridge) + ", " + breakText(*bridge);
 }
 
 ToothFollower::ToothFollower(haptics::Bodies& bodies, std::span<const std::uint8_t> whole) : bodies_(bodies) {
@@ -52,8 +59,11 @@ void ToothFollower::watchAnew(std::size_t pieces) {
   for (std::size_t n = 0; n < pieces; ++n) {
     const haptics::CarvedBone& piece = bodies_.bones()[n + 1];
     watches_.push_back(std::make_unique<TeethWatch>(
-        piece.grid(), pieces == 1 ? whole_ : piece.copyBox(glm::ivec3(0), piece.grid().size)));
+        piece.grid(), pieces == 1 ? whole_ : piece.copyBox(glm::ivec3(0), piece.grid().size),
+        piece.labelInGridOrder()));
   }
+  to_arm_.assign(pieces, nullptr);
+  arming_.reset();
   looks_ = 0;
   bridge_told_mm_ = 4;
   is_partial_ = true;
@@ -61,6 +71,10 @@ void ToothFollower::watchAnew(std::size_t pieces) {
 
 /// Bricks of the tooth's grid.
 void ToothFollower::give(std::span<const glm::ivec3> bricks) {
+  if (!bricks.empty()) {
+    to_arm_.assign(watches_.size(), nullptr);
+    arming_.reset();
+  }
   for (std::size_t n = 0; n < watches_.size(); ++n)
     for (const glm::ivec3& brick : bricks) {
       TeethWatch::Brick bytes{};
@@ -79,7 +93,8 @@ void ToothFollower::giveAll() {
 /// Not while pieces part or join block by block. When they have, all is looked at anew.
 bool ToothFollower::mayLook(const haptics::Tick& newest) {
   if (newest.dt_s == 0.0) return true;
-  if (newest.split == haptics::SplitAnswer::running || newest.drill_inhibit == haptics::DrillInhibit::undo_running) {
+  if (newest.split == haptics::SplitAnswer::running || newest.bridge == haptics::BreakAnswer::breaking ||
+      newest.drill_inhibit == haptics::DrillInhibit::undo_running) {
     is_partial_ = true;
     return false;
   }
@@ -93,6 +108,7 @@ void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Ti
     if (const auto own = bodies_.brickOfPiece(brick)) unseen_.push_back(*own);
   // A turning bur that grazes changes what voxels remember, if no solid yet.
   const bool is_quiet = std::exchange(quiet_at_, newest.bone_digest) == newest.bone_digest && bricks.empty();
+  is_quiet_ = is_quiet;
   if ((waits && !is_quiet) || !mayLook(newest)) return;
   const bool was_partial = is_partial_;
   if (was_partial)
@@ -121,6 +137,24 @@ std::optional<haptics::SplitOrder> ToothFollower::order(const haptics::Tick& new
   return {};
 }
 
+std::optional<haptics::BreakOrder> ToothFollower::bridgeOrder(const haptics::Tick& newest, bool in_hand, bool waits) {
+  for (const auto& watch : watches_) watch->planBreaks(in_hand);
+  // What came too early is asked again.
+  if (arming_ && newest.bridge == haptics::BreakAnswer::refused) to_arm_[arming_->first] = arming_->second;
+  arming_.reset();
+  if (!in_hand || !is_quiet_ || newest.pieces != watches_.size()) return {};
+  if (waits) settle();
+  for (std::size_t n = 0; n < watches_.size(); ++n) {
+    if (auto plan = watches_[n]->takeBreak()) to_arm_[n] = &breaks_.emplace_back(std::move(*plan));
+    const haptics::BreakPlan* const plan = std::exchange(to_arm_[n], nullptr);
+    if (plan == nullptr) continue;
+    arming_.emplace(n, plan);
+    armed_news_ = "the " + bridgeText(plan->bridge).substr(2) + " " + breakText(plan->bridge, plan->enamel_share);
+    return haptics::BreakOrder{0, newest.bone_digest, n, plan->digest, plan->bridge, plan};
+  }
+  return {};
+}
+
 /// Of all watches together, the largest piece first.
 haptics::ToothFindings ToothFollower::found() {
   haptics::ToothFindings all;
@@ -142,6 +176,7 @@ haptics::ToothFindings ToothFollower::found() {
 }
 
 std::optional<std::string> ToothFollower::news() {
+  if (!armed_news_.empty()) return std::exchange(armed_news_, {});
   std::uint64_t looks = 0;
   for (const auto& watch : watches_) {
     const std::uint64_t serial = watch->newest().serial;
@@ -164,7 +199,8 @@ std::optional<std::string> ToothFollower::news() {
   const bool thinner = below_mm < bridge_told_mm_;
   bridge_told_mm_ = below_mm;
   const std::string what = all.pieces > 1 ? "a piece of the tooth" : "the tooth";
-  return thinner ? std::optional(what + " is held by " + bridgeText(*bridge)) : std::nullopt;
+  if (!thinner) return {};
+  return what + " is held by " + bridgeText(*bridge) + ", " + breakText(*bridge);
 }
 
 std::string ToothFollower::ending() {

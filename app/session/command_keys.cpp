@@ -64,6 +64,23 @@ void visitSplit(auto& split, Visit&& visit) {
   visit("split.serial", serial), visit("split.bodies_digest", bodies_digest), visit("split.piece", piece);
 }
 
+/// The plan of a break follows from the bodies and these.
+template <class Visit>
+void visitBridge(auto& order, Visit&& visit) {
+  auto& [serial, bodies_digest, piece, plan_digest, bridge, plan] = order;
+  auto& [between, area_mm2, width_mm, thickness_mm, half_width_mm, half_thickness_mm, centre_mm, normal, width_axis] =
+      bridge;
+  visit("bridge.serial", serial), visit("bridge.bodies_digest", bodies_digest), visit("bridge.piece", piece);
+  visit("bridge.plan_digest", plan_digest), visit("bridge.area_mm2", area_mm2);
+  visit("bridge.width_mm", width_mm), visit("bridge.thickness_mm", thickness_mm);
+  visit("bridge.half_width_mm", half_width_mm), visit("bridge.half_thickness_mm", half_thickness_mm);
+  visit("bridge.centre_mm.x", centre_mm.x), visit("bridge.centre_mm.y", centre_mm.y);
+  visit("bridge.centre_mm.z", centre_mm.z);
+  visit("bridge.normal.x", normal.x), visit("bridge.normal.y", normal.y), visit("bridge.normal.z", normal.z);
+  visit("bridge.width_axis.x", width_axis.x), visit("bridge.width_axis.y", width_axis.y);
+  visit("bridge.width_axis.z", width_axis.z);
+}
+
 /// The site follows from the bodies, too.
 template <class Visit>
 void visitSite(auto& order, Visit&& visit) {
@@ -170,13 +187,14 @@ void visitSafety(auto& safety, Visit&& visit) {
 
 template <class Visit>
 void forEachKey(auto& command, Visit&& visit) {
-  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, site, law, erosion, spindle, safety,
-         rearm] = command;
+  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, bridge, site, law, erosion, spindle,
+         safety, rearm] = command;
   visit("serial", serial);
   visitTool(tool, visit);
   visit("drill_enabled", drill_enabled), visit("irrigating", irrigating), visit("undo_serial", undo_serial);
   visit("redo_serial", redo_serial);
   visitSplit(split, visit);
+  visitBridge(bridge, visit);
   visitSite(site, visit);
   visitLaw(law, visit);
   visitErosion(erosion, visit);

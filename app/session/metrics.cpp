@@ -49,6 +49,10 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   sum.max_lever_Nmm = std::max(sum.max_lever_Nmm, std::abs(tick.lever.twist_Nmm));
   sum.max_fulcrum_N = std::max(sum.max_fulcrum_N, tick.lever.on_teeth_N);
   sum.ligament_torn_Nmm = tick.torn_total_Nmm;
+  if (const haptics::BrokenBridge& broke = tick.broken; broke.piece != 0) {
+    sum.bridges_broken += 1.0;
+    sum.bridge_breaks.push_back({tick.t_s, broke.force_N, broke.bending_Nmm, broke.area_mm2, broke.is_complete});
+  }
   sum.pieces_out = 0.0;
   for (std::size_t n = 0; n < tick.pieces; ++n)
     if (haptics::Bodies::isAside(tick.X_PQ[n])) sum.pieces_out += 1.0;
@@ -172,6 +176,10 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
   if (metrics.touched)
     words += "touched: " + (metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)) + "\n";
+  for (const BridgeBreak& broke : metrics.bridge_breaks)
+    words +=
+        fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
+                    broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
   for (const MeasuredWay& way : metrics.measured)
     words += "measured at " + clockText(way.t_s) + ": " + way.words + "\n";
   words += "\n";
@@ -265,6 +273,13 @@ std::string metricsJson(const SessionMetrics& metrics) {
   json["measured"] = nlohmann::ordered_json::array();
   for (const MeasuredWay& way : metrics.measured)
     json["measured"].push_back({{"t_s", way.t_s}, {"mm", way.mm}, {"words", way.words}});
+  json["bridge_breaks"] = nlohmann::ordered_json::array();
+  for (const BridgeBreak& broke : metrics.bridge_breaks)
+    json["bridge_breaks"].push_back({{"t_s", broke.t_s},
+                                     {"force_N", broke.force_N},
+                                     {"bending_Nmm", broke.bending_Nmm},
+                                     {"area_mm2", broke.area_mm2},
+                                     {"complete", broke.is_complete}});
   json["soft_tissue"] = softTouchesJson(metrics.soft_touches);
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -24,6 +24,12 @@ struct MeasuredWay {
   std::string words;  ///< as recorded, with both places
 };
 
+/// A bridge of the tooth that broke under force.
+struct BridgeBreak {
+  double t_s = 0.0, force_N = 0.0, bending_Nmm = 0.0, area_mm2 = 0.0;
+  bool is_complete = true;  ///< false: a spur stayed on the root
+};
+
 struct SessionMetrics {
   std::string patient_title, program_version;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before calibrations were stored
@@ -36,9 +42,11 @@ struct SessionMetrics {
   double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
   double grip_s = 0.0, max_grip_N = 0.0, ligament_torn_Nmm = 0.0, pieces_out = 0.0;  ///< by forceps; N of the model
   double lever_s = 0.0, max_lever_Nmm = 0.0, max_fulcrum_N = 0.0;                    ///< by elevators, of the model
+  double bridges_broken = 0.0;
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
   std::vector<MeasuredWay> measured;
+  std::vector<BridgeBreak> bridge_breaks;          ///< undone ones too
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
   SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
@@ -73,6 +81,8 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"ligament_torn_Nmm", "N mm", "energy that tore ligament, without undone strokes",
      &SessionMetrics::ligament_torn_Nmm},
     {"pieces_out", "pieces", "pieces of tooth taken out at the end", &SessionMetrics::pieces_out},
+    {"bridges_broken", "bridges", "bridges of the tooth broken by force, undone ones too",
+     &SessionMetrics::bridges_broken},
     {"limited_s", "s", "time with the force clamped or slew-limited", &SessionMetrics::limited_s},
     {"faulty_s", "s", "time with an invalid pose or force or a device fault", &SessionMetrics::faulty_s},
     {"removed_mm3", "mm3", "removed volume, without undone strokes", &SessionMetrics::removed_mm3},

@@ -12,6 +12,7 @@
 
 #include "app/session/session_error.h"
 #include "app/text/version.h"
+#include "haptics/body/bridge_break.h"
 #include "haptics/body/piece_split.h"
 #include "haptics/ligament/piece_site.h"
 #include "haptics/servo/servo.h"
@@ -51,6 +52,9 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.strokes != again.strokes || recorded.undone_strokes != again.undone_strokes)
     return "the strokes to undo or redo differ";
   if (recorded.split != again.split) return "the splitting of the tooth differs";
+  if (recorded.bridge != again.bridge || !same(recorded.bridge_share, again.bridge_share) ||
+      recorded.broken != again.broken)
+    return "the breaking of the bridge differs";
   if (recorded.site != again.site || recorded.gripped != again.gripped || recorded.set_aside != again.set_aside)
     return "the grip of the forceps differs";
   if (!same(recorded.grip_force_P_N.xyz, again.grip_force_P_N.xyz) ||
@@ -80,6 +84,8 @@ class Rerun {
     while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index)
       command_ = commands_[next_++].command;
     command_.split.plan = command_.split.serial == before.split.serial ? before.split.plan : planFor(command_.split);
+    command_.bridge.plan =
+        command_.bridge.serial == before.bridge.serial ? before.bridge.plan : breakFor(command_.bridge);
     command_.site.site = command_.site.serial == before.site.serial ? before.site.site : siteFor(command_.site);
     if (lost > 0) return std::to_string(lost) + " ticks before it were lost";
     if (command_.serial != recorded.command_serial) return "its command was not recorded";
@@ -99,6 +105,13 @@ class Rerun {
     const haptics::CarvedBone& piece = bodies_.bones()[order.piece + 1];
     plans_.push_back(haptics::partingPlan({piece.grid(), piece.solidInGridOrder()}));
     return &plans_.back();
+  }
+
+  const haptics::BreakPlan* breakFor(const haptics::BreakOrder& order) {
+    if (order.piece >= bodies_.pieces() || order.bodies_digest != bodies_.digest()) return nullptr;
+    const haptics::CarvedBone& piece = bodies_.bones()[order.piece + 1];
+    auto plan = haptics::breakPlan({piece.grid(), piece.solidInGridOrder()}, piece.labelInGridOrder(), order.bridge);
+    return plan ? &breaks_.emplace_back(std::move(*plan)) : nullptr;
   }
 
   haptics::PieceSite* siteFor(const haptics::SiteOrder& order) {
@@ -123,6 +136,7 @@ class Rerun {
   haptics::Servo servo_;
   std::vector<SessionCommand> commands_;
   std::deque<haptics::SplitPlan> plans_;
+  std::deque<haptics::BreakPlan> breaks_;
   haptics::Command command_;
   std::size_t next_ = 0;
   std::uint64_t next_index_ = 0;

@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, haptics::kMaxPieces> kPieceTranslation{
     "piece_0.translation_mm", "piece_1.translation_mm", "piece_2.translation_mm", "piece_3.translation_mm"};
 constexpr std::string_view kSiteMeaning = "none 0, ready 1, refused 2";
 constexpr std::string_view kSplitMeaning = "none 0, waiting 1, running 2, done 3, refused 4";
+constexpr std::string_view kBridgeMeaning = "none 0, armed 1, refused 2, outdated 3, breaking 4";
 constexpr std::string_view kFaults =
     "bad_pose 1, bad_force 2, clamped 4, slewed 8, device 16, joints 32, hot 64, stale 128, resumed 256, braked 512, "
     "too_fast 1024, buzz 2048, overdrawn 4096, let_go 8192, latched 16384, stopped 32768; their sum";
@@ -94,8 +95,8 @@ void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
          bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
-         split, site, gripped, set_aside, unsettled, X_PQ, grip_force_P_N, grip_torque_P_Nmm, lever, torn_share,
-         torn_total_Nmm, state, faults, work_us] = tick;
+         split, bridge, broken, bridge_share, site, gripped, set_aside, unsettled, X_PQ, grip_force_P_N,
+         grip_torque_P_Nmm, lever, torn_share, torn_total_Nmm, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -121,6 +122,14 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"undone_strokes"}, undone_strokes);
   visit(Text{"pieces"}, pieces);
   visit(Text{"split", "", "", "", kSplitMeaning}, split);
+  visit(Text{"bridge", "", "", "", kBridgeMeaning}, bridge);
+  auto& [broken_piece, is_complete, area_mm2, force_N, bending_Nmm] = broken;
+  visit(Text{"broken.piece", "", "", "", "none 0, else 1 + piece"}, broken_piece);
+  visit(Text{"broken.is_complete"}, is_complete);
+  visit(Text{"broken.area_mm2", "", "mm2"}, area_mm2);
+  visit(Text{"broken.force_N", "", "N"}, force_N);
+  visit(Text{"broken.bending_Nmm", "", "N mm"}, bending_Nmm);
+  visit(Text{"bridge_share"}, bridge_share);
   visit(Text{"site", "", "", "", kSiteMeaning}, site);
   visit(Text{"gripped", "", "", "", "none 0, else 1 + piece"}, gripped);
   visit(Text{"set_aside"}, set_aside);

@@ -127,8 +127,8 @@ void Demonstration::work(const Frame& frame) {
 bool Demonstration::isStill(const Frame& frame) const {
   const haptics::Tick& tick = frame.newest;
   return tick.split != haptics::SplitAnswer::waiting && tick.split != haptics::SplitAnswer::running &&
-         tick.drill_inhibit != haptics::DrillInhibit::undo_running && frame.is_applied &&
-         tick.t_s - since_s_ >= kSettles_s;
+         tick.bridge != haptics::BreakAnswer::breaking && tick.drill_inhibit != haptics::DrillInhibit::undo_running &&
+         frame.is_applied && tick.t_s - since_s_ >= kSettles_s;
 }
 
 std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {

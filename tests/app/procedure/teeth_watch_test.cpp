@@ -1,5 +1,7 @@
 #include "app/procedure/teeth_watch.h"
 
+#include "haptics/body/bridge_break.h"
+#include "haptics/body/bridge_strength.h"
 #include "haptics/body/piece_split.h"
 #include "tests/haptics/tooth_phantom.h"
 
@@ -74,6 +76,33 @@ TEST(TeethWatch, SaysOnceWhatComesOffAndOnlyOfAConfirmedState) {
   watch.settle();
   giveAll(watch, parted);
   EXPECT_FALSE(watch.takeParting());
+}
+
+TEST(TeethWatch, PlansTheBreakOfABridgeOnceWhereItIsAsked) {
+  const ToothPhantom whole = bridged(0.3, 0.0, 1.5, 6.0, false), held = bridged(0.3, 0.0, 1.5, 6.0, true);
+  TeethWatch watch(whole.grid, whole.solid);
+  giveAll(watch, held);
+  watch.confirm(6);
+  watch.settle();
+  EXPECT_FALSE(watch.takeBreak()) << "nobody asked";
+  watch.planBreaks(true);
+  watch.settle();
+  const auto plan = watch.takeBreak();
+  ASSERT_TRUE(plan);
+  EXPECT_NEAR(plan->bridge.area_mm2, 9.0, 0.5);
+  EXPECT_EQ(*plan, haptics::breakPlan({held.grid, held.solid}, {}, plan->bridge));
+  watch.confirm(7);
+  watch.settle();
+  EXPECT_FALSE(watch.takeBreak()) << "the piece lies elsewhere, its bytes are the same";
+  giveAll(watch, whole);
+  watch.confirm(8);
+  watch.settle();
+  EXPECT_FALSE(watch.takeBreak()) << "there is no bridge";
+  giveAll(watch, bridged(0.3, 0.0, 0.0, 0.0, true));
+  watch.confirm(9);
+  watch.settle();
+  EXPECT_FALSE(watch.takeBreak()) << "it has fallen apart";
+  EXPECT_TRUE(watch.takeParting());
 }
 
 TEST(TeethWatch, EndsWithBricksNotYetLookedAt) {

@@ -37,6 +37,19 @@ TEST(LuxationLog, TellsWhyNothingIsHeldOnceForEachClosing) {
   EXPECT_EQ(told.log.summary(), "");
 }
 
+TEST(LuxationLog, TellsTheBridgeThatBroke) {
+  Told told;
+  told.tick.hand.drill_pedal = true;
+  told.tick.gripped = 1;
+  told.tick.bridge_share = 0.6;
+  EXPECT_EQ(luxationText(told.tick, haptics::forcepsTool(), true), "bridge 60 %");
+  told.tick.broken = {1, true, 12.3, 172.6, 451.0};
+  EXPECT_EQ(told.lines(), Lines{"the bridge of 12 mm² broke at 173 N, 0.45 N m"});
+  told.tick.broken.is_complete = false;
+  EXPECT_EQ(told.lines(), Lines{"the bridge of 12 mm² broke at 173 N, 0.45 N m, not clean: a spur stays on the root"});
+  EXPECT_NE(told.log.summary().find(", 2 bridges broken, held for"), std::string::npos) << told.log.summary();
+}
+
 TEST(LuxationLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
   Told told;
   told.tick.hand.drill_pedal = true;

@@ -156,6 +156,64 @@ TEST(ToothFollower, AsksAgainWhenAnOrderCameTooEarly) {
   EXPECT_EQ(room.tick.split, haptics::SplitAnswer::done);
 }
 
+TEST(ToothFollower, ArmsTheBridgeWhileForcepsAreInTheHand) {
+  FollowedTooth room;
+  section(room.bodies, -1.2);
+  room.step();
+  const auto frame = [&](bool in_hand) {
+    room.follower.follow(room.dirty(), room.tick, true);
+    room.follower.follow(room.dirty(), room.tick, true);
+    auto order = room.follower.bridgeOrder(room.tick, in_hand, true);
+    if (order) {
+      order->serial = room.command.bridge.serial + 1;
+      room.command.bridge = *order;
+    }
+    room.step(20);
+    return order.has_value();
+  };
+  EXPECT_FALSE(frame(false));
+  while (room.follower.news()) {
+  }
+  ASSERT_TRUE(frame(true));
+  EXPECT_EQ(room.tick.bridge, haptics::BreakAnswer::armed);
+  const auto line = room.follower.news();
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->rfind("the bridge of ", 0), 0u) << *line;
+  EXPECT_NE(line->find(" breaks at about "), std::string::npos) << *line;
+  EXPECT_FALSE(frame(true)) << "once";
+  // Cut on, the plan is of another tooth.
+  section(room.bodies, -1.6);
+  room.step();
+  EXPECT_EQ(room.tick.bridge, haptics::BreakAnswer::outdated);
+  EXPECT_TRUE(frame(true));
+  EXPECT_EQ(room.tick.bridge, haptics::BreakAnswer::armed);
+}
+
+TEST(ToothFollower, ArmsAgainWhatCameTooEarly) {
+  FollowedTooth room;
+  section(room.bodies, -1.2);
+  room.step();
+  const auto look = [&] {
+    room.follower.follow(room.dirty(), room.tick, true);
+    room.follower.follow(room.dirty(), room.tick, true);
+    return room.follower.bridgeOrder(room.tick, true, true);
+  };
+  auto order = look();
+  ASSERT_TRUE(order);
+  order->serial = 1;
+  order->bodies_digest ^= 1;
+  room.command.bridge = *order;
+  room.step();
+  ASSERT_EQ(room.tick.bridge, haptics::BreakAnswer::refused);
+  order = look();
+  ASSERT_TRUE(order);
+  order->serial = 2;
+  room.command.bridge = *order;
+  room.step();
+  EXPECT_EQ(room.tick.bridge, haptics::BreakAnswer::armed);
+  EXPECT_FALSE(look());
+}
+
 TEST(ToothFollower, OrdersNothingWhileBricksChange) {
   FollowedTooth room;
   section(room.bodies, -4.0);

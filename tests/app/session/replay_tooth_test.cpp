@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "app/session/session_writer.h"
+#include "haptics/body/bridge_break.h"
 #include "haptics/body/piece_split.h"
 #include "haptics/ligament/piece_site.h"
 #include "haptics/servo/servo.h"
@@ -83,6 +85,85 @@ TEST(ReplayOfATooth, SplitsItAgainAtTheSameTick) {
   EXPECT_EQ(report.bone_digest, bodies.digest());
   EXPECT_EQ(bodiesAt(path, 0.2).pieces(), 2u);
   EXPECT_EQ(bodiesAt(path, 0.02).pieces(), 1u);
+}
+
+/// A slot with a bridge of 2 x 1 mm is there from the start; forceps twist the upper half off.
+TEST(ReplayOfATooth, BreaksItsBridgeAgainByTheSamePlan) {
+  const test::BoneBlock block;
+  std::vector<std::uint8_t> is_tooth(block.solid.size()), solid = block.solid;
+  assets::forVoxels(block.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    is_tooth[v] = ijk.x > 15 && ijk.x < 26 && ijk.y > 8 && ijk.y < 32 ? 1 : 0;
+    if (is_tooth[v] != 0 && ijk.z > 8 && ijk.z < 13 && ijk.y > 13) solid[v] = 0;
+  });
+  haptics::Bodies bodies(block.grid, solid, block.label, is_tooth);
+  SessionStart start = block.start();
+  start.is_tooth = is_tooth;
+  start.solid = solid;
+  start.command.tool = haptics::forcepsTool();
+  haptics::Servo servo(bodies);
+  const haptics::SocketSource sockets(bodies);
+  const auto site = haptics::makePieceSite(sockets.scene(0, std::array<haptics::PiecePose, haptics::kMaxPieces>{}),
+                                           sockets.firstSocket());
+  const haptics::CarvedBone& tooth = bodies.bones()[1];
+  haptics::Bridge bridge;
+  bridge.area_mm2 = 2.0, bridge.width_mm = 2.0, bridge.thickness_mm = 1.0;
+  bridge.half_width_mm = 1.0, bridge.half_thickness_mm = 0.5;
+  // In a voxel, not on its face.
+  bridge.centre_mm = block.grid.centre_P_mm({20, 11, 10}) + glm::dvec3(0.1, 0.0, 0.03);
+  bridge.normal = {0.0, 0.0, 1.0}, bridge.width_axis = {1.0, 0.0, 0.0};
+  const auto plan = haptics::breakPlan({tooth.grid(), tooth.solidInGridOrder()}, tooth.labelInGridOrder(), bridge);
+  ASSERT_TRUE(plan);
+
+  haptics::HandSample hand;
+  hand.X_PT.translation_mm = block.grid.centre_P_mm({20, 20, 18});
+  std::vector<haptics::Tick> ticks;
+  std::vector<SessionCommand> commands;
+  haptics::Command command = start.command;
+  const auto step = [&](int count) {
+    for (int n = 0; n < count; ++n) ticks.push_back(servo.step(hand, command, start.dt_s));
+  };
+  step(20);
+  command.site = {1, bodies.digest(), 0, site.get()};
+  command.bridge = {1, bodies.digest(), 0, plan->digest, plan->bridge, &*plan};
+  ++command.serial;
+  commands.push_back({command, ticks.size()});
+  step(2);
+  ASSERT_EQ(ticks.back().bridge, haptics::BreakAnswer::armed);
+  hand.drill_pedal = true;
+  step(1);
+  ASSERT_EQ(ticks.back().gripped, 1);
+  for (int n = 0; n < 400 && ticks.back().broken.piece == 0; ++n) {
+    hand.X_PT.rotation = glm::angleAxis(0.002 * n, glm::dvec3(1.0, 0.0, 0.0));
+    step(1);
+  }
+  ASSERT_EQ(ticks.back().broken.piece, 1);
+  step(100);
+  ASSERT_EQ(ticks.back().pieces, 2);
+  const tests::ScratchFolder folder;
+  const auto record = [&](const std::string& path) {
+    SessionWriter writer(path, false, start);
+    writer.write({commands, ticks, {}});
+    writer.seal(0, &bodies);
+  };
+  record(folder.file("s.molar"));
+  const ReplayReport report = verify(folder.file("s.molar"));
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.bone_digest, bodies.digest());
+  EXPECT_EQ(bodiesAt(folder.file("s.molar"), 1.0).pieces(), 2u);
+  const SessionMetrics metrics = metricsOf(folder.file("s.molar"));
+  EXPECT_EQ(metrics.bridges_broken, 1.0);
+  ASSERT_EQ(metrics.bridge_breaks.size(), 1u);
+  EXPECT_EQ(metrics.bridge_breaks[0].area_mm2, 2.0);
+  EXPECT_GT(metrics.bridge_breaks[0].bending_Nmm, 0.0);
+
+  // Of another plan, and of no bridge at all: told, not followed.
+  commands[0].command.bridge.plan_digest ^= 1;
+  record(folder.file("other.molar"));
+  EXPECT_NE(verify(folder.file("other.molar")).line().find("the breaking of the bridge differs"), std::string::npos);
+  commands[0].command.bridge.plan_digest ^= 1;
+  commands[0].command.bridge.bridge.normal = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+  record(folder.file("none.molar"));
+  EXPECT_FALSE(verify(folder.file("none.molar")).verified());
 }
 
 /// Orders of a stranger's file: several for one tick, and a serial that comes again. The servo sees the last of them.
