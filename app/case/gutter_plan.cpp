@@ -43,14 +43,17 @@ Heights heightsOf(const assets::Patient& patient, const WayIn& way, const Operat
     const bool operated = isOfTooth(ct, v, fdi), other = isOtherTooth(ct, v, fdi), bone = is_bone(v);
     if (!operated && !other && !bone) return;
     const glm::dvec3 q = way.local(ct.grid.centre_P_mm(ijk));
-    if (operated) h.tooth.rest(q, rest_mm);
-    if (other) h.lowest.rest(q, bur_radius_mm + kOffNeighbour_mm);
     // Only what is on a surface can be touched first.
     const std::size_t row = static_cast<std::size_t>(ct.grid.size.x),
                       slice = row * static_cast<std::size_t>(ct.grid.size.y);
-    if (bone && !(is_bone(v - 1) && is_bone(v + 1) && is_bone(v - row) && is_bone(v + row) && is_bone(v - slice) &&
-                  is_bone(v + slice)))
-      h.bone.rest(q, bur_radius_mm);
+    const auto on_surface = [&](const auto& is_same) {
+      return !(is_same(v - 1) && is_same(v + 1) && is_same(v - row) && is_same(v + row) && is_same(v - slice) &&
+               is_same(v + slice));
+    };
+    if (operated && on_surface([&](std::size_t w) { return isOfTooth(ct, w, fdi); })) h.tooth.rest(q, rest_mm);
+    if (other && on_surface([&](std::size_t w) { return isOtherTooth(ct, w, fdi); }))
+      h.lowest.rest(q, bur_radius_mm + kOffNeighbour_mm);
+    if (bone && on_surface(is_bone)) h.bone.rest(q, bur_radius_mm);
   });
   for (const glm::dvec3& p : crown.voxels_P_mm)
     HeightMap::near(way.local(p), beside_mm, [&](int i, int j, double) { h.crown.at(i, j) = 0.0; });

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <future>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -59,7 +60,7 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters, const as
   } else {
     printMessage("generating the built-in patient (once, up to a minute)");
   }
-  const assets::Patient made = generate(parameters, report);
+  assets::Patient made = generate(parameters, report);
   if (report) report(0.92);
   try {
     fs::create_directories(folder.parent_path(), ignored);
@@ -69,7 +70,7 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters, const as
     return made;
   }
   // Read back from the cache, so that the first run equals the next.
-  return assets::loadPatient(folder.string());
+  return assets::loadPatient(folder.string(), std::move(made.ct));
 }
 
 assets::FacePose replaceFace(assets::Patient& patient, const std::string& face_path) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
@@ -66,12 +67,16 @@ Patient describedPatient(const std::string& folder) {
   return patientFromToml(readSmallFile(toml, kMaxToml_bytes, "make the patient with molar import"), toml);
 }
 
-Patient loadPatient(const std::string& folder) {
+namespace {
+
+/// `volume()`: that of the folder.
+template <class Volume>
+Patient patientIn(const std::string& folder, const Volume& volume) {
   std::error_code error;
   const fs::path path = folder;
   Patient patient = describedPatient(folder);
   const std::string toml = (path / kToml).string();
-  patient.ct = readVdb((path / kVolume).string());
+  patient.ct = volume();
   if (patient.site && !isInside(patient.site->centre_P_mm, patient.ct.grid))
     throw LoadError(toml + ": the site lies outside the volume; import the scan again");
   // Folders older than tooth numbers: only the tooth at the site has enamel, dentine and pulp.
@@ -80,6 +85,16 @@ Patient loadPatient(const std::string& folder) {
   const std::string meshes = (path / kMeshes).string();
   if (fs::exists(meshes, error)) separate(modelInPatientFrame(readGltf(meshes)), patient.gingiva, patient.face);
   return patient;
+}
+
+}  // namespace
+
+Patient loadPatient(const std::string& folder) {
+  return patientIn(folder, [&] { return readVdb((fs::path(folder) / kVolume).string()); });
+}
+
+Patient loadPatient(const std::string& folder, CtVolume volume) {
+  return patientIn(folder, [&] { return std::move(volume); });
 }
 
 }  // namespace assets

@@ -20,4 +20,7 @@ Patient loadPatient(const std::string& folder);
 /// Everything but ct, gingiva and face, of patient.toml alone; microseconds. Throws LoadError.
 Patient describedPatient(const std::string& folder);
 
+/// The same of a folder that was just written with this volume: the file keeps it as it is, so it is not read.
+Patient loadPatient(const std::string& folder, CtVolume volume);
+
 }  // namespace assets

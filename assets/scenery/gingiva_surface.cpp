@@ -6,11 +6,13 @@
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
 #include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "assets/cut_field.h"
@@ -66,18 +68,35 @@ openvdb::MaskGrid::Ptr gingivaVoxels(const CtVolume& ct) {
   return grid;
 }
 
+// Sets the voxels of a box to `changed(before, voxel)`, each by itself: planes in parallel, then written in order.
+template <class Changed>
+void changeVoxels(openvdb::FloatGrid& grid, glm::ivec3 low, glm::ivec3 high, const Changed& changed) {
+  std::vector<std::vector<std::pair<openvdb::Coord, float>>> planes(static_cast<std::size_t>(high.z - low.z + 1));
+  tbb::parallel_for(low.z, high.z + 1, [&](int z) {
+    auto& plane = planes[static_cast<std::size_t>(z - low.z)];
+    const auto accessor = grid.getConstAccessor();
+    forVoxels({low.x, low.y, z}, {high.x + 1, high.y + 1, z + 1}, [&](glm::ivec3 at) {
+      const openvdb::Coord voxel(at.x, at.y, at.z);
+      const float before = accessor.getValue(voxel), after = changed(before, at);
+      if (after != before) plane.emplace_back(voxel, after);
+    });
+  });
+  auto accessor = grid.getAccessor();
+  for (const auto& plane : planes)
+    for (const auto& [voxel, after] : plane) accessor.setValue(voxel, after);
+}
+
 // Subtracts the flap from the level set. Visits every voxel near the wound, also those deep inside the gingiva.
 void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& wound) {
   const double round = kEdgeRound_mm / voxels.spacing_mm;
   const glm::ivec3 low(glm::floor(voxels.indexFromPoint(wound.low_P_mm())));
   const glm::ivec3 high(glm::ceil(voxels.indexFromPoint(wound.high_P_mm())));
-  auto accessor = grid.getAccessor();
-  forVoxels(low, high + 1, [&](glm::ivec3 at) {
-    const double gingiva = accessor.getValue({at.x, at.y, at.z});
-    if (gingiva >= kBandVoxels) return;
+  changeVoxels(grid, low, high, [&](float before, glm::ivec3 at) {
+    const double gingiva = before;
+    if (gingiva >= kBandVoxels) return before;
     const double flap = -wound.distance_mm(voxels.centre_P_mm(at)) / voxels.spacing_mm;
     const double cut = smoothMax(gingiva, flap, round);
-    if (cut > gingiva) accessor.setValue({at.x, at.y, at.z}, static_cast<float>(std::min<double>(cut, kBandVoxels)));
+    return cut > gingiva ? static_cast<float>(std::min<double>(cut, kBandVoxels)) : before;
   });
 }
 
@@ -99,16 +118,13 @@ void addFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& wo
   const glm::ivec3 low(glm::floor(voxels.indexFromPoint(wound.low_P_mm() - ReflectedFlap::kFolded_mm)));
   const glm::ivec3 high(glm::ceil(voxels.indexFromPoint(wound.high_P_mm() + ReflectedFlap::kFolded_mm)));
   const auto outside = static_cast<double>(grid.background());
-  auto accessor = grid.getAccessor();
-  forVoxels(low, high + 1, [&](glm::ivec3 at) {
+  changeVoxels(grid, low, high, [&](float before, glm::ivec3 at) {
     const glm::dvec3 p_P = voxels.centre_P_mm(at);
-    const openvdb::Coord voxel(at.x, at.y, at.z);
-    const double before = accessor.getValue(voxel);
-    double after = std::max(before, -flap.incision_mm(p_P) / voxels.spacing_mm);
+    if (!flap.isOnCheekSide(p_P)) return before;
+    double after = std::max<double>(before, -flap.incision_mm(p_P) / voxels.spacing_mm);
     const double to_flap = flap.distance_mm(p_P) / voxels.spacing_mm;
     if (to_flap < outside) after = smoothMin(after, to_flap, kFold_mm / voxels.spacing_mm);
-    after = std::clamp(after, -outside, outside);
-    if (after != before) accessor.setValue(voxel, static_cast<float>(after));
+    return static_cast<float>(std::clamp(after, -outside, outside));
   });
 }
 
@@ -177,12 +193,14 @@ Wound::Wound(const PlannedCut& cut) {
   grid_.size = glm::ivec3(glm::ceil((glm::max(high, high + to_eye) - grid_.origin_P_mm) / kWoundSpacing_mm)) + 1;
   mm_.resize(grid_.voxelCount());
   const double sight_mm = cut.sight_P == glm::dvec3(0.0) ? 0.0 : kSight_mm;
-  forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
-    const glm::dvec3 p_P = grid_.centre_P_mm(ijk);
-    double mm = kWoundReach_mm;
-    for (double way_mm = 0.0; way_mm <= sight_mm; way_mm += kSightStep_mm)
-      mm = std::min(mm, field.distance_mm(p_P - way_mm * cut.sight_P));
-    mm_[v] = static_cast<float>(mm - kFlapMargin_mm);
+  tbb::parallel_for(0, grid_.size.z, [&](int z) {
+    forVoxels(glm::ivec3(0, 0, z), glm::ivec3(grid_.size.x, grid_.size.y, z + 1), [&](glm::ivec3 ijk) {
+      const glm::dvec3 p_P = grid_.centre_P_mm(ijk);
+      double mm = kWoundReach_mm;
+      for (double way_mm = 0.0; way_mm <= sight_mm; way_mm += kSightStep_mm)
+        mm = std::min(mm, field.distance_mm(p_P - way_mm * cut.sight_P));
+      mm_[grid_.index(ijk)] = static_cast<float>(mm - kFlapMargin_mm);
+    });
   });
   if (cut.outward_P.z != 0.0 && !cut.strokes_P_mm.empty()) sweepUp(cut.outward_P.z, middleOf_P_mm(cut).y);
 }

@@ -15,6 +15,7 @@ constexpr double kRound_mm = 0.9;
 constexpr double kFarCorner_mm = 20.0;  // from the middle of the cut to the wound's front corner, at most
 constexpr double kIncision_mm = 7.5;    // length of the relieving incision
 constexpr double kIncisionHalf_mm = 0.5;
+constexpr double kCheekFrom_mm = 1.0;       // from the middle of the cut
 constexpr double kBehindIncision_mm = 2.5;  // where the flap begins
 
 }  // namespace
@@ -41,7 +42,11 @@ ReflectedFlap::ReflectedFlap(const PlannedCut& cut, const Wound& wound, GingivaD
 
 // 0 on the tongue's side, 1 on the cheek's.
 double ReflectedFlap::towardsCheek(const glm::dvec3& p_P_mm) const {
-  return std::clamp((glm::dot(p_P_mm - middle_P_mm_, buccal_P_) - 1.0) / 3.0, 0.0, 1.0);
+  return std::clamp((glm::dot(p_P_mm - middle_P_mm_, buccal_P_) - kCheekFrom_mm) / 3.0, 0.0, 1.0);
+}
+
+bool ReflectedFlap::isOnCheekSide(const glm::dvec3& p_P_mm) const {
+  return glm::dot(p_P_mm - middle_P_mm_, buccal_P_) >= kCheekFrom_mm;
 }
 
 double ReflectedFlap::distance_mm(const glm::dvec3& p_P_mm) const {
@@ -66,7 +71,7 @@ double ReflectedFlap::distance_mm(const glm::dvec3& p_P_mm) const {
 }
 
 double ReflectedFlap::incision_mm(const glm::dvec3& p_P_mm) const {
-  if (glm::dot(p_P_mm - middle_P_mm_, buccal_P_) < 1.0) return kNone_mm;
+  if (!isOnCheekSide(p_P_mm)) return kNone_mm;
   // A wedge that narrows towards its end, through the whole gingiva.
   const double along_mm = glm::dot(p_P_mm - corner_P_mm_, along_P_);
   const double half_mm = kIncisionHalf_mm * std::clamp(1.0 - along_mm / kIncision_mm, 0.0, 1.0);

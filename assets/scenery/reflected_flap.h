@@ -25,6 +25,8 @@ class ReflectedFlap {
   /// `wound` is borrowed and must outlive this object.
   ReflectedFlap(const PlannedCut& cut, const Wound& wound, GingivaDistance gingiva_mm);
 
+  /// Only there are flap and incision; elsewhere both distances are kNone_mm.
+  bool isOnCheekSide(const glm::dvec3& p_P_mm) const;
   /// Distance to the folded flap.
   double distance_mm(const glm::dvec3& p_P_mm) const;
   /// Distance to the relieving incision.

@@ -1,12 +1,13 @@
 #include "assets/scenery/soft_tissue_distance.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <limits>
-#include <unordered_map>
 
 namespace assets {
 namespace {
@@ -50,7 +51,14 @@ Nearest nearestOn(const SignedTriangle& t, const dvec3& p) {
   return result(t.a + vb * scale * ab + vc * scale * ac, t.face);
 }
 
-std::uint64_t edgeKey(unsigned a, unsigned b) {
+/// The edge of a triangle that begins at its corner `side % 3`, side / 3 being the triangle.
+struct Side {
+  std::uint64_t edge;  ///< both vertices, whatever their order
+  std::uint32_t side;
+  auto operator<=>(const Side&) const = default;
+};
+
+std::uint64_t edgeOf(unsigned a, unsigned b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
@@ -59,12 +67,7 @@ std::vector<SignedTriangle> signedTriangles(const SoftTissueSurface& surface) {
   std::vector<SignedTriangle> triangles(count);
   std::vector<dvec3> corner_sum(surface.position_P_mm.size(), dvec3(0.0));
   std::vector<bool> is_open(surface.position_P_mm.size());
-  struct Edge {
-    dvec3 sum{0.0};
-    int faces = 0;
-  };
-  std::unordered_map<std::uint64_t, Edge> edges;
-  edges.reserve(2 * count);
+  std::vector<Side> sides(3 * count);
   for (std::size_t n = 0; n < count; ++n) {
     const glm::uvec3 v = surface.triangles[n];
     SignedTriangle& t = triangles[n];
@@ -77,22 +80,27 @@ std::vector<SignedTriangle> signedTriangles(const SoftTissueSurface& surface) {
       const dvec3 to_next = p[(k + 1) % 3] - p[k], to_last = p[(k + 2) % 3] - p[k];
       const double angle = std::atan2(glm::length(glm::cross(to_next, to_last)), glm::dot(to_next, to_last));
       corner_sum[v[static_cast<int>(k)]] += angle * t.face;
-      Edge& edge = edges[edgeKey(v[static_cast<int>(k)], v[static_cast<int>((k + 1) % 3)])];
-      edge.sum += t.face;
-      ++edge.faces;
+      const auto side = static_cast<std::uint32_t>(3 * n + k);
+      sides[side] = {edgeOf(v[static_cast<int>(k)], v[static_cast<int>((k + 1) % 3)]), side};
     }
   }
-  for (const auto& [key, edge] : edges)
-    if (edge.faces == 1) is_open[key >> 32] = is_open[key & 0xffffffffu] = true;
-  for (std::size_t n = 0; n < count; ++n) {
-    const glm::uvec3 v = surface.triangles[n];
+  // The sides of one edge, then the next edge.
+  tbb::parallel_sort(sides.begin(), sides.end());
+  for (auto first = sides.begin(); first != sides.end();) {
+    const auto end = std::find_if(first, sides.end(), [&](const Side& side) { return side.edge != first->edge; });
+    dvec3 sum(0.0);
+    for (auto side = first; side != end; ++side) sum += triangles[side->side / 3].face;
+    if (end - first == 1) {
+      sum = dvec3(0.0);
+      is_open[first->edge >> 32] = is_open[first->edge & 0xffffffffu] = true;
+    }
+    for (; first != end; ++first) triangles[first->side / 3].edge[first->side % 3] = sum;
+  }
+  for (std::size_t n = 0; n < count; ++n)
     for (std::size_t k = 0; k < 3; ++k) {
-      const unsigned from = v[static_cast<int>(k)], to = v[static_cast<int>((k + 1) % 3)];
-      const Edge& edge = edges[edgeKey(from, to)];
-      triangles[n].edge[k] = edge.faces == 1 ? dvec3(0.0) : edge.sum;
+      const unsigned from = surface.triangles[n][static_cast<int>(k)];
       triangles[n].corner[k] = is_open[from] ? dvec3(0.0) : corner_sum[from];
     }
-  }
   return triangles;
 }
 

@@ -19,9 +19,9 @@ std::array<double, 4> splineWeights(double t) {
 }
 
 /// Godunov solution of |grad d| = 1 from the smallest neighbour along each axis.
-double eikonalUpdate(std::array<double, 3> neighbour_mm, double step_mm) {
-  std::sort(neighbour_mm.begin(), neighbour_mm.end());
-  const auto [a, b, c] = neighbour_mm;
+double eikonalUpdate(double x_mm, double y_mm, double z_mm, double step_mm) {
+  const double low = std::min(x_mm, y_mm), high = std::max(x_mm, y_mm);
+  const double a = std::min(low, z_mm), c = std::max(high, z_mm), b = std::max(low, std::min(high, z_mm));
   double d = a + step_mm;
   if (d <= b) return d;
   d = 0.5 * (a + b + std::sqrt(std::max(0.0, 2.0 * step_mm * step_mm - (a - b) * (a - b))));
@@ -79,25 +79,30 @@ void DistanceLattice::redistance() {
   });
 
   // Elsewhere: one sweep in each of eight orders.
+  const std::ptrdiff_t row = size_.x, slice = row * size_.y;
   for (int sweep = 0; sweep < 8; ++sweep) {
     const auto order = [](bool up, int n, int count) { return up ? n : count - 1 - n; };
     for (int kk = 0; kk < size_.z; ++kk)
-      for (int jj = 0; jj < size_.y; ++jj)
+      for (int jj = 0; jj < size_.y; ++jj) {
+        const int j = order((sweep & 2) != 0, jj, size_.y);
+        const int k = order((sweep & 4) != 0, kk, size_.z);
+        // Steps to the neighbours; at the box's edge the point itself stands for the one beyond.
+        const std::ptrdiff_t down = k > 0 ? -slice : 0, up = k + 1 < size_.z ? slice : 0;
+        const std::ptrdiff_t front = j > 0 ? -row : 0, back = j + 1 < size_.y ? row : 0;
+        float* const line = distance.data() + index(0, j, k);
+        const char* const line_fixed = fixed.data() + index(0, j, k);
         for (int ii = 0; ii < size_.x; ++ii) {
           const int i = order((sweep & 1) != 0, ii, size_.x);
-          const int j = order((sweep & 2) != 0, jj, size_.y);
-          const int k = order((sweep & 4) != 0, kk, size_.z);
-          if (fixed[index(i, j, k)]) continue;
-          const auto nearer = [&](int di, int dj, int dk) {
-            const float a = distance[index(std::max(0, i - di), std::max(0, j - dj), std::max(0, k - dk))];
-            const float b = distance[index(std::min(size_.x - 1, i + di), std::min(size_.y - 1, j + dj),
-                                           std::min(size_.z - 1, k + dk))];
-            return static_cast<double>(std::min(a, b));
+          if (line_fixed[i]) continue;
+          float* const here = line + i;
+          const auto nearer = [here](std::ptrdiff_t less, std::ptrdiff_t more) {
+            return static_cast<double>(std::min(here[less], here[more]));
           };
-          const double d = eikonalUpdate({nearer(1, 0, 0), nearer(0, 1, 0), nearer(0, 0, 1)}, spacing_mm_);
-          float& stored = distance[index(i, j, k)];
-          stored = std::min(stored, static_cast<float>(d));
+          const double d = eikonalUpdate(nearer(i > 0 ? -1 : 0, i + 1 < size_.x ? 1 : 0), nearer(front, back),
+                                         nearer(down, up), spacing_mm_);
+          *here = std::min(*here, static_cast<float>(d));
         }
+      }
   }
   for (std::size_t n = 0; n < value_.size(); ++n) value_[n] = value_[n] < 0.0f ? -distance[n] : distance[n];
 }
@@ -136,18 +141,24 @@ double DistanceLattice::smoothAt(const glm::dvec3& point_mm) const {
   const double outside_mm = clampToBox(point_mm, c);
   const glm::ivec3 cell = glm::min(glm::ivec3(c), size_ - 2);
   const auto wx = splineWeights(c.x - cell.x), wy = splineWeights(c.y - cell.y), wz = splineWeights(c.z - cell.z);
+  // Where each of the four samples along an axis lies in its line, line in its plane, and plane.
+  std::array<std::size_t, 4> x{}, y{}, z{};
+  for (int n = 0; n < 4; ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    x[at] = index(std::clamp(cell.x + n - 1, 0, size_.x - 1), 0, 0);
+    y[at] = index(0, std::clamp(cell.y + n - 1, 0, size_.y - 1), 0);
+    z[at] = index(0, 0, std::clamp(cell.z + n - 1, 0, size_.z - 1));
+  }
   double sum = 0.0;
-  for (int k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < 4; ++k) {
     double plane = 0.0;
-    for (int j = 0; j < 4; ++j) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const float* const v = value_.data() + z[k] + y[j];
       double line = 0.0;
-      const int y = std::clamp(cell.y + j - 1, 0, size_.y - 1), z = std::clamp(cell.z + k - 1, 0, size_.z - 1);
-      for (int i = 0; i < 4; ++i)
-        line += wx[static_cast<std::size_t>(i)] *
-                static_cast<double>(value_[index(std::clamp(cell.x + i - 1, 0, size_.x - 1), y, z)]);
-      plane += wy[static_cast<std::size_t>(j)] * line;
+      for (std::size_t i = 0; i < 4; ++i) line += wx[i] * static_cast<double>(v[x[i]]);
+      plane += wy[j] * line;
     }
-    sum += wz[static_cast<std::size_t>(k)] * plane;
+    sum += wz[k] * plane;
   }
   return sum + outside_mm;
 }

@@ -44,8 +44,8 @@ double FaceColours::openness(const dvec3& p, const dvec3& n) const {
 
 bool FaceColours::isWet(const dvec3& p) const {
   const dvec3 k = skullFromMandible(p);
-  return k.z < 50.0 && head_.closed_mm(p) < -3.2 && head_.rim().lip(p).distance_mm > -2.5 &&
-         k.z < 19.0 + 0.5 * (k.y + 16.0);
+  return k.z < 50.0 && k.z < 19.0 + 0.5 * (k.y + 16.0) && head_.closed_mm(p) < -3.2 &&
+         head_.rim().lip(p).distance_mm > -2.5;
 }
 
 glm::vec3 FaceColours::head(const dvec3& p, const dvec3& n) const {

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <sstream>
@@ -75,6 +76,7 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct, const
     const glm::dvec3 middle_J =
         kScanBox.low_mm + p.spacing_mm * (glm::dvec3(low) + 0.5 * static_cast<double>(kBrickVoxels - 1));
     const NearbyStructures nearby = anatomy.nearby(middle_J, brick_radius_mm);
+    std::array<ArchLine, kBrickVoxels * kBrickVoxels> lines;
     for (int k = low.z; k < high.z; ++k)
       for (int j = low.y; j < high.y; ++j)
         for (int i = low.x; i < high.x; ++i) {
@@ -85,7 +87,8 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct, const
           const std::size_t voxel = ct.grid.index({p.right_side ? size.x - 1 - i : i, j, k});
           if (nearby.any) {
             const glm::dvec3 p_J = kScanBox.low_mm + p.spacing_mm * glm::dvec3(i, j, k);
-            const TissueDistances distances = anatomy.at(p_J, nearby);
+            ArchLine& line = lines[static_cast<std::size_t>((j - low.y) * kBrickVoxels + i - low.x)];
+            const TissueDistances distances = anatomy.at(p_J, nearby, line);
             const Tissue tissue = tissueAt(distances);
             ct.label[voxel] = static_cast<std::uint8_t>(tissue);
             if (const int position = toothAt(distances, tissue))

@@ -1,7 +1,7 @@
 // The built-in patient: one side of an adult lower jaw with an impacted third molar, generated from parameters after
 // textbook measures. Frame P, LPS mm: origin at the edge between the lower central incisors, x to the patient's left, y
 // posterior, z superior; occlusal plane z = 0, midline x = 0. A right jaw is the exact mirror image of the left one.
-// Any thread; parallel, about 5 s at 0.25 mm on two cores; the same bytes for any number of threads.
+// Any thread; parallel, about 3 s at 0.25 mm on two cores; the same bytes for any number of threads.
 #pragma once
 
 #include <cstdint>

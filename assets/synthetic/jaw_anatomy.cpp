@@ -97,10 +97,11 @@ NearbyStructures JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm
     nearby.any = true;
   }
   nearby.mandibular_canal = nearby.any && mandibular_canal_->lumen_mm(centre_J) < reach_mm + kReach_mm;
+  if (nearby.mandibular_canal) nearby.canal_stretch = mandibular_canal_->stretchNear(centre_J, radius_mm);
   return nearby;
 }
 
-TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const NearbyStructures& nearby) const {
+TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const NearbyStructures& nearby, ArchLine& line) const {
   TissueDistances d;
   if (!nearby.any) return d;
   const double cut_mm = mandible_.cut_mm(p_J);
@@ -133,14 +134,16 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const NearbyStructures& ne
   }
 
   // A canal near the surface has a thin wall, except at the mental foramen.
-  const double lumen_mm = nearby.mandibular_canal ? mandibular_canal_->lumen_mm(p_J) : TissueDistances::kFar_mm;
+  const double lumen_mm =
+      nearby.mandibular_canal ? mandibular_canal_->lumen_mm(p_J, nearby.canal_stretch) : TissueDistances::kFar_mm;
   if (p_J.y > 26.0) bone_mm = smoothMin(bone_mm, lumen_mm + 6.0 * smoothStep(32.0, 26.0, p_J.y) - 0.9, 1.5);
   d.bone = std::max(bone_mm, cut_mm);
   d.ligament = std::max(lining_mm, d.bone);
 
   // Trabecular bone begins under the cortex, whose thickness is computed only near its inner surface.
   const bool in_question = bone_mm > -4.0 && bone_mm < 0.0;
-  const double cortex_mm = in_question ? mandible_.cortex_mm(p_J, arch_.coordinatesOf({p_J.x, p_J.y})) : 1.5;
+  if (in_question && !line) line = arch_.coordinatesOf({p_J.x, p_J.y});
+  const double cortex_mm = in_question ? mandible_.cortex_mm(p_J, *line) : 1.5;
   double spongy_mm = std::max(bone_mm + cortex_mm, -(lining_mm - kLaminaDura_mm));
   spongy_mm = std::max(spongy_mm, MandibularCanalPath::kWall_mm - lumen_mm);
   d.mandibular_canal = std::max(lumen_mm, d.bone);

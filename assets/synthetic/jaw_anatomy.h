@@ -35,8 +35,12 @@ struct TissueDistances {
 struct NearbyStructures {
   bool any = false;
   bool mandibular_canal = false;
-  std::uint32_t teeth = 0;  ///< bit n: tooth n of the row
+  MandibularCanalPath::Stretch canal_stretch;  ///< nearest to the ball
+  std::uint32_t teeth = 0;                     ///< bit n: tooth n of the row
 };
+
+/// The arch coordinates of a vertical line, determined once where a point on it asks for them.
+using ArchLine = std::optional<ArchCoordinates>;
 
 class JawAnatomy {
  public:
@@ -44,7 +48,12 @@ class JawAnatomy {
   explicit JawAnatomy(const JawParameters& parameters);
 
   NearbyStructures nearby(const glm::dvec3& centre_J, double radius_mm) const;
-  TissueDistances at(const glm::dvec3& p_J, const NearbyStructures& nearby) const;
+  /// `line`: of the points straight above and below; at first none.
+  TissueDistances at(const glm::dvec3& p_J, const NearbyStructures& nearby, ArchLine& line) const;
+  TissueDistances at(const glm::dvec3& p_J, const NearbyStructures& nearby) const {
+    ArchLine line;
+    return at(p_J, nearby, line);
+  }
 
   const PlacedTooth& thirdMolar() const { return teeth_.back(); }
   const MandibularCanalPath& mandibularCanal() const { return *mandibular_canal_; }

@@ -84,8 +84,15 @@ DistanceLattice loft(const DentalArch& arch, std::uint64_t seed) {
 
   // Surface roughness: swellings and pits.
   const BandLimitedNoise swelling(seed, 5.0, 11.0, 24), pitting(seed + 1, 2.2, 4.0, 32);
+  // The arch coordinates of each vertical line of the lattice.
+  const glm::ivec2 lines = glm::ivec2(glm::ceil(glm::dvec2(kBox.high_mm - kBox.low_mm) / kLattice_mm)) + 1;
+  std::vector<ArchCoordinates> of_line;
+  for (int j = 0; j < lines.y; ++j)
+    for (int i = 0; i < lines.x; ++i)
+      of_line.push_back(arch.coordinatesOf(glm::dvec2(kBox.low_mm) + kLattice_mm * glm::dvec2(i, j)));
   DistanceLattice lattice(kBox, kLattice_mm, [&](const glm::dvec3& p) {
-    const ArchCoordinates c = arch.coordinatesOf({p.x, p.y});
+    const glm::ivec2 line(glm::round((glm::dvec2(p) - glm::dvec2(kBox.low_mm)) / kLattice_mm));
+    const ArchCoordinates c = of_line[static_cast<std::size_t>(line.y * lines.x + line.x)];
     const double position =
         std::clamp((c.along_mm - first_mm) / kStep_mm, 0.0, static_cast<double>(contours.size()) - 1.001);
     const auto n = static_cast<std::size_t>(position);

@@ -39,13 +39,26 @@ MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double third_mo
   points_J_mm_.push_back(knots.back());
 }
 
-double MandibularCanalPath::lumen_mm(const glm::dvec3& p_J) const {
+double MandibularCanalPath::square_mm2(const glm::dvec3& p_J, std::size_t segment) const {
+  const glm::dvec3 &a = points_J_mm_[segment], &b = points_J_mm_[segment + 1];
+  const glm::dvec3 offset = p_J - a - nearestOnSegment(p_J, a, b) * (b - a);
+  return glm::dot(offset, offset);
+}
+
+MandibularCanalPath::Stretch MandibularCanalPath::stretchNear(const glm::dvec3& centre_J, double radius_mm) const {
+  std::vector<double> away_mm(points_J_mm_.size() - 1);
+  for (std::size_t n = 0; n < away_mm.size(); ++n) away_mm[n] = std::sqrt(square_mm2(centre_J, n));
+  // From the centre to a point of the ball each distance changes by the radius at most.
+  const double within_mm = *std::ranges::min_element(away_mm) + 2.0 * radius_mm + 1e-6;
+  Stretch stretch{away_mm.size(), 0};
+  for (std::size_t n = 0; n < away_mm.size(); ++n)
+    if (away_mm[n] <= within_mm) stretch = {std::min(stretch.first, n), n + 1};
+  return stretch;
+}
+
+double MandibularCanalPath::lumen_mm(const glm::dvec3& p_J, const Stretch& stretch) const {
   double squared = 1e30;
-  for (std::size_t n = 0; n + 1 < points_J_mm_.size(); ++n) {
-    const glm::dvec3 &a = points_J_mm_[n], &b = points_J_mm_[n + 1];
-    const glm::dvec3 offset = p_J - a - nearestOnSegment(p_J, a, b) * (b - a);
-    squared = std::min(squared, glm::dot(offset, offset));
-  }
+  for (std::size_t n = stretch.first; n < stretch.end; ++n) squared = std::min(squared, square_mm2(p_J, n));
   return std::sqrt(squared) - kRadius_mm;
 }
 

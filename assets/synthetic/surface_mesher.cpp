@@ -18,24 +18,51 @@ constexpr int kLeafVoxels = static_cast<int>(Leaf::DIM);
 constexpr double kBandVoxels = 3.0;
 constexpr double kSteepest = 1.3;
 
-// One leaf of the level set, or none far from the surface.
-std::unique_ptr<Leaf> leafAt(const Distance& distance_mm, const openvdb::Coord& origin, double voxel_mm) {
-  const double band_mm = kBandVoxels * voxel_mm;
-  const auto point = [&](const openvdb::Coord& c) { return voxel_mm * glm::dvec3(c.x(), c.y(), c.z()); };
-  const glm::dvec3 centre = point(origin) + glm::dvec3(voxel_mm * 0.5 * (kLeafVoxels - 1));
-  const double reach_mm = kSteepest * 0.5 * std::sqrt(3.0) * kLeafVoxels * voxel_mm + band_mm;
-  if (std::abs(distance_mm(centre)) > reach_mm) return nullptr;
+// Fills leaves of the level set, eighth by eighth; what is farther from the surface than the band at its middle, given
+// the steepest slope, is not evaluated voxel by voxel.
+class LeafFiller {
+ public:
+  LeafFiller(const Distance& distance_mm, double voxel_mm)
+      : distance_mm_(distance_mm), voxel_mm_(voxel_mm), band_mm_(kBandVoxels * voxel_mm) {}
 
-  auto leaf = std::make_unique<Leaf>(origin, static_cast<float>(band_mm));
-  bool any = false;
-  for (openvdb::Index n = 0; n < Leaf::SIZE; ++n) {
-    const double d = distance_mm(point(leaf->offsetToGlobalCoord(n)));
-    leaf->setValueOnly(n, static_cast<float>(std::clamp(d, -band_mm, band_mm)));
-    leaf->setActiveState(n, std::abs(d) < band_mm);
-    any = any || std::abs(d) < band_mm;
+  // None far from the surface.
+  std::unique_ptr<Leaf> leafAt(const openvdb::Coord& origin) const {
+    if (std::abs(inMiddle_mm(origin, kLeafVoxels)) > reach_mm(kLeafVoxels)) return nullptr;
+    auto leaf = std::make_unique<Leaf>(origin, static_cast<float>(band_mm_));
+    return fillEighths(*leaf, origin, kLeafVoxels / 2) ? std::move(leaf) : nullptr;
   }
-  return any ? std::move(leaf) : nullptr;
-}
+
+ private:
+  double inMiddle_mm(const openvdb::Coord& origin, int edge) const {
+    return distance_mm_(voxel_mm_ * (glm::dvec3(origin.x(), origin.y(), origin.z()) + 0.5 * (edge - 1.0)));
+  }
+  double reach_mm(int edge) const { return kSteepest * 0.5 * std::sqrt(3.0) * (edge - 1.0) * voxel_mm_ + band_mm_; }
+
+  // Whether any voxel is in the band.
+  bool fillEighths(Leaf& leaf, const openvdb::Coord& origin, int edge) const {
+    bool any = false;
+    for (int n = 0; n < 8; ++n)
+      if (fill(leaf, origin.offsetBy(n & 1 ? edge : 0, n & 2 ? edge : 0, n & 4 ? edge : 0), edge)) any = true;
+    return any;
+  }
+
+  bool fill(Leaf& leaf, const openvdb::Coord& origin, int edge) const {
+    const double d = inMiddle_mm(origin, edge);
+    if (edge > 1 && std::abs(d) <= reach_mm(edge)) return fillEighths(leaf, origin, edge / 2);
+    const bool in_band = edge == 1 && std::abs(d) < band_mm_;
+    for (openvdb::Index n = 0; n < static_cast<openvdb::Index>(edge * edge * edge); ++n) {
+      const auto along = static_cast<openvdb::Index>(edge);
+      const openvdb::Index voxel = Leaf::coordToOffset(origin.offsetBy(
+          static_cast<int>(n % along), static_cast<int>(n / along % along), static_cast<int>(n / (along * along))));
+      leaf.setValueOnly(voxel, static_cast<float>(std::clamp(d, -band_mm_, band_mm_)));
+      leaf.setActiveState(voxel, in_band);
+    }
+    return in_band;
+  }
+
+  const Distance& distance_mm_;
+  double voxel_mm_, band_mm_;
+};
 
 openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const BoundingBox& box, double voxel_mm,
                                  const ReportProgress& report) {
@@ -44,11 +71,12 @@ openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const BoundingBox&
   const glm::ivec3 count = glm::ivec3(glm::ceil(box.high_mm / (voxel_mm * kLeafVoxels))) - low;
   std::vector<std::unique_ptr<Leaf>> leaves(static_cast<std::size_t>(count.x * count.y * count.z));
   std::atomic<std::size_t> done{0};
+  const LeafFiller filler(distance_mm, voxel_mm);
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const int i = static_cast<int>(n);
     const openvdb::Coord origin((low.x + i % count.x) * kLeafVoxels, (low.y + i / count.x % count.y) * kLeafVoxels,
                                 (low.z + i / (count.x * count.y)) * kLeafVoxels);
-    leaves[n] = leafAt(distance_mm, origin, voxel_mm);
+    leaves[n] = filler.leafAt(origin);
     if (report) report(static_cast<double>(++done) / static_cast<double>(leaves.size()));
   });
   auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel_mm, static_cast<float>(kBandVoxels));

@@ -68,6 +68,21 @@ TEST(PatientFolder, RoundTrips) {
   EXPECT_EQ(loaded.mandibular_canal_radius_mm, 1.1);
 }
 
+TEST(PatientFolder, TakesOverTheVolumeItWasJustWrittenWith) {
+  const on_disk::Folder folder;
+  const Patient saved = somebody();
+  assets::savePatient(saved, folder.at("p"), false);
+  const Patient whole = assets::loadPatient(folder.at("p")), rest = assets::loadPatient(folder.at("p"), saved.ct);
+  EXPECT_EQ(rest.ct.grid, whole.ct.grid);
+  EXPECT_EQ(rest.ct.hounsfield, whole.ct.hounsfield);
+  EXPECT_EQ(rest.ct.label, whole.ct.label);
+  EXPECT_EQ(rest.ct.solid, whole.ct.solid);
+  EXPECT_EQ(rest.ct.tooth, whole.ct.tooth);
+  EXPECT_EQ(rest.title, whole.title);
+  ASSERT_EQ(rest.face.parts.size(), whole.face.parts.size());
+  EXPECT_EQ(rest.face.parts[0].position_mm, whole.face.parts[0].position_mm);
+}
+
 TEST(PatientFolder, KeepsGingivaAndFaceApartAndInPosition) {
   const on_disk::Folder folder;
   Patient saved = somebody();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -54,6 +55,18 @@ TEST(SurfaceMesher, ClosesTheSurface) {
     EXPECT_EQ(times, 1);
     EXPECT_TRUE(walked.contains({edge.second, edge.first}));
   }
+}
+
+TEST(SurfaceMesher, EvaluatesTheBandAroundTheSurfaceAndLittleElse) {
+  constexpr double kVoxel_mm = 0.5;
+  std::atomic<int> evaluations{0};
+  const MeshPart part = meshOf([&](const glm::dvec3& p) { return ++evaluations, ballAtOrigin(p); },
+                               {glm::dvec3(-12), glm::dvec3(12)}, kVoxel_mm, 0.0);
+  // Three voxels on either side; four more a vertex put it onto the surface.
+  const double in_band = 4.0 * std::numbers::pi * 100.0 * 6.0 / (kVoxel_mm * kVoxel_mm);
+  const double a_voxel = (evaluations - 4.0 * static_cast<double>(part.position_mm.size())) / in_band;
+  EXPECT_GT(a_voxel, 1.0);
+  EXPECT_LT(a_voxel, 2.2);
 }
 
 }  // namespace
