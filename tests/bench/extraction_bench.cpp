@@ -1,5 +1,6 @@
 // Work of the rest of the operation: pieces beside a slow and obvious twin in one run, ways out beside what must go.
 //   haptics_extraction_bench            all parts
+//   haptics_extraction_bench elevator   an elevator between a tooth and its crest: whole ticks
 //   haptics_extraction_bench ligament   a piece in its socket: one sum, whole ticks
 //   haptics_extraction_bench pieces     pieces of a tooth and the bridge between them
 //   haptics_extraction_bench site       a tooth as a body: memory, the move of a block, ready for forceps

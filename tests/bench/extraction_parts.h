@@ -29,6 +29,7 @@ double p10_us(int times, Work work) {
   return us[us.size() / 10];
 }
 
+void benchElevator();
 void benchLigament();
 void benchPieces();
 void benchSite();
@@ -38,8 +39,8 @@ struct ExtractionPart {
   std::string_view name;
   void (*run)();
 };
-inline constexpr std::array kExtractionParts{ExtractionPart{"ligament", benchLigament},
-                                             ExtractionPart{"pieces", benchPieces}, ExtractionPart{"site", benchSite},
-                                             ExtractionPart{"way-out", benchWayOut}};
+inline constexpr std::array kExtractionParts{
+    ExtractionPart{"elevator", benchElevator}, ExtractionPart{"ligament", benchLigament},
+    ExtractionPart{"pieces", benchPieces}, ExtractionPart{"site", benchSite}, ExtractionPart{"way-out", benchWayOut}};
 
 }  // namespace bench
