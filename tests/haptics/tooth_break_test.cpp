@@ -100,6 +100,38 @@ TEST(ToothBreak, ForcepsBreakTheBridgeAndBothPartsKeepAllSolid) {
   }
 }
 
+/// The blade lies in the slot, its width along the slot's floor, and is twisted about its shaft.
+TEST(ToothBreak, AnElevatorTwistedInTheSlotBreaksItAtItsForce) {
+  Sectioned room;
+  const glm::dquat flat(0.5, 0.5, 0.5, 0.5);
+  room.command.tool = elevatorTool(ElevatorKind::straight_301);
+  room.hand.X_PT = {flat, {9.0, 0.0, 1.0}};
+  room.step(50);
+  room.arm();
+  room.makeReady();
+  const glm::dvec3 in_slot_mm(0.6, 0.0, 1.0);
+  room.go(in_slot_mm, 1.0, flat);
+  ASSERT_EQ(room.tick.lever.piece, 1);
+  double most_share = 0.0;
+  for (int n = 1; n <= 1500 && room.tick.broken.piece == 0; ++n) {
+    room.hand.X_PT.rotation = flat * glm::angleAxis(0.001 * n, glm::dvec3(0.0, 0.0, 1.0));
+    room.step();
+    most_share = std::max(most_share, room.tick.bridge_share);
+  }
+  ASSERT_EQ(room.tick.broken.piece, 1) << most_share << " of what breaks it";
+  EXPECT_NEAR(room.tick.broken.force_N, room.tick.lever.wedging_N, 1e-9);
+  const double force_N = breakingForce_N(room.plan->bridge, room.plan->enamel_share);
+  EXPECT_GE(room.tick.broken.force_N, force_N);
+  EXPECT_LT(room.tick.broken.force_N, 1.2 * force_N) << "as soon as it could";
+  room.step(200);
+  EXPECT_EQ(room.tick.pieces, 2);
+  EXPECT_EQ(room.tick.lever.piece, 0) << "the parts have no site yet";
+  EXPECT_EQ(room.tick.strokes, 1);
+  ++room.command.undo_serial, ++room.command.serial;
+  room.step(200);
+  EXPECT_EQ(room.tick.pieces, 1);
+}
+
 TEST(ToothBreak, WithoutAnOrderItHolds) {
   Sectioned room;
   room.makeReady();
