@@ -9,6 +9,7 @@
 #include "app/case/enamel_exposure.h"
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
+#include "app/procedure/jaw_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/control_router.h"
@@ -229,6 +230,8 @@ class Rehearsal {
   void followTooth() {
     tooth_->follow(view_.takeChangedBricks(), newest_, !pace_.isRealTime());
     if (station().isApplied(newest_)) makePiecesReady();
+    const haptics::Bodies& bodies = station().bodies();
+    jaw_stress_.follow(newest_, [&] { return bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size); });
     if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {
       head_up_.say(*line);
@@ -268,9 +271,10 @@ class Rehearsal {
   }
 
   HeadUp::Values headUpValues() const {
-    return {situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
-                        monitor_.recordingEnded()),
-            frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
+    Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
+                                      monitor_.recordingEnded());
+    situation.jaw_MPa = jaw_stress_.now_MPa();
+    return {situation, frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
             plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question(), rulerText(frame_.ruler),
             sites_->isReady()};
   }
@@ -298,6 +302,8 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.tooth = tooth_->ending();
     figures.luxation = luxation_.summary();
+    if (jaw_stress_.most_MPa() > 0.0)
+      figures.luxation += fmt::format(", jaw stressed to {:.0f} MPa (model)", jaw_stress_.most_MPa());
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
@@ -323,6 +329,7 @@ class Rehearsal {
   render::Frame frame_;
   std::optional<ToothFollower> tooth_;
   std::optional<SiteDesk> sites_;
+  JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "app/procedure/jaw_stress.h"
 #include "app/rehearsal/touches.h"
 #include "assets/soft_tissue.h"
 #include "assets/tooth.h"
@@ -67,6 +68,16 @@ Words leveredOnTeeth(const Situation& s) {
   return s.tick.lever.restsOnTeeth() ? "Elevator rests on a neighbouring tooth" : "";
 }
 
+Words jawAtRisk(const Situation& s) {
+  if (!s.jaw_MPa || *s.jaw_MPa < JawStress::kDangerous_MPa) return {};
+  return fmt::format("Jaw at risk, {:.0f} MPa: less force", *s.jaw_MPa);
+}
+
+Words jawStressed(const Situation& s) {
+  if (!s.jaw_MPa || *s.jaw_MPa < JawStress::kHigh_MPa || *s.jaw_MPa >= JawStress::kDangerous_MPa) return {};
+  return fmt::format("Jaw stressed, {:.0f} MPa", *s.jaw_MPa);
+}
+
 Words dry(const Situation& s) {
   const bool cuts = s.tick.drilling && s.tick.depth_mm > 0.0;
   return cuts && !s.command.irrigating ? "Cutting dry: water on with I" : "";
@@ -119,15 +130,17 @@ struct Row {
 };
 
 // The most important first.
-constexpr std::array<Row, 13> kTable = {{
+constexpr std::array<Row, 15> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
     {"bur on soft tissue", true, burOnSoftTissue, true},
     {"neighbour tooth touched", true, neighbourTouched, true},
+    {"jaw at risk", true, jawAtRisk},
     {"elevator on a neighbouring tooth", true, leveredOnTeeth},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},
+    {"jaw stressed", false, jawStressed},
     {"cutting dry", false, dry},
     {"soft tissue touched", false, softTissuePressed, true},
     {"drill held back", false, drillHeldBack},
@@ -149,7 +162,8 @@ Situation situationOf(const haptics::Tick& tick, const haptics::Command& command
                       bool has_motors, bool recording_ended) {
   const haptics::BurShape& head = command.tool.head;
   return {
-      tick, command, has_motors, recording_ended, neighbourAt(tick, head, patient), canalGap_mm(tick, head, patient)};
+      tick, command, has_motors, recording_ended, neighbourAt(tick, head, patient), canalGap_mm(tick, head, patient),
+      {}};
 }
 
 std::vector<HeadUpWarning> Warnings::update(const Situation& now) {

@@ -22,6 +22,7 @@ struct Situation {
   bool recording_ended = false;    ///< early
   std::optional<int> neighbour;    ///< FDI number of another tooth that the bur touches
   std::optional<double> canal_mm;  ///< from the bur's surface to the mandibular canal; below 0 inside
+  std::optional<double> jaw_MPa;   ///< of an elevator (app/procedure/jaw_stress)
 };
 
 /// `tick` newest. Cost: the voxels around the bur, while it touches a tooth.
@@ -51,7 +52,7 @@ class Warnings {
   std::vector<Count> counts() const;
 
  private:
-  static constexpr std::size_t kRows = 13;
+  static constexpr std::size_t kRows = 15;
   struct State {
     double last_s = -1e9;
     std::string words;

@@ -56,13 +56,14 @@ void visitSoftTouch(auto& soft, Visit&& visit) {
 
 template <class Visit>
 void visitLevering(auto& lever, Visit&& visit) {
-  auto& [piece, twist_Nmm, on_bone_N, on_teeth_N, on_piece_N, wedging_N] = lever;
+  auto& [piece, twist_Nmm, on_bone_N, on_teeth_N, on_piece_N, wedging_N, fulcrum_P_mm] = lever;
   visit(Text{"lever.piece", "", "", "", "none 0, else 1 + piece"}, piece);
   visit(Text{"lever.twist_Nmm", "", "N mm", "T"}, twist_Nmm);
   visit(Text{"lever.on_bone_N", "", "N"}, on_bone_N);
   visit(Text{"lever.on_teeth_N", "", "N"}, on_teeth_N);
   visit(Text{"lever.on_piece_N", "", "N"}, on_piece_N);
   visit(Text{"lever.wedging_N", "", "N"}, wedging_N);
+  visitXyz(Text{"lever.fulcrum_P_mm", "", "mm", "P"}, fulcrum_P_mm, visit);
 }
 
 template <class Visit>

@@ -142,7 +142,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
             });
     const double of_limit = c.torque_Nm ? c.torque_share : c.force_share;
     const int steps = static_cast<int>(std::lround(kForceSteps * std::clamp(of_limit, 0.0, 1.0)));
-    const double number_width = c.torque_Nm ? 5.4 : 4.3;
+    const double number_width = c.torque_Nm ? 5.9 : 4.3;
     const std::string newtons =
         c.torque_Nm ? fmt::format("{:.2f} N m", *c.torque_Nm) : fmt::format("{:.1f} N", c.force_N);
     in_line(Cells::force, fmt::format("{} {}", steps, newtons), [=](const Drawing& to, const glm::dvec2& size) {

@@ -88,7 +88,8 @@ void Elevator::move(Bodies& bodies, PieceSites& sites, ElevatorKind in_hand, con
                tick.blade_on_bone_N,
                tick.blade_on_teeth_N,
                tick.blade_on_piece_N,
-               tick.wedging.force_N};
+               tick.wedging.force_N,
+               tick.fulcrum_P_mm};
 }
 
 }  // namespace haptics

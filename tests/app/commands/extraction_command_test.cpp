@@ -201,6 +201,35 @@ TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotLoosensAPiece) {
   EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
 }
 
+TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotBreaksTheBridge) {
+  Hand hand;
+  const glm::dvec3 above_mm(0.0, 0.0, 9.0), in_slot_mm(0.0, 0.0, -2.0);
+  // A pass along the floor of the slot.
+  hand.be(0.0, above_mm, false, 0.0, "round:1.2");
+  hand.be(1.0, {0.0, -2.4, -6.2}, false);
+  hand.be(0.01, {0.0, -2.4, -6.2}, true);
+  hand.be(1.0, {0.0, 2.4, -6.2}, true);
+  hand.be(0.01, {0.0, 2.4, -6.2}, false);
+  hand.be(0.8, above_mm, false);
+  hand.lever(0.2, above_mm, 0.0, "elevator:301");
+  hand.lever(1.0, above_mm, 0.0);
+  hand.lever(1.0, in_slot_mm, 0.0);
+  for (int n = 0; n < 4; ++n) hand.lever(0.5, in_slot_mm, n % 2 == 0 ? 1.0 : -1.0);
+  hand.lever(0.3, in_slot_mm, 0.0);
+  hand.lever(0.8, above_mm, 0.0);
+  hand.lever(0.5, above_mm, 0.0);
+  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string session = at("s.molar");
+  const ProgramOutput said = rehearse(hand, session);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("  tooth            in 2 pieces, "), std::string::npos) << said.out;
+  const nlohmann::json measured = metrics(session);
+  EXPECT_EQ(measured.at("bridge_breaks").size(), 1u);
+  EXPECT_GT(measured.at("max_lever_Nmm").get<double>(), 50.0);
+  const ProgramOutput verified = molar("replay " + session + " --verify");
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+}
+
 TEST_F(ExtractionCommand, ABridgedToothIsGrippedAsOne) {
   Hand hand;
   hand.be(0.0, {0.0, 0.0, 9.0}, false);

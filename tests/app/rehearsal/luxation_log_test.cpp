@@ -109,7 +109,7 @@ TEST(LuxationLog, TellsWhatAnElevatorDoes) {
 
 TEST(LuxationLog, TellsOfANeighbouringToothThatBearsTheElevator) {
   Told told;
-  told.tick.lever = {1, 100.0, 10.0, 30.0, 40.0, 0.0};
+  told.tick.lever = {1, 100.0, 10.0, 30.0, 40.0, 0.0, {}};
   EXPECT_EQ(told.lines(40), Lines{}) << "shorter than 50 ms";
   told.tick.lever.on_teeth_N = 0.0;
   EXPECT_EQ(told.lines(), Lines{});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "assets/soft_tissue.h"
 
 namespace app {
@@ -15,6 +17,7 @@ struct Scene {
   haptics::Command command;
   assets::Patient patient;
   bool has_motors = false, recording_ended = false;
+  std::optional<double> jaw_MPa;
   Warnings warnings;
 
   Scene() {
@@ -26,7 +29,9 @@ struct Scene {
     patient.site.emplace().fdi = 48;
   }
   std::vector<HeadUpWarning> shown() {
-    return warnings.update(situationOf(tick, command, patient, has_motors, recording_ended));
+    Situation situation = situationOf(tick, command, patient, has_motors, recording_ended);
+    situation.jaw_MPa = jaw_MPa;
+    return warnings.update(situation);
   }
   std::string first() {
     const auto all = shown();
@@ -67,12 +72,22 @@ TEST(Warnings, TheNeckOfABurAndNotForceps) {
 
 TEST(Warnings, AnElevatorThatRestsOnANeighbour) {
   Scene scene;
-  scene.tick.lever = {1, 400.0, 90.0, 4.0, 100.0, 0.0};
+  scene.tick.lever = {1, 400.0, 90.0, 4.0, 100.0, 0.0, {}};
   EXPECT_EQ(scene.first(), "") << "below 5 N";
   scene.tick.lever.on_teeth_N = 40.0;
   EXPECT_EQ(scene.first(), "") << "less than a fifth of what the blade bears";
   scene.tick.lever.on_teeth_N = 60.0;
   EXPECT_EQ(scene.first(), "Elevator rests on a neighbouring tooth");
+}
+
+TEST(Warnings, AJawThatAnElevatorBends) {
+  Scene scene;
+  scene.jaw_MPa = 29.0;
+  EXPECT_EQ(scene.first(), "");
+  scene.jaw_MPa = 34.4;
+  EXPECT_EQ(scene.first(), "Jaw stressed, 34 MPa");
+  scene.jaw_MPa = 72.0;
+  EXPECT_EQ(scene.first(), "Jaw at risk, 72 MPa: less force");
 }
 
 TEST(Warnings, StayLongEnoughToBeReadAndAreCountedOnce) {
