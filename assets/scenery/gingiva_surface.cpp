@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,6 +35,7 @@ constexpr double kSightStep_mm = 1.0, kSight_mm = 14.0;
 constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
 constexpr int kSmoothingSteps = 4, kLumpSteps = 40;
+constexpr double kCrumbShare = 0.01, kCrumb_mm2 = 50.0;
 constexpr float kWetRoughness = 0.16f;  // of the flap
 constexpr double kOnFlap_mm = 0.2;      // of the surface from the folded sheet
 
@@ -152,6 +155,42 @@ glm::vec3 colourAt(const glm::dvec3& p_P, const std::optional<Wound>& wound, con
   return glm::mix(gingiva, undersideAt(p_P, over_mm), static_cast<float>(on_flap));
 }
 
+// What a rough label or the wound's edge leaves in the air is no gingiva: pieces of less than a hundredth of the
+// surface and of less than a papilla's size on all sides are left out.
+void takeOffCrumbs(MeshPart& part) {
+  const std::vector<glm::vec3> at_mm = std::exchange(part.position_mm, {});
+  const std::vector<std::uint32_t> triangles = std::exchange(part.triangles, {});
+  std::vector<std::uint32_t> root(at_mm.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto root_of = [&](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (std::size_t t = 0; t < triangles.size(); t += 3)
+    for (const std::size_t other : {t + 1, t + 2}) root[root_of(triangles[t])] = root_of(triangles[other]);
+
+  std::vector<double> area_mm2(at_mm.size(), 0.0);
+  double whole_mm2 = 0.0;
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const glm::dvec3 a(at_mm[triangles[t]]), b(at_mm[triangles[t + 1]]), c(at_mm[triangles[t + 2]]);
+    const double mm2 = 0.5 * glm::length(glm::cross(b - a, c - a));
+    area_mm2[root_of(triangles[t])] += mm2;
+    whole_mm2 += mm2;
+  }
+
+  const double least_mm2 = std::min(kCrumb_mm2, kCrumbShare * whole_mm2);
+  constexpr std::uint32_t kNew = ~0U;
+  std::vector<std::uint32_t> moved(at_mm.size(), kNew);
+  for (const std::uint32_t v : triangles) {
+    if (area_mm2[root_of(v)] < least_mm2) continue;
+    if (moved[v] == kNew) {
+      moved[v] = static_cast<std::uint32_t>(part.position_mm.size());
+      part.position_mm.push_back(at_mm[v]);
+    }
+    part.triangles.push_back(moved[v]);
+  }
+}
+
 // Two parts: the triangles with all corners on the flap are "Gum flap". Normals stay those of the whole.
 template <class IsOnFlap>
 MeshModel split(const MeshPart& whole, const IsOnFlap& is_on_flap) {
@@ -261,6 +300,7 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cu
     const glm::dvec3 p_P = ct.grid.origin_P_mm + ct.grid.spacing_mm * glm::dvec3(p.x(), p.y(), p.z());
     gingiva.position_mm.emplace_back(p_P);
   }
+  takeOffCrumbs(gingiva);
   takeOffLumps(gingiva.position_mm, gingiva.triangles, kLumpSteps);
   for (const glm::vec3& p_P : gingiva.position_mm)
     gingiva.colour.emplace_back(colourAt(glm::dvec3(p_P), wound, flap), 1.0f);

@@ -1,9 +1,15 @@
 // Every named case, as the surgeon finds it: the whole cut is seen by both eyes, and the scripted hand exposes the
 // crown with it. Coarse voxels, the CPU renderer, stepped time.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <map>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include "app/case/case.h"
 #include "app/case/enamel_exposure.h"
@@ -15,6 +21,7 @@
 #include "app/session/soft_touches.h"
 #include "app/view/patient_renderer.h"
 #include "assets/cut_field.h"
+#include "assets/scenery/gingiva_surface.h"
 #include "assets/scenery/soft_tissue_distance.h"
 #include "haptics/body/bodies.h"
 #include "haptics/device/simulated/scripted_device.h"
@@ -28,6 +35,13 @@ constexpr double kVoxel_mm = 0.5;
 constexpr double kHeldShare = 0.1;      ///< of the time, by soft tissue
 constexpr double kSeenWithin_mm = 1.2;  ///< about two voxels: the drawn surface lies between their centres
 
+assets::Patient coarsePatient(const Case& one) {
+  setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
+  assets::JawParameters jaw = one.jaw;
+  jaw.spacing_mm = kVoxel_mm;
+  return builtInPatient(jaw);
+}
+
 struct Scene {
   assets::Patient patient;
   assets::PlannedCut cut;
@@ -36,10 +50,7 @@ struct Scene {
   calibration::Rig rig = calibration::desktopRig({640, 400}, calibration::kDeskMonitorWidth_mm / 4.0);
 
   explicit Scene(const Case& one) {
-    setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
-    assets::JawParameters jaw = one.jaw;
-    jaw.spacing_mm = kVoxel_mm;
-    patient = builtInPatient(jaw);
+    patient = coarsePatient(one);
     cut = planGutter(patient, kUsualBurRadius_mm).value_or(assets::PlannedCut{});
     rig.X_WP = placePatientAtSite(patient, assets::kFaceAxes_PF);
     tool.head.radius_mm = kUsualBurRadius_mm;
@@ -86,7 +97,49 @@ double seenShare(const std::vector<glm::dvec3>& places_P_mm, const render::Dista
   return places_P_mm.empty() ? 0.0 : static_cast<double>(seen) / static_cast<double>(places_P_mm.size());
 }
 
+/// Areas of what hangs together, the largest first; corners at one place are one.
+std::vector<double> pieceAreas_mm2(const assets::MeshModel& model) {
+  std::map<std::array<float, 3>, std::size_t> places;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<double> areas_mm2;
+  for (const assets::MeshPart& part : model.parts)
+    for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
+      const auto corner = [&](std::size_t n) { return part.position_mm[part.triangles[t + n]]; };
+      const auto place = [&](std::size_t n) {
+        const glm::vec3 p = corner(n);
+        return places.try_emplace({p.x, p.y, p.z}, places.size()).first->second;
+      };
+      triangles.push_back({place(0), place(1), place(2)});
+      areas_mm2.push_back(0.5 * glm::length(glm::dvec3(glm::cross(corner(1) - corner(0), corner(2) - corner(0)))));
+    }
+  std::vector<std::size_t> root(places.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto root_of = [&](std::size_t place) {
+    while (root[place] != place) place = root[place] = root[root[place]];
+    return place;
+  };
+  for (const auto& [a, b, c] : triangles) root[root_of(a)] = root_of(b), root[root_of(b)] = root_of(c);
+  std::map<std::size_t, double> piece_mm2;
+  for (std::size_t t = 0; t < triangles.size(); ++t) piece_mm2[root_of(triangles[t][0])] += areas_mm2[t];
+  std::vector<double> largest_first;
+  for (const auto& [piece, mm2] : piece_mm2) largest_first.push_back(mm2);
+  std::ranges::sort(largest_first, std::ranges::greater());
+  return largest_first;
+}
+
 class EveryCase : public testing::TestWithParam<std::string> {};
+
+/// As it is drawn, with the flap raised: no papilla is left in the air without the gingiva it stood on. The flap is one
+/// sheet, or two where the ramus parts it, folded over just above the gingiva.
+TEST_P(EveryCase, HasItsGingivaInOnePieceAndItsFlapInSheets) {
+  const assets::Patient patient = coarsePatient(*caseNamed(GetParam()));
+  const assets::MeshModel drawn = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
+  ASSERT_EQ(drawn.parts.size(), 2u) << "gingiva and flap";
+  const std::vector<double> areas_mm2 = pieceAreas_mm2(drawn);
+  EXPECT_GT(areas_mm2.at(0), 3000.0) << "the gingiva";
+  EXPECT_THAT(areas_mm2, testing::SizeIs(testing::Le(3))) << "and the sheets of its flap";
+  EXPECT_THAT(areas_mm2, testing::Each(testing::Ge(50.0))) << "mm², no crumb";
+}
 
 TEST_P(EveryCase, ShowsTheWholePlanToBothEyes) {
   const Scene scene(*caseNamed(GetParam()));

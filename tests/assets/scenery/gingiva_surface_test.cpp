@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "assets/load_error.h"
@@ -180,6 +181,24 @@ TEST(TakeOffLumps, RemovesShortWavesAndKeepsTheShape) {
   const auto [radius_after, lumps_after] = figures();
   EXPECT_LT(lumps_after, 0.3 * lumps_before);
   EXPECT_NEAR(radius_after, radius_before, 0.02);
+}
+
+TEST(GingivaSurface, LeavesOutWhatFloatsInTheAirAndKeepsASecondJaw) {
+  CtVolume ct = ridge();
+  const auto label = [&](glm::ivec3 low, glm::ivec3 size) {
+    forVoxels(low, low + size,
+              [&](glm::ivec3 at) { ct.label[ct.grid.index(at)] = static_cast<std::uint8_t>(Tissue::gingiva); });
+  };
+  const auto highest_mm = [&] {
+    double z_mm = -1e9;
+    for (const MeshPart& part : gingivaSurface(ct, std::nullopt).parts)
+      for (const glm::vec3& p : part.position_mm) z_mm = std::max(z_mm, double{p.z});
+    return z_mm;
+  };
+  label({50, 70, 44}, {4, 4, 2});  // 1.2 mm wide, above the ridge
+  EXPECT_LT(highest_mm(), kGingivaTop_mm + 0.5);
+  label({20, 20, 44}, {60, 60, 2});  // 18 mm wide
+  EXPECT_GT(highest_mm(), kGingivaTop_mm + 0.5);
 }
 
 TEST(GingivaSurface, IsEmptyWithoutGingiva) {
