@@ -8,11 +8,11 @@
 namespace app {
 namespace {
 
-constexpr double kTurn_rad_per_px = calibration::radFromDegrees(0.3);
+constexpr double kTurn_rad_per_px = calibration::radFromDegrees(0.15);
 constexpr double kMostPitch_rad = calibration::radFromDegrees(85.0);
 /// A mouth opened for work leaves some ten degrees about the line of sight (app/case/handpiece_direction.h).
-constexpr double kFree_rad = calibration::radFromDegrees(5.0), kWideOpen_rad = calibration::radFromDegrees(20.0);
-constexpr double kFaceWindow_mm = 20.0;
+constexpr double kFree_rad = calibration::radFromDegrees(5.0), kWideOpen_rad = calibration::radFromDegrees(25.0);
+constexpr double kFaceWindow_mm = 13.0;
 const double kMagnifyingStep = std::pow(2.0, 0.25);
 
 }  // namespace
