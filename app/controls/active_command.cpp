@@ -124,9 +124,11 @@ void ActiveCommand::followStrokes(const haptics::Tick& newest) {
   const bool moved = !std::ranges::equal(stroke_change_->X_PQ_before, newest.X_PQ, isSamePose);
   std::string line = newest.pieces > 1 ? "pieces of the tooth" : "the tooth";
   line = moved ? line + (undoes ? " put back" : " moved again") : "";
-  if (!moved || restored_mm3 != 0.0)
-    line = fmt::format("{:.1f} mm³ {}{}{}", undoes ? restored_mm3 : -restored_mm3, undoes ? "taken back" : "cut again",
-                       moved ? ", " : "", line);
+  if (!moved || restored_mm3 != 0.0) {
+    const double mm3 = undoes ? restored_mm3 : -restored_mm3;
+    line = (mm3 > 0.0 && mm3 < 0.05 ? "under 0.1 mm³" : fmt::format("{:.1f} mm³", mm3)) +
+           fmt::format(" {}{}{}", undoes ? "taken back" : "cut again", moved ? ", " : "", line);
+  }
   line += undoes ? fmt::format(", {} left", strokes(newest.strokes))
                  : fmt::format(", {} left to redo", strokes(newest.undone_strokes));
   report(undoes ? "undo" : "redo", line);

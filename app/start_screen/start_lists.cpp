@@ -64,6 +64,11 @@ StartList handList(std::span<const haptics::FoundDevice> devices) {
                           .beside = "",
                           .about = "The program operates by itself along the planned cut, and you watch.",
                           .arguments = {"--device", "scripted"}});
+  list.choices.push_back(
+      {.words = "Demonstration, to the last piece",
+       .beside = "",
+       .about = "The whole operation, shown by itself: gutter, section, forceps. Some minutes; not for every scan.",
+       .arguments = {"--device", "scripted", "--procedure", "third-molar"}});
   return list;
 }
 

@@ -66,7 +66,11 @@ int list(const StoreOptions& options) {
       std::printf("  %s %s  %s\n", current == name ? "*" : " ", name.c_str(), line.c_str());
     }
   }
-  if (rigs.locations().empty()) std::fputs("molar: nothing is kept yet\n", stderr);
+  if (rigs.locations().empty())
+    std::fputs(
+        "molar: nothing is kept yet: the first is made by molar calibrate collect --device openhaptics --keep, "
+        "without hardware with --device practice:D\n",
+        stderr);
   return 0;
 }
 

@@ -102,7 +102,7 @@ TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
 
 TEST(StartLists, AUnitThatIsNotReadyTellsItsNextStep) {
   const StartList hand = someLists()[1];
-  ASSERT_EQ(hand.choices.size(), 4u) << "mouse, two units, demonstration";
+  ASSERT_EQ(hand.choices.size(), 5u) << "mouse, two units, two demonstrations";
   EXPECT_EQ(hand.choices[1].why_not, "");
   EXPECT_EQ(hand.choices[2].why_not, "install OpenHaptics");
 }
