@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -80,7 +81,23 @@ struct TomlReader::Document {
   toml::table root;
   std::set<std::pair<std::string, std::string>> used;
 
-  const toml::table* tableOf(const std::string& name) const { return name.empty() ? &root : root[name].as_table(); }
+  /// Null: there is none.
+  const toml::table* tableOf(const std::string& name) const {
+    const toml::node* at = &root;
+    for (std::size_t from = 0; at && from < name.size();) {
+      const std::size_t end = std::min(name.find('.', from), name.size());
+      const std::string part = name.substr(from, end - from);
+      std::size_t number = 0;
+      if (const toml::array* const list = at->as_array())
+        at = std::from_chars(part.data(), part.data() + part.size(), number).ec == std::errc() && number > 0
+                 ? list->get(number - 1)
+                 : nullptr;
+      else
+        at = at->as_table() ? at->as_table()->get(part) : nullptr;
+      from = end + 1;
+    }
+    return at ? at->as_table() : nullptr;
+  }
   const toml::node* find(const std::string& table, const std::string& key) const {
     const toml::table* at = tableOf(table);
     return at ? at->get(key) : nullptr;
@@ -88,6 +105,11 @@ struct TomlReader::Document {
   const toml::node* use(const std::string& table, const std::string& key) {
     used.emplace(table, key);
     return find(table, key);
+  }
+  /// Something of this table or of one within it.
+  bool isUsed(const std::string& table) const {
+    return std::ranges::any_of(
+        used, [&](const auto& one) { return one.first == table || one.first.starts_with(table + "."); });
   }
 };
 
@@ -187,6 +209,31 @@ std::size_t TomlReader::choice(const std::string& table, const std::string& key,
   refuse(table, key, (node ? "no such choice, give one of " : "it is missing, give one of ") + words);
 }
 
+std::vector<std::string> TomlReader::texts(const std::string& table, const std::string& key, std::size_t max_count) {
+  const toml::node* node = document_->use(table, key);
+  const toml::array* const list = node ? node->as_array() : nullptr;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; list && i < list->size() && i < max_count; ++i)
+    if (const auto text = (*list)[i].value<std::string>();
+        (*list)[i].is_string() && *text == printable(*text, kMaxText))
+      texts.push_back(*text);
+  if (!list || texts.size() != list->size())
+    refuse(table, key, "give a list of at most " + std::to_string(max_count) + " texts in quotes");
+  return texts;
+}
+
+std::size_t TomlReader::tables(const std::string& list, std::size_t min_count, std::size_t max_count) {
+  const toml::node* node = document_->use("", list);
+  const toml::array* const array = node ? node->as_array() : nullptr;
+  const bool are_tables =
+      array && std::all_of(array->begin(), array->end(), [](const toml::node& one) { return one.is_table(); });
+  if (!are_tables || array->size() < min_count || array->size() > max_count)
+    refuse("", list,
+           "give " + std::to_string(min_count) + " to " + std::to_string(max_count) + " tables, each after [[" + list +
+               "]]");
+  return array->size();
+}
+
 std::vector<double> TomlReader::numbers(const std::string& table, const std::string& key, const NumberRange& range,
                                         std::size_t min_count, std::size_t max_count) {
   const toml::node* node = document_->use(table, key);
@@ -220,22 +267,25 @@ std::vector<glm::dvec3> TomlReader::vectors(const std::string& table, const std:
 }
 
 void TomlReader::refuseUnknownKeys() const {
-  const auto check = [&](const std::string& table, const toml::table& level) {
-    for (const auto& [key, node] : level) {
-      const std::string name(key.str());
-      if (document_->used.contains({table, name})) continue;
-      if (table.empty() && node.is_table()) continue;
-      refuse(table, name, "no such key here, remove it or correct its spelling");
+  const std::function<void(const std::string&, const toml::table&)> check = [&](const std::string& path,
+                                                                                const toml::table& table) {
+    const auto inner = [&](const auto& key) { return (path.empty() ? "" : path + ".") + std::string(key.str()); };
+    for (const auto& [key, node] : table)
+      if (!document_->used.contains({path, std::string(key.str())}) && !node.is_table())
+        refuse(path, std::string(key.str()), "no such key here, remove it or correct its spelling");
+    for (const auto& [key, node] : table) {
+      if (const toml::table* const own = node.as_table()) {
+        if (!document_->isUsed(inner(key)))
+          refuse(inner(key), "", "no such table here, remove it or correct its spelling");
+        check(inner(key), *own);
+      } else if (const toml::array* const list = node.as_array()) {
+        for (std::size_t i = 0; i < list->size(); ++i)
+          if (const toml::table* const one = (*list)[i].as_table())
+            check(inner(key) + "." + std::to_string(i + 1), *one);
+      }
     }
   };
   check("", document_->root);
-  for (const auto& [key, node] : document_->root) {
-    if (!node.is_table()) continue;
-    const std::string table(key.str());
-    if (std::ranges::find(document_->used, table, &std::pair<std::string, std::string>::first) == document_->used.end())
-      refuse(table, "", "no such table here, remove it or correct its spelling");
-    check(table, *node.as_table());
-  }
 }
 
 }  // namespace assets

@@ -1,6 +1,7 @@
 // Typed access to a small TOML file, table by table and key by key, with a range for every number. Every error is one
 // line (LoadError) with file, line and key. Keys that were never read are errors too (refuseUnknownKeys), so a misspelt
-// key does not silently leave a default. Start-up, or the frame loop for files re-read while running; never the servo.
+// key does not silently leave a default. A table within a table is named with a dot: "outer.inner"; the tables of a
+// list [[name]] are "name.1", "name.2" …. Start-up, or the frame loop for files re-read while running; never the servo.
 // Files up to 64 kB unless stated. The only user of toml++.
 #pragma once
 
@@ -45,6 +46,10 @@ class TomlReader {
   /// Index into `choices`.
   std::size_t choice(const std::string& table, const std::string& key, std::initializer_list<std::string_view> choices,
                      std::optional<std::size_t> fallback = {});
+  /// A list of lines of text.
+  std::vector<std::string> texts(const std::string& table, const std::string& key, std::size_t max_count);
+  /// How many tables the list [[list]] of the top level has.
+  std::size_t tables(const std::string& list, std::size_t min_count, std::size_t max_count);
   /// A single number is read as a list of one.
   std::vector<double> numbers(const std::string& table, const std::string& key, const NumberRange& range,
                               std::size_t min_count, std::size_t max_count);

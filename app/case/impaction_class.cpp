@@ -31,6 +31,11 @@ int pedersonSum(Angulation angulation, char depth, int ramus_class) {
   return kByAngulation[static_cast<std::size_t>(angulation)] + (depth - 'A' + 1) + ramus_class;
 }
 
-std::string_view pedersonWord(int sum) { return sum <= 4 ? "slight" : sum <= 6 ? "moderate" : "high"; }
+std::size_t pedersonGrade(int sum) { return sum <= 4 ? 0 : sum <= 6 ? 1 : 2; }
+
+std::string_view pedersonWord(int sum) {
+  constexpr std::string_view kWords[] = {"slight", "moderate", "high"};
+  return kWords[pedersonGrade(sum)];
+}
 
 }  // namespace app

@@ -3,6 +3,7 @@
 // by the named cases, whose parameters are known, and by the plan, which measures. Pure functions; any thread.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace app {
@@ -23,6 +24,8 @@ std::string_view ramusClassName(int ramus_class);
 
 /// Pederson's sum, 3 to 10; 0 for an inverted tooth, which his index leaves out.
 int pedersonSum(Angulation angulation, char depth, int ramus_class);
+/// 0 to 4 of the sum, 1 to 6, 2 from 7.
+std::size_t pedersonGrade(int sum);
 /// To 4 slight, to 6 moderate, from 7 high.
 std::string_view pedersonWord(int sum);
 

@@ -8,13 +8,16 @@
 #include <thread>
 
 #include "app/case/case.h"
+#include "app/case/extraction_plan.h"
 #include "app/case/handpiece_direction.h"
+#include "app/case/impaction_class.h"
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
 #include "app/case/soft_tissue_source.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/commands/rehearse_options.h"
+#include "app/controls/prediction_question.h"
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_source_table.h"
 #include "app/options/command_settings.h"
@@ -23,6 +26,7 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
+#include "app/procedure/steps/step_file.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/continuation.h"
 #include "app/rehearsal/live_view.h"
@@ -46,6 +50,10 @@ namespace app {
 namespace {
 
 constexpr double kForeignFaceWindow_mm = 24.0;
+
+/// The scripted hand performs the whole operation.
+constexpr const char* kShownOperation = "scripted:third-molar";
+bool isShown(const RehearseOptions& options) { return options.plan.device == kShownOperation; }
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
@@ -75,7 +83,7 @@ std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& o
   // A hand that cannot turn a handpiece out of the way holds the bur alone.
   plan.command.tool.handpiece = turns;
   // The shown operation goes on without handpiece: with an angled one, which is not modelled.
-  const bool is_angled = !options.procedure.empty();
+  const bool is_angled = isShown(options);
   for (haptics::Tool& tool : plan.other_tools) tool.handpiece = turns && !is_angled;
   std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen);
@@ -126,7 +134,22 @@ struct PreparedCase {
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   std::optional<CutPlan> cut;
   assets::SoftTissueField soft_tissue;
+  Prediction computed;  ///< difficulty and index alone
 };
+
+/// Nothing where they cannot be measured.
+Prediction computedDifficulty(const assets::Patient& patient) {
+  Prediction computed;
+  try {
+    const PlanItem index = itemOf(extractionPlan(patient, "PATIENT"), "difficulty");
+    if (const double* const sum = std::get_if<double>(&index.value)) {
+      computed.index = *sum;
+      computed.computed = kDifficulties[pedersonGrade(static_cast<int>(*sum))];
+    }
+  } catch (const UsageError&) {
+  }
+  return computed;
+}
 
 /// The patient, and what is computed from it: the cut and how a handpiece lies clear of soft tissue while it is made.
 PreparedCase prepared(const RehearseOptions& options, const assets::JawParameters& jaw, const haptics::Tool& tool,
@@ -135,8 +158,14 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   one.patient = options.patient.empty() ? builtInPatient(jaw, report) : assets::loadPatient(options.patient);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
   auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
+  auto computed = std::async(std::launch::async, [&] {
+    const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
+    const bool compares = steps && (steps->asks || steps->prediction.isGiven());
+    return compares ? computedDifficulty(one.patient) : Prediction{};
+  });
   const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
   one.soft_tissue = softTissueAround(one.patient.gingiva, one.patient.face, region);
+  one.computed = computed.get();
   one.cut = cut.get();
   if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);
   return one;
@@ -157,6 +186,10 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
   plan.patient = std::move(one->patient);
   plan.soft_tissue = std::move(one->soft_tissue);
   plan.windows = preparation.takeWindows();
+  if (plan.procedure_steps) {
+    plan.procedure_steps->prediction.computed = one->computed.computed;
+    plan.procedure_steps->prediction.index = one->computed.index;
+  }
   X_PF = one->X_PF;
   if (!one->cut) return true;
   plan.cut = one->cut->cut;
@@ -168,7 +201,7 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
   return true;
 }
 
-/// The whole operation needs a lower third molar that is a body of its own, and bone to begin with.
+/// A procedure needs a lower third molar that is a body of its own, and bone to begin with.
 void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& procedure) {
   const std::optional<assets::OperativeSite>& site = plan.patient.site;
   if (!site || !assets::isThirdMolar(site->fdi) || assets::isUpper(site->fdi) ||
@@ -261,6 +294,35 @@ std::string importedList() {
   }
 }
 
+/// A rule of it is about the tooth or the gutter beside it.
+bool asksForThirdMolar(const StepPlan& plan) {
+  return std::ranges::any_of(plan.steps, [](const Step& step) {
+    const DoneWhen& when = step.done_when;
+    return when.gutter_removed || when.crown_bared || when.bridge_mm || when.torn || when.pieces || when.pieces_out ||
+           when.all_out;
+  });
+}
+
+/// What is followed, with what is said, and what is asked of the surgeon.
+void chooseProcedure(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
+  if (options.procedure.empty()) return;
+  ProcedureSteps steps;
+  steps.plan = stepPlanNamed(options.procedure);
+  if (plan.device == "scripted" && options.procedure == "third-molar") plan.device = kShownOperation;
+  const auto named = std::ranges::find(kGuidances, std::string_view(options.guidance));
+  steps.guidance = named != kGuidances.end() ? static_cast<Guidance>(named - kGuidances.begin())
+                   : isShown(options)        ? Guidance::free
+                                             : Guidance::guided;
+  if (!options.predict.empty()) {
+    const PredictionAnswer answer = predictionAnswerFrom(options.predict);
+    steps.prediction.difficulty = answer.difficulty;
+    steps.prediction.minutes = answer.minutes;
+  }
+  steps.asks = options.predict.empty() && !plan.headless && steps.guidance != Guidance::free && !isShown(options);
+  plan.procedure_steps = std::move(steps);
+}
+
 int run(RehearseOptions& options) {
   if (options.list_cases) {
     std::fputs((caseList() + importedList()).c_str(), stdout);
@@ -270,12 +332,10 @@ int run(RehearseOptions& options) {
   options.patient = patientNamed(options.patient);
   plan.device = withSessionNamed(plan.device);
   plan.second_hand.device = withSessionNamed(plan.second_hand.device);
-  if (options.procedure.empty() && plan.device.starts_with("scripted:"))
+  if (plan.device.starts_with("scripted:"))
     throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
-  if (!options.procedure.empty()) {
-    if (plan.device != "scripted")
-      throw UsageError("--procedure " + options.procedure + ": the scripted hand shows it, add --device scripted");
-    plan.device += ":" + options.procedure;
+  chooseProcedure(options);
+  if (isShown(options)) {
     // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
     static const RehearseOptions kAsked;
     if (options.tools == kAsked.tools) options.tools = {options.tools.front(), "capsule:1.05,8", "forceps"};
@@ -287,7 +347,7 @@ int run(RehearseOptions& options) {
     throw UsageError("--tool " + options.tools.front() + ": the first tool is a bur, name one before it");
   for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
     plan.other_tools.push_back(tool_of(*other));
-  if (!options.procedure.empty()) {
+  if (isShown(options)) {
     std::vector<haptics::Tool> tray = plan.other_tools;
     tray.insert(tray.begin(), plan.command.tool);
     operationTray(tray);
@@ -352,11 +412,10 @@ int run(RehearseOptions& options) {
     printMessage("left before the patient was ready");
     return 0;
   }
-  if (!options.procedure.empty()) {
+  if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
-    // An assistant holds cheek and flap aside.
-    plan.soft_tissue = {};
-  }
+  // An assistant holds cheek and flap aside.
+  if (isShown(options)) plan.soft_tissue = {};
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   // Whoever named no tools finds an elevator and forceps beside the burs.
   static const RehearseOptions kUntouched;

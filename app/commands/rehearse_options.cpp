@@ -8,7 +8,9 @@
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/tool_text.h"
+#include "app/procedure/steps/step_file.h"
 #include "app/station/patient_list.h"
+#include "app/text/list.h"
 #include "assets/instrument/second_instrument.h"
 #include "haptics/device/thread_priority.h"
 #include "render/quality_ladder.h"
@@ -69,10 +71,26 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .showsDefault()
       .needs(second);
   command.option("--falcon-firmware", options.falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
+  command.optionGroup("Procedure");
+  Option procedure =
+      command
+          .option("--procedure", options.procedure,
+                  "Follow it step by step: " + joined(shippedProcedures()) +
+                      ", or a teacher's own FILE.toml (app/procedure/steps). third-molar with --device scripted: the "
+                      "whole operation is shown, from the gutter to the last piece of the tooth")
+          .valueNamed("NAME");
   command
-      .option("--procedure", options.procedure,
-              "With --device scripted: the whole operation, shown from the gutter to the last piece of the tooth")
-      .oneOf({"third-molar"});
+      .option("--guidance", options.guidance,
+              "free: nothing is said; guided: the next step, and what it lacks; assessed: nothing is said, errors and "
+              "times are recorded [guided; free where the operation is shown]")
+      .oneOf({kGuidances.begin(), kGuidances.end()})
+      .needs(procedure);
+  command
+      .option("--predict", options.predict,
+              "What you expect, difficulty=easy|moderate|difficult and minutes: difficulty=moderate,minutes=12 [asked "
+              "for in the picture, but for free]")
+      .valueNamed("WORDS")
+      .needs(procedure);
   command.optionGroup("Workplace and picture");
   Option rig = options.rig.addTo(command, true);
   command.option("--loupes", options.loupes, "Magnification on a desk (without --rig)")

@@ -26,7 +26,9 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
       event_log_(event_log),
       input_(restingTool(plan.rig, plan.cut)),
       desk_view_(plan.rig, plan.rig.X_WP * calibration::Point<calibration::Patient>{plan.patient.focus_P_mm()}),
-      script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {}
+      script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {
+  if (plan.procedure_steps && plan.procedure_steps->asks) prediction_.open();
+}
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
   input_.setGap(frame.gap ? std::optional(frame.gap->mm) : std::nullopt);
@@ -62,7 +64,9 @@ void ControlRouter::readWindow(render::Frame& frame) {
     const double width_mm = glm::distance(screen.lower_left.mm, screen.lower_right.mm);
     const double mm_per_px = width_mm / std::max(1, window->framebufferSize_px().x);
     for (const render::WindowEvent& event : view_.display().takeEvents()) {
-      if (isTakenByEndQuestion(event) || isTakenByProcedure(event) || scrollSlice(event, frame)) continue;
+      if (isTakenByEndQuestion(event) || isTakenByPrediction(event) || isTakenByProcedure(event) ||
+          scrollSlice(event, frame))
+        continue;
       const auto* const moved = std::get_if<render::PointerMoved>(&event);
       if (plan_.view_can_turn && moved != nullptr && moved->button == render::MouseButton::right) {
         desk_view_.turn(moved->by_px);
@@ -101,6 +105,7 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
         scrolledSlices(frame, render::SlicePlane::axial, request.control == Control::slice_up ? 1.0 : -1.0);
   if (request.control == Control::snapshot) takeSnapshot(frame);
   if (request.control == Control::ruler) markRuler(frame);
+  if (request.control == Control::step) ++steps_;
   if (request.control == Control::home) {
     equipment_.workstation().setHome();
     head_up_.say("the handle is at home");
@@ -134,6 +139,11 @@ void ControlRouter::showDeskView(render::Frame& frame) {
   frame.rig.screen.px = px;
   frame.face_window_mm = std::max(plan_.face_window_mm, desk_view_.faceWindow_mm());
   input_.setView(desk_view_.rotation());
+}
+
+bool ControlRouter::isTakenByPrediction(const render::WindowEvent& event) {
+  const auto* key = std::get_if<render::KeyPressed>(&event);
+  return key != nullptr && prediction_.take(*key);
 }
 
 /// A procedure has its own way to end.

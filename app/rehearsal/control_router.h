@@ -4,12 +4,15 @@
 // for a snapshot the time of writing its file.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "app/controls/active_command.h"
 #include "app/controls/control_script.h"
 #include "app/controls/end_question.h"
 #include "app/controls/hand_input.h"
+#include "app/controls/prediction_question.h"
 #include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/event_log.h"
@@ -29,7 +32,13 @@ class ControlRouter {
 
   const ControlScript& script() const { return script_; }
   /// To the surgeon, instead of anything else; empty: none.
-  std::string question() const { return end_question_.isOpen() ? EndQuestion::kText : std::string(); }
+  std::string question() const {
+    return end_question_.isOpen() ? EndQuestion::kText : prediction_.isOpen() ? prediction_.text() : std::string();
+  }
+  /// The surgeon's prediction, once, when it was asked for and said.
+  std::optional<PredictionAnswer> takePrediction() { return prediction_.takeAnswer(); }
+  /// How often the next step of the procedure was asked for since the last call.
+  int takeSteps() { return std::exchange(steps_, 0); }
   /// Of the tool of a mouse, W.
   const glm::dvec3& handPosition_W_mm() const { return input_.X_WT().translation_mm; }
   /// Of a mouse, before it is started: the hand is there at once, and touches nothing on a way there.
@@ -41,6 +50,7 @@ class ControlRouter {
   void handleInstructorInput(const InstructorWindow::Input& input, render::Frame& frame);
 
  private:
+  bool isTakenByPrediction(const render::WindowEvent& event);
   bool isTakenByEndQuestion(const render::WindowEvent& event);
   void executeKeys(render::Frame& frame, bool may_choose_law);
   void readWindow(render::Frame& frame);
@@ -63,6 +73,8 @@ class ControlRouter {
   EventLog& event_log_;
   HandInput input_;
   EndQuestion end_question_;
+  PredictionQuestion prediction_;
+  int steps_ = 0;
   DeskView desk_view_;
   glm::dvec2 pointer_px_{0.0};
   ControlScript script_;

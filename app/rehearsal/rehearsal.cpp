@@ -21,6 +21,7 @@
 #include "app/rehearsal/soft_mark_trail.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
+#include "app/rehearsal/step_follower.h"
 #include "app/rehearsal/tooth_follower.h"
 #include "app/rehearsal/touches.h"
 #include "app/session/soft_touches.h"
@@ -74,6 +75,7 @@ class Rehearsal {
     view_.attach(station().bodies());
     tooth_.emplace(station().bodies(), wholeTooth(plan_));
     sites_.emplace(station().bodies());
+    if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (equipment_.led() != nullptr)
       demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
                              *equipment_.led());
@@ -92,6 +94,7 @@ class Rehearsal {
     const std::uint64_t frames_before = view_.frames();
     for (;;) {
       router_.handleInput(newest_, frame_);
+      followSteps();
       if (const std::optional<Ending> ending = endingNow()) {
         const double loop_s = secondsSince(loop_start);
         RehearsalFigures figures = finish(*ending);
@@ -160,6 +163,7 @@ class Rehearsal {
     event_log_.recordInto(station());
     event_log_.note("quality", view_.qualityText());
     event_log_.note(kTouchEvent, kTouchCounting);
+    if (steps_) steps_->start();
   }
 
   std::optional<Ending> endingNow() {
@@ -194,9 +198,27 @@ class Rehearsal {
     followLuxation(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
-    for (const Touch& touch : touches_.follow(ticks, command.tool.head)) event_log_.note(kTouchEvent, touchText(touch));
+    if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm());
+    for (const Touch& touch : touches_.follow(ticks, command.tool.head)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  void noteTouch(const Touch& touch) {
+    event_log_.note(kTouchEvent, touchText(touch));
+    if (steps_) steps_->follow(touch);
+  }
+
+  /// What the surgeon asks of a stepped procedure, and what it says.
+  void followSteps() {
+    const int skipped = router_.takeSteps();
+    if (!steps_) return;
+    for (int n = 0; n < skipped; ++n) head_up_.say(steps_->skip());
+    if (const auto answer = router_.takePrediction())
+      steps_->predict(answer->difficulty, answer->minutes, newest_.t_s + newest_.dt_s);
+    while (const auto line = steps_->news()) head_up_.say(*line);
+    const bool shows = steps_->showsGutter();
+    if (shows != shows_gutter_) frame_.layers.planned_cut = shows_gutter_ = shows;
   }
 
   void followLuxation(std::span<const haptics::Tick> ticks) {
@@ -228,7 +250,9 @@ class Rehearsal {
   }
 
   void followTooth() {
-    tooth_->follow(view_.takeChangedBricks(), newest_, !pace_.isRealTime());
+    const std::vector<glm::ivec3> changed = view_.takeChangedBricks();
+    tooth_->follow(changed, newest_, !pace_.isRealTime());
+    if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
     if (station().isApplied(newest_)) makePiecesReady();
     const haptics::Bodies& bodies = station().bodies();
     jaw_stress_.follow(newest_, [&] { return bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size); });
@@ -274,9 +298,14 @@ class Rehearsal {
     Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                                       monitor_.recordingEnded());
     situation.jaw_MPa = jaw_stress_.now_MPa();
-    return {situation, frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
-            plan_.procedure ? plan_.procedure->messages().to_surgeon : router_.question(), rulerText(frame_.ruler),
+    return {situation, frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt, task(), rulerText(frame_.ruler),
             sites_->isReady()};
+  }
+
+  std::string task() const {
+    if (plan_.procedure) return plan_.procedure->messages().to_surgeon;
+    const std::string question = router_.question();
+    return question.empty() && steps_ ? steps_->task() : question;
   }
 
   void draw() {
@@ -289,7 +318,8 @@ class Rehearsal {
 
   RehearsalFigures finish(Ending ending) {
     followTicks();
-    for (const Touch& touch : touches_.finish()) event_log_.note(kTouchEvent, touchText(touch));
+    for (const Touch& touch : touches_.finish()) noteTouch(touch);
+    if (steps_) steps_->finish();
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
@@ -304,6 +334,7 @@ class Rehearsal {
     figures.luxation = luxation_.summary();
     if (jaw_stress_.most_MPa() > 0.0)
       figures.luxation += fmt::format(", jaw stressed to {:.0f} MPa (model)", jaw_stress_.most_MPa());
+    if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
@@ -331,6 +362,8 @@ class Rehearsal {
   std::optional<SiteDesk> sites_;
   JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
+  std::optional<StepFollower> steps_;
+  bool shows_gutter_ = false;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;

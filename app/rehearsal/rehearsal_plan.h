@@ -10,6 +10,8 @@
 #include "app/device/pose_source.h"
 #include "app/device/second_hand.h"
 #include "app/procedure/procedure.h"
+#include "app/procedure/steps/step_plan.h"
+#include "app/session/step_event.h"
 #include "app/station/workstation.h"
 #include "app/view/display_windows.h"
 #include "assets/patient.h"
@@ -22,6 +24,14 @@
 #include "render/render_options.h"
 
 namespace app {
+
+/// A procedure that is followed step by step.
+struct ProcedureSteps {
+  StepPlan plan;
+  Guidance guidance = Guidance::guided;
+  Prediction prediction;  ///< what was computed, and the surgeon's from the command line
+  bool asks = false;      ///< for the surgeon's, in the picture
+};
 
 struct RehearsalPlan {
   assets::Patient patient;
@@ -43,10 +53,11 @@ struct RehearsalPlan {
   haptics::Command command;
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
   std::string parameters;  ///< settings file, applied whenever it changes; `command` holds the keys it leaves out
-  Procedure* procedure = nullptr;             ///< leads where there is one
-  std::optional<haptics::PedalChoice> pedal;  ///< none: no pedal is searched for
-  std::optional<double> rate_Hz;              ///< none: the rate of a recorded pose source, else 1 kHz
-  std::optional<double> seconds;              ///< simulated time; a scripted hand ends by itself
+  Procedure* procedure = nullptr;                 ///< leads where there is one
+  std::optional<ProcedureSteps> procedure_steps;  ///< followed where there is one
+  std::optional<haptics::PedalChoice> pedal;      ///< none: no pedal is searched for
+  std::optional<double> rate_Hz;                  ///< none: the rate of a recorded pose source, else 1 kHz
+  std::optional<double> seconds;                  ///< simulated time; a scripted hand ends by itself
   std::optional<Recording> recording;
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};

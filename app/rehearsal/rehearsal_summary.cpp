@@ -75,6 +75,12 @@ std::string surgeonsText(const RehearsalFigures& f) {
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("tooth", f.tooth);
   line("luxation", f.luxation);
+  if (f.procedure) {
+    const double end_s = f.procedure->end_s().value_or(f.last.tick.t_s + f.last.tick.dt_s);
+    line("predicted", predictionInWords(f.prediction, end_s));
+    line("procedure", procedureInWords(*f.procedure));
+    for (const std::string& step : stepsInWords(*f.procedure)) line("", step);
+  }
   line("touched", f.touched.empty() ? "no tooth, no canal" : touchesText(f.touched));
   line("soft tissue", softTouchesText(f.soft_touches.touched));
   line("bur turned on", softTouchesText(f.soft_touches.cut));

@@ -12,6 +12,7 @@
 #include "app/rehearsal/warnings.h"
 #include "app/session/recorder.h"
 #include "app/session/soft_touches.h"
+#include "app/session/step_event.h"
 #include "app/session/touch_event.h"
 #include "app/view/motion_to_photon.h"
 #include "assets/tissue.h"
@@ -24,9 +25,11 @@ struct RehearsalFigures {
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::optional<double> exposed_share;  ///< of the crown that the plan lays bare; none without a plan for it
   WorkTimes times;
-  std::string tooth;                ///< what it has come apart into, tooth_follower.h; empty: whole
-  std::string luxation;             ///< LuxationLog::summary()
-  std::vector<TouchCount> touched;  ///< teeth and canal
+  std::string tooth;                      ///< what it has come apart into, tooth_follower.h; empty: whole
+  std::string luxation;                   ///< LuxationLog::summary()
+  std::optional<ProcedureRun> procedure;  ///< step by step
+  Prediction prediction;                  ///< nothing said without a procedure
+  std::vector<TouchCount> touched;        ///< teeth and canal
   std::vector<Warnings::Count> warnings;
   bool for_engineers = true;  ///< servo, display and latency as well
   bool has_motors = true;

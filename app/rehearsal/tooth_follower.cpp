@@ -203,6 +203,12 @@ std::optional<std::string> ToothFollower::news() {
   return what + " is held by " + bridgeText(*bridge) + ", " + breakText(*bridge);
 }
 
+std::optional<double> ToothFollower::bridge_mm() {
+  const haptics::ToothFindings all = found();
+  const haptics::Bridge* const bridge = thinnestBridge(all);
+  return bridge == nullptr ? std::nullopt : std::optional(bridge->thickness_mm);
+}
+
 std::string ToothFollower::ending() {
   if (watches_.empty()) return "";
   if (bodies_.pieces() != watches_.size()) watchAnew(bodies_.pieces());

@@ -41,6 +41,8 @@ class ToothFollower {
   std::optional<haptics::BreakOrder> bridgeOrder(const haptics::Tick& newest, bool in_hand, bool waits);
   /// A line when the bridge is armed, when it has become thinner than 3, 2 or 1 mm, or a piece has come apart.
   std::optional<std::string> news();
+  /// Of the thinnest bridge that holds the tooth, or a piece of it; none: none is cut to a bridge, or not looked yet.
+  std::optional<double> bridge_mm();
   /// With the servo stopped: all of the tooth, looked at once more, as toothText().
   std::string ending();
 

@@ -60,8 +60,7 @@ std::vector<Touch> Touches::follow(std::span<const haptics::Tick> ticks, const h
     for (const int fdi : teethTouched(tick, head, patient_)) touch(assets::toothName(fdi), tick);
     // Only what lies in bone can reach the canal.
     if (tick.depth_mm > 0.0)
-      if (const auto gap_mm = canalGap_mm(tick, head, patient_); gap_mm && *gap_mm <= 0.0)
-        touch("mandibular canal", tick);
+      if (const auto gap_mm = canalGap_mm(tick, head, patient_); gap_mm && *gap_mm <= 0.0) touch(kCanalTouch, tick);
     if (running_.empty()) continue;
     const std::vector<Touch> over = endedBefore(tick.t_s - kTouchPause_s);
     ended.insert(ended.end(), over.begin(), over.end());

@@ -98,11 +98,14 @@ SessionMetrics metricsOf(const std::string& path) {
   metrics.commands = commands.size();
   std::vector<SessionEvent> events = session.events();
   metrics.events = events.size();
-  for (const SessionEvent& event : events)
+  for (const SessionEvent& event : events) {
     if (event.kind == kTouchEvent) {
       if (!metrics.touched) metrics.touched.emplace();
       if (const auto touch = touchFrom(event.text)) countInto(*metrics.touched, *touch);
     }
+    if (event.kind == kStepEvent) addStepEvent(metrics.procedure, event.text);
+    if (event.kind == kPredictionEvent) metrics.prediction = predictionFrom(event.text);
+  }
   std::erase_if(events, [](const SessionEvent& event) { return event.kind != kRulerEvent || !measuredMm(event.text); });
 
   std::vector<float> work_us;
@@ -143,6 +146,11 @@ SessionMetrics metricsOf(const std::string& path) {
 
 namespace {
 
+/// The end of the procedure's last step, or of the recording.
+double endOfWork_s(const SessionMetrics& metrics) {
+  return (metrics.procedure ? metrics.procedure->end_s() : std::nullopt).value_or(metrics.duration_s);
+}
+
 /// Units as people write them.
 std::string unitText(std::string_view unit) { return unit == "mm3" ? "mm³" : std::string(unit); }
 
@@ -180,6 +188,11 @@ std::string metricsText(const SessionMetrics& metrics) {
     words +=
         fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
                     broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
+  if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, endOfWork_s(metrics)) + "\n";
+  if (metrics.procedure) {
+    words += "procedure: " + procedureInWords(*metrics.procedure) + "\n";
+    for (const std::string& step : stepsInWords(*metrics.procedure)) words += "  " + step + "\n";
+  }
   for (const MeasuredWay& way : metrics.measured)
     words += "measured at " + clockText(way.t_s) + ": " + way.words + "\n";
   words += "\n";
@@ -239,6 +252,34 @@ nlohmann::ordered_json softTouchesJson(const SoftTouches& touches) {
   return json;
 }
 
+/// A step by its key; times of one that was not reached are null.
+nlohmann::ordered_json procedureJson(const ProcedureRun& run) {
+  nlohmann::ordered_json json = {{"name", run.name},
+                                 {"guidance", run.guidance},
+                                 {"complete", run.isComplete()},
+                                 {"steps", nlohmann::ordered_json::array()}};
+  for (const StepRecord& step : run.steps) {
+    nlohmann::ordered_json entry = {
+        {"key", step.key},    {"title", step.title},   {"state", nameOf(step.state)},
+        {"begin_s", nullptr}, {"duration_s", nullptr}, {"errors", nlohmann::ordered_json::object()}};
+    if (step.begin_s) entry["begin_s"] = *step.begin_s, entry["duration_s"] = step.duration_s;
+    for (const auto& [error, times] : step.errors) entry["errors"][error] = times;
+    json["steps"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+nlohmann::ordered_json predictionJson(const Prediction& p, double end_s) {
+  nlohmann::ordered_json json = {{"difficulty", nullptr}, {"minutes", nullptr},
+                                 {"computed", nullptr},   {"index", nullptr},
+                                 {"at_s", p.at_s},        {"used_minutes", (end_s - p.at_s) / 60.0}};
+  if (!p.difficulty.empty()) json["difficulty"] = p.difficulty;
+  if (p.minutes) json["minutes"] = *p.minutes;
+  if (!p.computed.empty()) json["computed"] = p.computed;
+  if (p.index) json["index"] = *p.index;
+  return json;
+}
+
 }  // namespace
 
 std::string metricsJson(const SessionMetrics& metrics) {
@@ -280,6 +321,9 @@ std::string metricsJson(const SessionMetrics& metrics) {
                                      {"bending_Nmm", broke.bending_Nmm},
                                      {"area_mm2", broke.area_mm2},
                                      {"complete", broke.is_complete}});
+  json["procedure"] = metrics.procedure ? procedureJson(*metrics.procedure) : nlohmann::ordered_json();
+  json["prediction"] = nullptr;
+  if (metrics.prediction) json["prediction"] = predictionJson(*metrics.prediction, endOfWork_s(metrics));
   json["soft_tissue"] = softTouchesJson(metrics.soft_touches);
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

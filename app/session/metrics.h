@@ -14,6 +14,7 @@
 #include "app/session/session_setup.h"
 #include "app/session/session_text.h"
 #include "app/session/soft_touches.h"
+#include "app/session/step_event.h"
 #include "app/session/touch_event.h"
 
 namespace app {
@@ -48,6 +49,8 @@ struct SessionMetrics {
   std::vector<MeasuredWay> measured;
   std::vector<BridgeBreak> bridge_breaks;          ///< undone ones too
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
+  std::optional<ProcedureRun> procedure;           ///< none: no procedure was followed
+  std::optional<Prediction> prediction;            ///< none: nothing was predicted
   SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 };

@@ -12,6 +12,9 @@ namespace app {
 /// A pause this long ends a touch, of hard or soft tissue; its time is that in contact.
 inline constexpr double kTouchPause_s = 0.25;
 
+/// Of a touch of the mandibular canal; of a tooth it is the tooth's name.
+inline constexpr char kCanalTouch[] = "mandibular canal";
+
 /// Kind of these events, and the text of the first.
 inline constexpr char kTouchEvent[] = "touch";
 inline constexpr char kTouchCounting[] = "touches are counted from here, a pause of 0.25 s ends one";

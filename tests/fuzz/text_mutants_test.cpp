@@ -7,6 +7,7 @@
 #include "app/device/pose_csv.h"
 #include "app/options/command_settings.h"
 #include "app/options/view_option.h"
+#include "app/procedure/steps/step_file.h"
 #include "app/psychophysics/protocol.h"
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
@@ -79,6 +80,11 @@ TEST(TextMutants, ProtocolToml) {
       "participant = \"P07\"\nmethod = \"2afc-constant\"\n[standard]\nlaw = \"agus\"\nstiffness_N_per_mm = "
       "0.8\n[comparison]\nlaw = \"agus\"\n[vary]\nparameter = \"stiffness_N_per_mm\"\nlevels = [0.6, 0.8, 1.0]\n",
       [](const std::string& text) { app::protocolFromToml(text, "protocol.toml"); });
+}
+
+TEST(TextMutants, ProcedureToml) {
+  judge<assets::LoadError>(app::shippedProcedureText("coronectomy"),
+                           [](const std::string& text) { app::stepPlanFromToml(text, "procedure.toml"); });
 }
 
 TEST(TextMutants, TouchesYaml) {

@@ -118,9 +118,9 @@ class ExtractionCommand : public ProgramTest {
     EXPECT_EQ(imported.status, 0) << imported.err;
     return at("patient");
   }
-  ProgramOutput rehearse(const Hand& hand, const std::string& session) const {
+  ProgramOutput rehearse(const Hand& hand, const std::string& session, const std::string& more = "") const {
     return molar("rehearse " + patient() + " --headless --pace fast --device poses:" + write("poses.csv", hand.rows) +
-                 " --tool round:1.2 --tool elevator:301 --tool forceps --record " + session);
+                 " --tool round:1.2 --tool elevator:301 --tool forceps --record " + session + more);
   }
   nlohmann::json metrics(const std::string& session) const {
     return nlohmann::json::parse(molar("metrics " + session + " --json").out);
@@ -281,6 +281,90 @@ TEST_F(ExtractionCommand, APieceThatWasTakenOutIsPutBackAndTakenOutAgain) {
   EXPECT_EQ(molar("replay " + again + " --verify").status, 0);
 }
 
+TEST_F(ExtractionCommand, ATeachersStepsAreFollowedCountedAndComparedWithWhatWasPredicted) {
+  Hand hand;
+  hand.be(0.0, {0.0, 0.0, 9.0}, false);
+  hand.be(0.4, {0.0, 0.0, 9.0}, false, 0.0, "", "step");
+  hand.takeOut(1.0);
+  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string own = write("own.toml", R"(title = "In one piece"
+[[step]]
+key = "flap"
+title = "Raise the flap"
+done_when = { given = "It is raised" }
+[[step]]
+key = "bone"
+title = "Take bone away"
+done_when = { bone_mm3 = 5000 }
+[[step]]
+key = "luxate"
+title = "Loosen the tooth"
+instruments = ["forceps"]
+done_when = { torn = 0.5 }
+errors = { wrong_instrument = true }
+[[step]]
+key = "deliver"
+title = "Take the tooth out"
+instruments = ["elevator"]
+done_when = { all_out = true }
+errors = { wrong_instrument = true }
+)");
+  const std::string session = at("s.molar");
+  const ProgramOutput said =
+      rehearse(hand, session, " --procedure " + own + " --guidance assessed --predict difficulty=easy,minutes=2");
+  ASSERT_EQ(said.status, 0) << said.err;
+  for (const char* const line :
+       {"  predicted        easy, 2 min; computed: not known; used: 0.1 min",
+        "  procedure        own, assessed: 2 met, 1 given, 1 skipped of 4 steps; one error",
+        "2 Take bone away: skipped after 0:00", "4 Take the tooth out: met after 0:0", "; other instrument used once"})
+    EXPECT_NE(said.out.find(line), std::string::npos) << line << "\n" << said.out;
+
+  const nlohmann::json measured = metrics(session);
+  const nlohmann::json& run = measured.at("procedure");
+  EXPECT_EQ(run.at("name"), "own");
+  EXPECT_EQ(run.at("guidance"), "assessed");
+  EXPECT_EQ(run.at("complete"), true);
+  ASSERT_EQ(run.at("steps").size(), 4u);
+  const char* const kStates[] = {"given", "skipped", "met", "met"};
+  double before_s = 0.0;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const nlohmann::json& step = run.at("steps")[n];
+    EXPECT_EQ(step.at("state"), kStates[n]) << n;
+    EXPECT_GE(step.at("begin_s").get<double>(), before_s - 2e-3);
+    before_s = step.at("begin_s").get<double>() + step.at("duration_s").get<double>();
+  }
+  EXPECT_NEAR(run.at("steps")[1].at("duration_s").get<double>(), 0.4, 0.05);
+  EXPECT_TRUE(run.at("steps")[2].at("errors").empty());
+  EXPECT_EQ(run.at("steps")[3].at("errors").at("other instrument used"), 1);
+  const nlohmann::json& predicted = measured.at("prediction");
+  EXPECT_EQ(predicted.at("difficulty"), "easy");
+  EXPECT_EQ(predicted.at("minutes"), 2.0);
+  EXPECT_TRUE(predicted.at("computed").is_null()) << "the block has no second molar";
+  EXPECT_NEAR(predicted.at("used_minutes").get<double>(), before_s / 60.0, 1e-3);
+  EXPECT_NE(molar("metrics " + session).out.find("procedure: own, assessed: 2 met"), std::string::npos);
+  EXPECT_EQ(molar("replay " + session + " --verify").status, 0);
+}
+
+TEST_F(ExtractionCommand, WrongStepsAndPredictionsAreRefusedInOneLine) {
+  const std::string own =
+      write("own.toml", "title = \"T\"\n[[step]]\nkey = \"a\"\ntitle = \"A\"\ndone_when = { piece = 2 }\n");
+  const auto refusal = [&](const std::string& options) {
+    const ProgramOutput said = molar("rehearse --headless --pace fast --device scripted " + options);
+    EXPECT_EQ(said.status, 2) << options;
+    EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
+    return said.err;
+  };
+  EXPECT_NE(refusal("--procedure " + own).find("own.toml: line 5: [step.1.done_when]: it says no rule"),
+            std::string::npos);
+  EXPECT_NE(refusal("--procedure " + at("none.toml")).find("none.toml"), std::string::npos);
+  EXPECT_NE(refusal("--procedure apicectomy").find("no such procedure, give one of third-molar, coronectomy"),
+            std::string::npos);
+  EXPECT_NE(refusal("--guidance guided").find("--procedure"), std::string::npos);
+  EXPECT_NE(refusal("--procedure coronectomy --guidance strict").find("free"), std::string::npos);
+  EXPECT_NE(refusal("--procedure coronectomy --predict difficulty=hard").find("easy, moderate, difficult"),
+            std::string::npos);
+}
+
 TEST_F(ExtractionCommand, AScriptedHandTakesAWisdomToothOutFromGutterToLastPiece) {
   const std::string session = at("shown.molar");
   const ProgramOutput shown = molar(
@@ -291,6 +375,14 @@ TEST_F(ExtractionCommand, AScriptedHandTakesAWisdomToothOutFromGutterToLastPiece
   const nlohmann::json measured = metrics(session);
   EXPECT_GE(measured.at("pieces_out"), 2.0);
   EXPECT_LT(measured.at("duration_s"), 300.0);
+  // It breaks no gate.
+  const nlohmann::json& run = measured.at("procedure");
+  EXPECT_EQ(run.at("name"), "third-molar");
+  EXPECT_EQ(run.at("complete"), true);
+  for (const nlohmann::json& step : run.at("steps")) {
+    EXPECT_TRUE(step.at("state") == "met" || step.at("state") == "given") << step;
+    EXPECT_TRUE(step.at("errors").empty()) << step;
+  }
   // Nothing else was touched or cut.
   EXPECT_EQ(shown.out.find("second molar"), std::string::npos) << shown.out;
   EXPECT_EQ(shown.out.find("canal"), std::string::npos) << shown.out;
@@ -299,9 +391,9 @@ TEST_F(ExtractionCommand, AScriptedHandTakesAWisdomToothOutFromGutterToLastPiece
 }
 
 TEST_F(ExtractionCommand, TheOperationIsRefusedWhereItCannotBeShown) {
-  const ProgramOutput mouse = molar("rehearse --headless --procedure third-molar --device poses:" + at("none.csv"));
-  EXPECT_EQ(mouse.status, 2);
-  EXPECT_NE(mouse.err.find("add --device scripted"), std::string::npos) << mouse.err;
+  const ProgramOutput own = molar("rehearse --headless --device scripted:third-molar");
+  EXPECT_EQ(own.status, 2);
+  EXPECT_NE(own.err.find("give --device scripted --procedure third-molar"), std::string::npos) << own.err;
   const ProgramOutput tray =
       molar("rehearse --headless --pace fast --device scripted --procedure third-molar --tool round:3.0 --record " +
             at("t.molar"));

@@ -1,0 +1,118 @@
+#include "app/rehearsal/step_follower.h"
+
+#include <fmt/core.h>
+
+#include "app/rehearsal/touches.h"
+#include "assets/tooth.h"
+
+namespace app {
+namespace {
+
+StepInstrument instrumentOf(const haptics::Tool& tool) {
+  return tool.isElevator() ? StepInstrument::elevator : tool.grips ? StepInstrument::forceps : StepInstrument::bur;
+}
+
+}  // namespace
+
+StepFollower::StepFollower(const RehearsalPlan& plan, const haptics::Bodies& bodies, EventLog& event_log)
+    : plan_(plan),
+      event_log_(event_log),
+      tracker_(plan.procedure_steps->plan),
+      prediction_(plan.procedure_steps->prediction) {
+  if (plan.patient.site) operated_ = assets::toothName(plan.patient.site->fdi);
+  if (tracker_.asksForBone() && plan.cut && plan.patient.site)
+    gutter_.emplace(plan.patient, plan.scanned_solid.empty() ? plan.patient.ct.solid : plan.scanned_solid, *plan.cut,
+                    bodies);
+}
+
+void StepFollower::start() {
+  event_log_.note(kStepEvent, procedureText(run()));
+  if (prediction_.isGiven()) event_log_.note(kPredictionEvent, predictionText(prediction_));
+}
+
+void StepFollower::predict(const std::string& difficulty, std::optional<double> minutes, double t_s) {
+  prediction_.difficulty = difficulty;
+  prediction_.minutes = minutes;
+  prediction_.at_s = t_s;
+  if (prediction_.isGiven()) event_log_.note(kPredictionEvent, predictionText(prediction_));
+}
+
+void StepFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
+                          std::optional<double> bridge_mm) {
+  StepFacts facts{instrumentOf(command.tool), command.irrigating, {}, {}, bridge_mm, {}};
+  if (gutter_ && gutter_->newest()) {
+    facts.gutter_removed = gutter_->newest()->gutter_removed;
+    facts.crown_bared = gutter_->newest()->crown_bared;
+  }
+  for (const haptics::Tick& tick : ticks) {
+    const bool cuts = tick.drilling && tick.depth_mm > 0.0;
+    facts.nerve_mm = cuts ? canalGap_mm(tick, command.tool.head, plan_.patient) : std::nullopt;
+    tracker_.follow(tick, facts);
+  }
+  tell();
+}
+
+void StepFollower::follow(const Touch& touch) {
+  if (touch.what == operated_) return;
+  tracker_.blame(touch.what == kCanalTouch ? StepError::canal : StepError::neighbour);
+  tell();
+}
+
+void StepFollower::followBone(std::span<const glm::ivec3> bricks, double t_s, bool waits) {
+  if (gutter_ && tracker_.asksForBone()) gutter_->follow(bricks, t_s, waits);
+}
+
+std::string StepFollower::skip() {
+  const auto step = tracker_.current();
+  if (!tracker_.skip()) return "there is no step to skip";
+  const std::string line = "skipped: " + tracker_.plan().steps[*step].title;
+  tell();
+  return line;
+}
+
+void StepFollower::finish() {
+  tracker_.finish();
+  tell();
+}
+
+void StepFollower::tell() {
+  for (const std::string& event : tracker_.takeEvents()) event_log_.note(kStepEvent, event);
+  std::string given;
+  for (const std::string& one : tracker_.takeGiven()) given += (given.empty() ? "" : "; ") + one;
+  if (tracker_.current() == told_) return;
+  told_ = tracker_.current();
+  if (plan_.procedure_steps->guidance != Guidance::guided) return;
+  const std::string next = told_ ? tracker_.plan().steps[*told_].instruction : "all steps have ended";
+  const std::string line = given.empty() || next.empty() ? given + next : given + ". " + next;
+  if (!line.empty()) news_.push_back(line);
+}
+
+std::string StepFollower::task() const {
+  if (plan_.procedure_steps->guidance != Guidance::guided) return "";
+  const StepPlan& plan = tracker_.plan();
+  const auto step = tracker_.current();
+  if (!step) return fmt::format("{} steps done: end with Esc", plan.steps.size());
+  const std::string missing = tracker_.missing();
+  return fmt::format("{}/{} {}{}", *step + 1, plan.steps.size(), plan.steps[*step].title,
+                     missing.empty() ? "" : ": " + missing);
+}
+
+std::optional<std::string> StepFollower::news() {
+  if (news_.empty()) return {};
+  std::string line = news_.front();
+  news_.pop_front();
+  return line;
+}
+
+bool StepFollower::showsGutter() const {
+  const auto step = tracker_.current();
+  return plan_.procedure_steps->guidance == Guidance::guided && step &&
+         tracker_.plan().steps[*step].region == StepRegion::gutter;
+}
+
+ProcedureRun StepFollower::run() const {
+  return {tracker_.plan().name, std::string(kGuidances[static_cast<std::size_t>(plan_.procedure_steps->guidance)]),
+          tracker_.records()};
+}
+
+}  // namespace app
