@@ -26,6 +26,10 @@ std::span<const Case> cases();
 
 std::vector<std::string> caseNames();
 
+/// For --opening, which any of them can have.
+inline constexpr const char* kOpeningHelp =
+    "Built-in patient: opening of the mouth, mm between the incisal edges; below 35 it is trismus [37]";
+
 /// nullptr: there is no case of that name.
 const Case* caseNamed(std::string_view name);
 

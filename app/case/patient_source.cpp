@@ -23,9 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string cacheName(const assets::JawParameters& p) {
-  return fmt::format("built-in-{}-{}-{:g}-{:g}-{:g}-{:g}-{}", assets::kSyntheticPatientRevision,
+  return fmt::format("built-in-{}-{}-{:g}-{:g}-{:g}-{:g}-{}-{:g}", assets::kSyntheticPatientRevision,
                      p.right_side ? "right" : "left", p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm,
-                     p.spacing_mm, p.seed);
+                     p.spacing_mm, p.seed, p.opening_mm);
 }
 
 /// Jaw and face are independent, and each has steps on one core, so they are made side by side. The shares are of
@@ -37,7 +37,7 @@ assets::Patient generate(const assets::JawParameters& parameters, const assets::
     if (report) report(kJawShare * jaw + kFaceShare * face);
   };
   std::future<assets::MeshModel> face_P = std::async(std::launch::async, [&] {
-    return assets::syntheticFace({.tooth_fdi = parameters.right_side ? 48 : 38},
+    return assets::syntheticFace({.tooth_fdi = parameters.right_side ? 48 : 38, .opening_mm = parameters.opening_mm},
                                  [&](double share) { face = share, tell(); });
   });
   assets::Patient patient = assets::syntheticJaw(parameters, [&](double share) { jaw = share, tell(); });

@@ -398,6 +398,7 @@ int run(RehearseOptions& options) {
 
   assets::JawParameters jaw = jawOf(options);
   if (former && former->setup.built_in) jaw = *former->setup.built_in;
+  if (options.opening_mm) jaw.opening_mm = *options.opening_mm;
   if (former && !former->setup.built_in && options.patient.empty())
     throw UsageError("--continue " + former->path +
                      ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +

@@ -47,7 +47,12 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .excludes(named);
   built_in("--voxel", options.jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
   built_in("--seed", options.jaw.seed, "number that varies its shape");
-  command.option("--face", options.face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
+  Option face = command.option("--face", options.face, "Face model, glTF; teeth.json beside it places the jaw")
+                    .valueNamed("FILE");
+  command.option("--opening", options.opening_mm, kOpeningHelp)
+      .from(assets::kLeastOpening_mm, assets::kMostOpening_mm)
+      .excludes(patient)
+      .excludes(face);
   command
       .option("--position", options.position,
               "seated, before the surgeon; or lying, approached from the right (10 o'clock), the left (2 o'clock) or "

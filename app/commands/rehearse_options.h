@@ -28,7 +28,7 @@ struct RehearseOptions {
   std::vector<std::string> settings;
   DisplayOption display;
   assets::JawParameters jaw;
-  std::optional<double> face_window_mm;
+  std::optional<double> face_window_mm, opening_mm;
   std::optional<std::string> position;
   std::optional<int> monitor;
   double loupes = 4.0;

@@ -41,6 +41,7 @@ struct SeeOptions {
   PictureOption picture;
   std::vector<double> tool_at_mm;
   std::string patient, case_name, out, depth, matrices;
+  double opening_mm = assets::kUsualOpening_mm;
   int samples = 2;
   bool bone_only = false, dry = false, panoramic = false, force = false;
 };
@@ -53,8 +54,10 @@ std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
 }
 
 assets::Patient patientOf(const SeeOptions& options) {
-  return options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
-                                 : assets::loadPatient(patientNamed(options.patient));
+  if (!options.patient.empty()) return assets::loadPatient(patientNamed(options.patient));
+  assets::JawParameters jaw = caseNamed(options.case_name)->jaw;
+  jaw.opening_mm = options.opening_mm;
+  return builtInPatient(jaw);
 }
 
 /// The patient's jaw unrolled along its arch.
@@ -160,9 +163,12 @@ void addSee(CommandLine& molar) {
   options->volume.addTo(command);
   Option patient = command.option("--patient", options->patient, "Patient folder, instead of --volume");
   patient.valueNamed("DIR");
-  command.option("--case", options->case_name, "The same of the built-in patient, see molar rehearse --cases")
-      .oneOf(caseNames())
-      .excludes(patient);
+  Option named =
+      command.option("--case", options->case_name, "The same of the built-in patient, see molar rehearse --cases");
+  named.oneOf(caseNames()).excludes(patient);
+  command.option("--opening", options->opening_mm, kOpeningHelp)
+      .from(assets::kLeastOpening_mm, assets::kMostOpening_mm)
+      .needs(named);
   options->view.addTo(command);
   options->picture.addTo(command);
   command.option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")

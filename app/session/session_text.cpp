@@ -63,10 +63,10 @@ SessionCalibration calibrationFrom(const json& object) {
 
 /// Visits each parameter with its key.
 void forEachParameter(auto& jaw, auto&& visit) {
-  auto& [right_side, winter_angle_deg, depth_mm, mandibular_canal_distance_mm, spacing_mm, seed] = jaw;
+  auto& [right_side, winter_angle_deg, depth_mm, mandibular_canal_distance_mm, spacing_mm, seed, opening_mm] = jaw;
   visit("right_side", right_side), visit("winter_angle_deg", winter_angle_deg), visit("depth_mm", depth_mm);
   visit("mandibular_canal_distance_mm", mandibular_canal_distance_mm), visit("spacing_mm", spacing_mm);
-  visit("seed", seed);
+  visit("seed", seed), visit("opening_mm", opening_mm);
 }
 
 /// Whether there is a handpiece is the device's, not the tray's.

@@ -20,9 +20,8 @@ double cloth(double body_mm, double under_mm, double thickness_mm, double folds_
 
 }  // namespace
 
-double depthUnderCap_mm(const dvec3& p) {
+double depthUnderCap_mm(const dvec3& k) {
   // From the middle of the forehead down in front of the ears to the nape, a little lower at the temples.
-  const dvec3 k = skullFromMandible(p);
   return (k.z + 0.80 * k.y - 88.0 + 0.0016 * k.x * k.x) / 1.28;
 }
 
@@ -32,13 +31,13 @@ double depthUnderDrape_mm(const dvec3& p) {
 }
 
 double cap_mm(const HeadShape& head, const dvec3& p) {
-  const dvec3 k = skullFromMandible(p);
+  const dvec3 k = head.opening().skullFromMandible(p);
   const dvec3 m(std::abs(k.x), k.y, k.z);
   double body = head.closed_mm(p);
   body = smoothMin(body, ellipsoid(m, {70, 82, 62}, {11, 19, 32}), 12.0);
   // Spare cloth at the crown, gathered toward the hem.
   body = smoothMin(body, ellipsoid(k, {0, 96, 122}, {74, 88, 78}), 20.0);
-  const double under = depthUnderCap_mm(p);
+  const double under = depthUnderCap_mm(k);
   const double around = std::atan2(k.x, k.y - 78.0 + 0.5 * k.z);
   const double fold = std::sin(around * 11.0 + 1.6 * std::sin(k.z * 0.05 + k.x * 0.03)) * 1.3 +
                       std::sin(around * 23.0 + 0.06 * k.z) * 0.5 + std::sin(k.z * 0.09 + k.x * 0.05) * 1.2;

@@ -7,8 +7,8 @@
 
 namespace assets {
 
-/// Distance of a point of the head behind the hem, positive under the cloth.
-double depthUnderCap_mm(const glm::dvec3& p);
+/// Distance of a point of the head behind the hem, positive under the cloth; that of the cap in the skull's frame.
+double depthUnderCap_mm(const glm::dvec3& p_K);
 double depthUnderDrape_mm(const glm::dvec3& p);
 
 double cap_mm(const HeadShape& head, const glm::dvec3& p);

@@ -64,7 +64,8 @@ MeshPart selected(const MeshPart& from, const std::vector<bool>& wanted) {
 void addFace(MeshModel& model, const HeadShape& head, const FaceColours& colours, double voxel_mm,
              const ReportProgress& report) {
   const auto visible = [&](const dvec3& p) {
-    const double hidden = std::max({depthUnderCap_mm(p) - kTucked_mm, depthUnderDrape_mm(p) - kTucked_mm, p.y - 112.0});
+    const double under_cap = depthUnderCap_mm(head.opening().skullFromMandible(p));
+    const double hidden = std::max({under_cap - kTucked_mm, depthUnderDrape_mm(p) - kTucked_mm, p.y - 112.0});
     return hidden > 25.0 ? hidden : std::max(head.distance_mm(p), hidden);
   };
   const MeshPart whole =
@@ -103,6 +104,9 @@ void requireInRange(const FaceParameters& parameters) {
   if (!(parameters.voxel_mm >= 0.6 && parameters.voxel_mm <= 3.0)) {
     throw LoadError("face: voxel size is outside 0.6..3 mm, give one inside");
   }
+  if (!(parameters.opening_mm >= kLeastOpening_mm && parameters.opening_mm <= kMostOpening_mm)) {
+    throw LoadError("face: opening of the mouth is outside 25..50 mm, give one inside");
+  }
 }
 
 }  // namespace
@@ -113,7 +117,7 @@ glm::dvec3 surgeonEyeDirection(int tooth_fdi) {
 
 MeshModel syntheticFace(const FaceParameters& parameters, const ReportProgress& report) {
   requireInRange(parameters);
-  const HeadShape head;
+  const HeadShape head{MouthOpening(parameters.opening_mm)};
   const FaceColours colours(head, parameters.seed);
 
   MeshModel model;
@@ -122,9 +126,9 @@ MeshModel syntheticFace(const FaceParameters& parameters, const ReportProgress& 
   rest(0.1);
   const auto tooth = [&](const dvec3& p, const dvec3& n) { return colours.tooth(p, n); };
   const Material enamel{glm::vec4(1.0f), 0.22f, 0.0f};
-  model.parts.push_back(
-      coloured(meshOf([](const dvec3& p) { return upperTeeth_mm(skullFromMandible(p)); }, kMouthBox, 0.7, 0.0),
-               "UpperTeeth", enamel, tooth));
+  model.parts.push_back(coloured(
+      meshOf([&](const dvec3& p) { return upperTeeth_mm(head.opening().skullFromMandible(p)); }, kMouthBox, 0.7, 0.0),
+      "UpperTeeth", enamel, tooth));
   model.parts.push_back(coloured(meshOf(lowerTeeth_mm, kMouthBox, 0.45, 0.0), "LowerTeeth", enamel, tooth));
   model.parts.push_back(coloured(meshOf(tongue_mm, kMouthBox, 1.0, 0.0), "Tongue", {glm::vec4(1.0f), 0.38f, 0.0f},
                                  [&](const dvec3& p, const dvec3& n) { return colours.tongue(p, n); }));

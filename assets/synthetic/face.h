@@ -9,11 +9,13 @@
 
 #include "assets/mesh.h"
 #include "assets/progress.h"
+#include "assets/synthetic/jaw.h"
 
 namespace assets {
 
 struct FaceParameters {
-  int tooth_fdi = 48;         ///< 48: right cheek retracted, 38: left
+  int tooth_fdi = 48;  ///< 48: right cheek retracted, 38: left
+  double opening_mm = kUsualOpening_mm;
   double voxel_mm = 1.1;      ///< of the face; teeth and tongue are finer
   std::uint32_t seed = 2026;  ///< of hairs and skin mottling
 };

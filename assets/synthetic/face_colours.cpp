@@ -43,13 +43,13 @@ double FaceColours::openness(const dvec3& p, const dvec3& n) const {
 }
 
 bool FaceColours::isWet(const dvec3& p) const {
-  const dvec3 k = skullFromMandible(p);
+  const dvec3 k = head_.opening().skullFromMandible(p);
   return k.z < 50.0 && k.z < 19.0 + 0.5 * (k.y + 16.0) && head_.closed_mm(p) < -3.2 &&
          head_.rim().lip(p).distance_mm > -2.5;
 }
 
 glm::vec3 FaceColours::head(const dvec3& p, const dvec3& n) const {
-  const dvec3 k = skullFromMandible(p);
+  const dvec3 k = head_.opening().skullFromMandible(p);
   const dvec3 m(std::abs(k.x), k.y, k.z);
   // Flushed cheeks, nose and chin, darker around the eyes, mottled.
   double flush = 0.55 * bump(m, {40, 4, 40}, {20, 22, 18}) + 0.7 * bump(m, {3, -26, 31}, {9, 9, 9}) +

@@ -17,7 +17,7 @@ using glm::dvec3;
 dvec3 rootAt(const HeadShape& head, double x_K, double z_K) {
   dvec3 k(x_K, -45.0, z_K);
   for (int step = 0; step < 120; ++step) {
-    const double d = head.closed_mm(mandibleFromSkull(k));
+    const double d = head.closed_mm(head.opening().mandibleFromSkull(k));
     if (d < 0.02) break;
     k.y += 0.75 * d;
   }
@@ -25,8 +25,8 @@ dvec3 rootAt(const HeadShape& head, double x_K, double z_K) {
 }
 
 // A hair from its root along `direction`, bending by `droop`, in the skull's frame.
-void addHair(MeshPart& part, const dvec3& root_K, const dvec3& direction, const dvec3& droop, double length,
-             double radius) {
+void addHair(MeshPart& part, const MouthOpening& opening, const dvec3& root_K, const dvec3& direction,
+             const dvec3& droop, double length, double radius) {
   constexpr int kRings = 4;
   constexpr int kSides = 3;
   const auto first = static_cast<std::uint32_t>(part.position_mm.size());
@@ -38,7 +38,8 @@ void addHair(MeshPart& part, const dvec3& root_K, const dvec3& direction, const 
     const double r = radius * (1.0 - 0.85 * t);
     for (int n = 0; n < kSides; ++n) {
       const double turn = 2.0 * calibration::kPi * n / kSides;
-      part.position_mm.emplace_back(mandibleFromSkull(centre + r * (std::cos(turn) * side + std::sin(turn) * other)));
+      part.position_mm.emplace_back(
+          opening.mandibleFromSkull(centre + r * (std::cos(turn) * side + std::sin(turn) * other)));
     }
   }
   for (int ring = 0; ring + 1 < kRings; ++ring) {
@@ -67,8 +68,8 @@ MeshPart facialHair(const HeadShape& head, std::uint32_t seed) {
       const double lie = smoothStep(-0.05, 0.55, u);
       const dvec3 direction = glm::normalize(
           dvec3(side * glm::mix(0.25, 0.95, lie), -0.20 + 0.25 * u, glm::mix(0.95, 0.18, lie) + between(-0.2, 0.2)));
-      addHair(part, root, direction, {side * 0.12, 0.08, -0.16}, between(3.6, 6.2) * (0.75 + 0.25 * lie),
-              between(0.07, 0.12));
+      addHair(part, head.opening(), root, direction, {side * 0.12, 0.08, -0.16},
+              between(3.6, 6.2) * (0.75 + 0.25 * lie), between(0.07, 0.12));
     }
     // Lashes fan out from the closed lid's edge.
     for (int n = 0; n < 64; ++n) {
@@ -76,7 +77,7 @@ MeshPart facialHair(const HeadShape& head, std::uint32_t seed) {
       const double x = 31.5 + 15.0 * across;
       const dvec3 root = rootAt(head, side * x, 69.6 - 4.6 * std::max(1.0 - across * across, -0.3));
       const dvec3 direction = glm::normalize(dvec3(side * (0.45 * across + 0.1), -0.75, -0.62));
-      addHair(part, root + dvec3(0, 0.3, 0), direction, {side * 0.1 * across, -0.12, 0.34},
+      addHair(part, head.opening(), root + dvec3(0, 0.3, 0), direction, {side * 0.1 * across, -0.12, 0.34},
               between(4.0, 6.5) * (0.8 + 0.25 * across), 0.13);
     }
   }

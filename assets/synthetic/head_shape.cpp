@@ -21,18 +21,19 @@ double skull(const dvec3& k, const dvec3& m) {
 }
 
 // Lower jaw with chin, body, angle and the muscle over it; `q` and `m` are |x| folded, mandible and skull.
-double lowerFace(const dvec3& q, const dvec3& m) {
+double lowerFace(const MouthOpening& opening, const dvec3& q, const dvec3& m) {
   double d = ellipsoid(q, {0, 9, -28}, {19, 18, 18});
   d = smoothMin(d, ellipsoid(q, {7, 3, -33}, {9, 10, 9}), 12.0);
   d = smoothMin(d, capsule(q, {12, 9, -29}, {41, 60, -27}, 15, 14), 14.0);
   d = smoothMin(d, capsule(q, {41, 60, -27}, {45, 78, -14}, 14, 12), 12.0);
   d = smoothMin(d, capsule(q, {26, 34, -10}, {37, 60, -6}, 17, 17), 16.0);
-  const dvec3 angle = skullFromMandible({46, 76, -12});
+  const auto in_skull = [&](const dvec3& p) { return opening.skullFromMandible(p); };
+  const dvec3 angle = in_skull({46, 76, -12});
   d = smoothMin(d, capsule(m, angle, {54, 60, 46}, 12, 9), 18.0);
   // Tissue between the jaws: lip muscle, cheek.
-  d = smoothMin(d, capsule(m, {0, 12, 14}, skullFromMandible({0, 12, -14}), 22, 18), 16.0);
-  d = smoothMin(d, capsule(m, {28, 22, 28}, skullFromMandible({24, 26, -14}), 19, 17), 16.0);
-  return smoothMin(d, capsule(m, {39, 36, 36}, skullFromMandible({38, 50, -10}), 18, 15), 20.0);
+  d = smoothMin(d, capsule(m, {0, 12, 14}, in_skull({0, 12, -14}), 22, 18), 16.0);
+  d = smoothMin(d, capsule(m, {28, 22, 28}, in_skull({24, 26, -14}), 19, 17), 16.0);
+  return smoothMin(d, capsule(m, {39, 36, 36}, in_skull({38, 50, -10}), 18, 15), 20.0);
 }
 
 double neck(const dvec3& k) {
@@ -82,29 +83,43 @@ double nose(double d, const dvec3& m) {
   return smoothMax(d, -ellipsoid(splayed, {0, 0, 0}, {3.0, 6.0, 5.2}), 2.0);
 }
 
+// From the lower jaw to the upper one: its upper end higher by so much, its lower end where it is.
+double stretched(const dvec3& p, const dvec3& centre, const dvec3& radii, double raised_mm) {
+  const dvec3 half(0.0, 0.0, 0.5 * raised_mm);
+  return ellipsoid(p, centre + half, radii + half);
+}
+
+// From front to back: lips, and the middles of the retracted cheek and the cavity.
+constexpr double kLips_mm = -14.0, kCheek_mm = 27.0, kCavity_mm = 34.0;
+
 }  // namespace
 
-HeadShape::HeadShape()
-    : rim_([this](double x, double z) {
-        // Sphere tracing from the front.
-        dvec3 p(x, -70.0, z);
-        for (int step = 0; step < 200; ++step) {
-          const double d = closed_mm(p);
-          if (d < 0.01) break;
-          p.y += 0.7 * d;
-        }
-        return p.y;
-      }) {}
+HeadShape::HeadShape(const MouthOpening& opening)
+    : opening_(opening),
+      cheek_raised_mm_(opening.raised_mm(kCheek_mm)),
+      cavity_raised_mm_(opening.raised_mm(kCavity_mm)),
+      rim_(
+          [this](double x, double z) {
+            // Sphere tracing from the front.
+            dvec3 p(x, -70.0, z);
+            for (int step = 0; step < 200; ++step) {
+              const double d = closed_mm(p);
+              if (d < 0.01) break;
+              p.y += 0.7 * d;
+            }
+            return p.y;
+          },
+          opening.raised_mm(kLips_mm)) {}
 
 double HeadShape::closed_mm(const dvec3& p) const {
-  const dvec3 k = skullFromMandible(p);
+  const dvec3 k = opening_.skullFromMandible(p);
   // Mirrored at the midline, rounded against a crease.
   const double folded = std::sqrt(p.x * p.x + 2.0);
   const dvec3 m(folded, k.y, k.z);
   const dvec3 q(folded, p.y, p.z);
-  double d = smoothMin(skull(k, m), lowerFace(q, m), 16.0);
+  double d = smoothMin(skull(k, m), lowerFace(opening_, q, m), 16.0);
   // The retracted cheek.
-  d = smoothMin(d, ellipsoid(p, {36, 27, 15}, {21, 24, 24}), 16.0);
+  d = smoothMin(d, stretched(p, {36, 27, 15}, {21, 24, 24}, cheek_raised_mm_), 16.0);
   d = smoothMin(d, neck(k), 22.0);
   if (k.y < 60.0 && k.z > 10.0) d = nose(eyes(d, m), m);
   // Chin fold, naso-labial fold, philtrum.
@@ -115,9 +130,9 @@ double HeadShape::closed_mm(const dvec3& p) const {
 }
 
 double HeadShape::cavity_mm(const dvec3& p) const {
-  const dvec3 k = skullFromMandible(p);
-  double c = ellipsoid(p, {0, 34, 13}, {34, 40, 30});
-  c = smoothMin(c, ellipsoid(p, {31, 35, 6}, {16.5, 36, 20}), 8.0);
+  const dvec3 k = opening_.skullFromMandible(p);
+  double c = stretched(p, {0, 34, 13}, {34, 40, 30}, cavity_raised_mm_);
+  c = smoothMin(c, stretched(p, {31, 35, 6}, {16.5, 36, 20}, cavity_raised_mm_), 8.0);
   c = smoothMin(c, ellipsoid(k, {0, 10, 7}, {26, 16, 11}), 8.0);
   c = smoothMin(c, ellipsoid(p, {0, 70, 2}, {18, 22, 24}), 10.0);
   return c;
@@ -132,7 +147,7 @@ double HeadShape::distance_mm(const dvec3& p) const {
   const double opening = behind > 22.0 ? 1e3 : rim_.opening_mm(p.x, p.z);
   const double hole = behind > 22.0 ? behind : std::max(opening, behind);
   d = smoothMax(d, -smoothMin(hole, cavity_mm(p), 4.0), 4.0);
-  d = smoothMin(d, std::min(upperGingiva_mm(skullFromMandible(p)), lowerGingiva_mm(p)), 3.0);
+  d = smoothMin(d, std::min(upperGingiva_mm(opening_.skullFromMandible(p)), lowerGingiva_mm(p)), 3.0);
   if (std::abs(opening) < 24.0) d = smoothMin(d, rim_.lip(p).distance_mm, 7.0);
   return smoothMax(d, -jawSegmentSpace_mm(p), 3.0);
 }

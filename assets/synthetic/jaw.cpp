@@ -35,6 +35,8 @@ void validate(const JawParameters& p) {
   require(within(p.mandibular_canal_distance_mm, 0.0, 6.0), "canal distance in mm", p.mandibular_canal_distance_mm,
           "0 to 6");
   require(within(p.spacing_mm, 0.15, 1.0), "voxel size in mm", p.spacing_mm, "0.15 to 1");
+  require(within(p.opening_mm, kLeastOpening_mm, kMostOpening_mm), "opening of the mouth in mm", p.opening_mm,
+          "25 to 50");
 }
 
 std::string_view winterClass(double angle_deg) {

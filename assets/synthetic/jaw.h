@@ -14,6 +14,11 @@ namespace assets {
 /// Part of the cache name; to be incremented with any change of the generated jaw, gingiva or face.
 inline constexpr int kSyntheticPatientRevision = 16;
 
+/// Between the incisal edges with the mouth open. Healthy adults reach 35 to 50 mm (Gray's Anatomy); less than 35 mm is
+/// trismus (Dijkstra 2006, Int. J. Oral Maxillofac. Surg. 35:337). The least is our own choice: the scripted handpiece
+/// then brushes the lip.
+inline constexpr double kUsualOpening_mm = 37.0, kLeastOpening_mm = 25.0, kMostOpening_mm = 50.0;
+
 struct JawParameters {
   bool right_side = true;
   /// -79..100: below -10 disto-angular, to 10 vertical, from 11 mesio-angular, from 80 horizontal.
@@ -22,6 +27,7 @@ struct JawParameters {
   double mandibular_canal_distance_mm = 1.0;  ///< 0..6: third molar to the canal's lumen, nearest points
   double spacing_mm = 0.25;                   ///< 0.15..1: edge of a voxel
   std::uint64_t seed = 1;                     ///< of noise, trabeculae and irregularities of the bone
+  double opening_mm = kUsualOpening_mm;       ///< kLeastOpening_mm..kMostOpening_mm: of the mouth; the face's alone
 };
 
 /// Throws LoadError: a parameter out of range, or an impossible combination.

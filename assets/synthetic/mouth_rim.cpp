@@ -15,6 +15,8 @@ struct Knot {
   double inward_mm;  ///< how far the lip's centre lies behind the skin
 };
 
+constexpr double kLowerLip_mm = -5.2, kUpperLip_mm = 40.4;  // z on the midline
+
 constexpr double kRounding_mm = 1e-6;  // far more than the rounding of any distance here
 
 // Clockwise seen from the operated side's front: upper lip, retracted corner, lower lip, free corner.
@@ -27,7 +29,7 @@ constexpr std::array<Knot, 20> kKnots = {
 
 }  // namespace
 
-MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
+MouthRim::MouthRim(const std::function<double(double, double)>& depth_at, double raised_mm) {
   // Catmull-Rom through the knots.
   constexpr std::size_t kPerSpan = kPoints / kKnots.size();
   std::array<double, kPoints> inward_mm{};
@@ -37,7 +39,8 @@ MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
     const auto value = [&](auto member) {
       return catmullRom(knot(0).*member, knot(1).*member, knot(2).*member, knot(3).*member, t);
     };
-    edge_[n] = {value(&Knot::x_mm), value(&Knot::z_mm)};
+    const double z_mm = value(&Knot::z_mm);
+    edge_[n] = {value(&Knot::x_mm), z_mm + raised_mm * (z_mm - kLowerLip_mm) / (kUpperLip_mm - kLowerLip_mm)};
     radius_mm_[n] = value(&Knot::lip_mm);
     inward_mm[n] = value(&Knot::inward_mm);
   }

@@ -1,6 +1,6 @@
 // Rim of the open mouth: a closed curve through the lips' inner edge, retracted on the operated side. Frame of the
-// synthetic face (face_frames.h), mm. Immutable; any thread; about 0.1 us a query. Interincisal opening 37 mm,
-// commissure retracted by about 20 mm; shape is our own modelling.
+// synthetic face (face_frames.h), mm. Immutable; any thread; about 0.1 us a query. For an opening of
+// 37 mm between the incisal edges, commissure retracted by about 20 mm; shape is our own modelling.
 #pragma once
 
 #include <array>
@@ -14,8 +14,9 @@ class MouthRim {
  public:
   static constexpr std::size_t kPoints = 120;
 
-  /// `depth_at(x, z)`: y of the skin of the closed face.
-  explicit MouthRim(const std::function<double(double x_mm, double z_mm)>& depth_at);
+  /// `depth_at(x, z)`: y of the skin of the closed face. `raised_mm`: by how much the upper lip stands higher than with
+  /// the usual opening; the lower lip stays, the corners are between.
+  MouthRim(const std::function<double(double x_mm, double z_mm)>& depth_at, double raised_mm);
 
   struct LipPoint {
     double distance_mm = 0.0;  ///< to the lip, a tube along the rim; negative inside

@@ -160,6 +160,7 @@ TEST(SessionSetup, IsStoredWithTheSession) {
   jaw.right_side = false;
   jaw.depth_mm = 5.25;
   jaw.seed = 1234567890123;
+  jaw.opening_mm = 28.5;
   start.setup.built_in = jaw;
   start.setup.tray = {{{haptics::ShapeKind::sphere, 1.5, 0.0}, {0.9, 25.0}},
                       {{haptics::ShapeKind::capsule, 0.8, 4.125}, {0.5, 20.0}}};
@@ -171,6 +172,7 @@ TEST(SessionSetup, IsStoredWithTheSession) {
   EXPECT_FALSE(stored.setup.built_in->right_side);
   EXPECT_EQ(stored.setup.built_in->depth_mm, 5.25);
   EXPECT_EQ(stored.setup.built_in->seed, jaw.seed);
+  EXPECT_EQ(stored.setup.built_in->opening_mm, 28.5);
   EXPECT_EQ(stored.setup.tray, start.setup.tray);
   ASSERT_TRUE(stored.setup.former);
   EXPECT_EQ(stored.setup.former->file, "2026-11-19-tooth-48.molar");

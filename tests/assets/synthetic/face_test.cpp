@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 
 #include "assets/load_error.h"
 #include "assets/synthetic/dental_arch.h"
+#include "assets/synthetic/face_frames.h"
 #include "assets/synthetic/mandible_shape.h"
 #include "assets/synthetic/mouth_interior.h"
 
@@ -140,6 +142,72 @@ TEST(Face, IsOpenByThirtyFiveToFortyMillimetres) {
   EXPECT_LE(upper - lower, 40.0);
 }
 
+/// The left face with the mouth open so far.
+const MeshModel& faceOpenedBy(double opening_mm) {
+  static std::map<double, MeshModel> made;
+  const auto [at, is_new] = made.try_emplace(opening_mm);
+  if (is_new) at->second = syntheticFace({.tooth_fdi = 38, .opening_mm = opening_mm, .voxel_mm = kCoarse_mm});
+  return at->second;
+}
+
+TEST(Face, IsOpenAsFarAsAsked) {
+  for (const double opening_mm : {kLeastOpening_mm, 30.0, 35.0, kMostOpening_mm}) {
+    double lower = -1e9, upper = 1e9;
+    for (const MeshPart& part : faceOpenedBy(opening_mm).parts)
+      for (const glm::vec3& p : part.position_mm) {
+        if (std::abs(p.x) > 4.0f) continue;
+        if (part.name == "LowerTeeth") lower = std::max<double>(lower, p.z);
+        if (part.name == "UpperTeeth") upper = std::min<double>(upper, p.z);
+      }
+    EXPECT_NEAR(upper - lower, opening_mm, 0.7);
+  }
+}
+
+TEST(Face, LeavesALessOpenMouthANarrowerWayToTheThirdMolar) {
+  // Directions within 30 degrees of the best line of sight that meet nothing on the way out.
+  const glm::dvec3 to_eye = surgeonEyeDirection(38);
+  const glm::dvec3 across = glm::normalize(glm::cross(to_eye, glm::dvec3(0, 0, 1))), up = glm::cross(across, to_eye);
+  const auto free_ways = [&](double opening_mm) {
+    int ways = 0;
+    for (int i = -5; i <= 5; ++i)
+      for (int j = -5; j <= 5; ++j) {
+        const glm::dvec3 way = glm::normalize(to_eye + 0.115 * (double(i) * across + double(j) * up));
+        ways += std::isinf(firstHit_mm(faceOpenedBy(opening_mm), kThirdMolar38_mm + 6.0 * to_eye, way)) ? 1 : 0;
+      }
+    return ways;
+  };
+  const int narrow = free_ways(kLeastOpening_mm), usual = free_ways(kUsualOpening_mm),
+            wide = free_ways(kMostOpening_mm);
+  EXPECT_LT(narrow, 0.9 * usual);
+  EXPECT_GT(wide, 1.15 * usual);
+  EXPECT_GT(narrow, 5);
+}
+
+TEST(Face, KeepsOutOfTheSpaceOfTheScannedJawHoweverFarItIsOpen) {
+  for (const double opening_mm : {kLeastOpening_mm, kMostOpening_mm})
+    for (const MeshPart& part : faceOpenedBy(opening_mm).parts)
+      for (const glm::vec3& p : part.position_mm) {
+        if (part.name == "UpperTeeth") continue;
+        ASSERT_GT(jawSegmentSpace_mm(glm::dvec3(p)), -1.5) << part.name << " at " << opening_mm << " mm";
+      }
+}
+
+TEST(MouthOpening, TurnsTheSkullAboutTheHingeThatGlides) {
+  const MouthOpening usual, narrow(kLeastOpening_mm), wide(kMostOpening_mm);
+  for (const MouthOpening* opening : {&usual, &narrow, &wide}) {
+    const glm::dvec3 p(11.0, 23.0, -7.0), there = opening->mandibleFromSkull(opening->skullFromMandible(p));
+    EXPECT_NEAR(glm::distance(p, there), 0.0, 1e-12);
+  }
+  // 22 degrees and a glide of (0, -10, -4) mm at 37 mm: the upper incisal edge by hand.
+  const glm::dvec3 edge = usual.mandibleFromSkull({0.0, -3.0, -0.7});
+  EXPECT_NEAR(edge.y, -3.85, 0.01);
+  EXPECT_NEAR(edge.z, 36.90, 0.01);
+  EXPECT_EQ(usual.raised_mm(-14.0), 0.0);
+  EXPECT_NEAR(wide.raised_mm(-3.0), 13.0, 0.3);
+  EXPECT_LT(narrow.raised_mm(-3.0), -11.0);
+  EXPECT_LT(wide.raised_mm(40.0), 0.7 * wide.raised_mm(-3.0)) << "less at the molars";
+}
+
 TEST(Face, IsTheMirrorImageOnTheOtherSide) {
   const MeshModel right = syntheticFace({.tooth_fdi = 48, .voxel_mm = kCoarse_mm});
   ASSERT_EQ(right.parts.size(), leftFace().parts.size());
@@ -156,6 +224,8 @@ TEST(Face, IsTheMirrorImageOnTheOtherSide) {
 
 TEST(Face, RefusesOtherTeethThanLowerThirdMolars) {
   EXPECT_THROW(syntheticFace({.tooth_fdi = 18}), LoadError);
+  EXPECT_THROW(syntheticFace({.opening_mm = 24.9}), LoadError);
+  EXPECT_THROW(syntheticFace({.opening_mm = 50.1}), LoadError);
   EXPECT_THROW(syntheticFace({.voxel_mm = 0.0}), LoadError);
   EXPECT_THROW(syntheticFace({.voxel_mm = std::nan("")}), LoadError);
 }

@@ -293,6 +293,7 @@ TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
   EXPECT_NE(message_of({.depth_mm = -4.0}).find("depth"), std::string::npos);
   EXPECT_NE(message_of({.mandibular_canal_distance_mm = -0.1}).find("canal distance"), std::string::npos);
   EXPECT_NE(message_of({.spacing_mm = std::nan("")}).find("voxel size"), std::string::npos);
+  EXPECT_NE(message_of({.opening_mm = 80.0}).find("opening of the mouth"), std::string::npos);
   EXPECT_NE(
       message_of({.winter_angle_deg = 0.0, .depth_mm = 8.0, .mandibular_canal_distance_mm = 6.0}).find("does not fit"),
       std::string::npos);

@@ -10,7 +10,8 @@ namespace {
 
 /// A rim on a face like a barrel.
 const MouthRim& rim() {
-  static const MouthRim made([](double x_mm, double z_mm) { return -20.0 + 0.01 * x_mm * x_mm + 0.002 * z_mm * z_mm; });
+  static const MouthRim made([](double x_mm, double z_mm) { return -20.0 + 0.01 * x_mm * x_mm + 0.002 * z_mm * z_mm; },
+                             0.0);
   return made;
 }
 
