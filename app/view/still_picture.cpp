@@ -55,8 +55,8 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // A new member does not compile until it is compared; quality and display are not the scene's, field
   // and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, shaft, angle, gap, ruler, slices, tool, shades, handpiece, X_PO, second, pieces, window,
-                                site, field, marks] = a;
+                                length, shaft, angle, gap, ruler, slices, tool, shades, handpiece, X_PO, second, pieces,
+                                window, site, field, marks] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
       a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
     return false;
