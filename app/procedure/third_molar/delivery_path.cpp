@@ -13,6 +13,7 @@ namespace {
 constexpr double kOver_mm = 16.0;  ///< the piece, before it is gripped
 constexpr double kTravel_mm_per_s = 60.0, kDown_mm_per_s = 15.0, kOut_mm_per_s = 12.0, kTurn_rad_per_s = 0.8;
 constexpr double kSwing_Hz = 0.8, kFirstSwing_rad = 0.2, kLastSwing_rad = 0.45, kPull_mm = 1.5;
+constexpr double kTwist_rad = 1.0, kTwist_Hz = 0.5, kTwists = 2.0;
 constexpr double kBeyond_mm = 10.0;  ///< the end of the way out
 constexpr double kStill_s = 0.3;
 
@@ -78,6 +79,22 @@ haptics::LedPath joined(const haptics::LedPath& first, const haptics::LedPath& s
             return t_s < from_s ? first(t_s) : second(t_s - from_s);
           },
           from_s + second.duration_s};
+}
+
+haptics::LedPath twistInSlot(const HandPose& from, const glm::dvec3& outside_P_mm, const SplitStep& step) {
+  const glm::dquat R_PT = glm::quat_cast(glm::dmat3(step.along_P, glm::cross(step.out_P, step.along_P), step.out_P));
+  const HandPose in_slot{R_PT, step.tip_P_mm}, over{R_PT, step.tip_P_mm + kOver_mm * step.out_P};
+  Keys down(over);
+  down.moveTo(in_slot, kDown_mm_per_s);
+  down.hold(kStill_s);
+  const auto twisted = [=](double t_s) {
+    const double twist_rad = kTwist_rad * std::sin(2.0 * calibration::kPi * kTwist_Hz * t_s);
+    return targetAt({R_PT * glm::angleAxis(twist_rad, glm::dvec3(0.0, 0.0, 1.0)), step.tip_P_mm}, false);
+  };
+  Keys up(in_slot);
+  up.moveTo(over, kTravel_mm_per_s);
+  return joined(joined(throughOutside(from, over, outside_P_mm), down.path()),
+                joined({twisted, kTwists / kTwist_Hz}, up.path()));
 }
 
 haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_mm, const DeliveryStep& step,

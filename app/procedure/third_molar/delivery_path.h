@@ -1,6 +1,6 @@
-// How a scripted hand takes a piece of tooth out with forceps: down to the grip, rocking until the ligament is torn,
-// then along the way out and beyond. Frame P is the device's frame D; handle and tool coincide. mm, s. Pure functions;
-// speeds and swings are our defaults.
+// How a scripted hand breaks a bridge with an elevator, twisted to and fro in the slot; and takes a piece of tooth out
+// with forceps: down to the grip, rocking until the ligament is torn, then along the way out and beyond. Frame P is the
+// device's frame D; handle and tool coincide. mm, s. Pure functions; speeds and swings are our defaults.
 #pragma once
 
 #include "app/procedure/third_molar/operation_planner.h"
@@ -15,6 +15,9 @@ haptics::LedPath throughOutside(const HandPose& from, const HandPose& to, const 
 
 /// One after the other.
 haptics::LedPath joined(const haptics::LedPath& first, const haptics::LedPath& second);
+
+/// From `from` to over the slot, down, twisted, and up again.
+haptics::LedPath twistInSlot(const HandPose& from, const glm::dvec3& outside_P_mm, const SplitStep& step);
 
 /// From `from` to over the piece, down, closed, and rocked with growing swings for `kRocks_s`.
 haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_mm, const DeliveryStep& step,

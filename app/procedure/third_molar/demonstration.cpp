@@ -14,6 +14,7 @@ namespace {
 constexpr double kLeastBur_mm = 0.7, kMostBur_mm = 1.3;          ///< radius, of the one that parts the tooth
 constexpr double kLeastHalf_mm = 3.0;                            ///< of its head's length
 constexpr double kSettles_s = 0.6;                               ///< after a step, before it is looked at
+constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
 constexpr double kGutter_mm_per_s = 16.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
 constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
@@ -45,7 +46,7 @@ HandPose startOf(const haptics::LedPath& path) {
 OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
   OperationTray found;
   const auto bur = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
-    return !tool.grips && tool.head.kind == haptics::ShapeKind::capsule && tool.head.radius_mm >= kLeastBur_mm &&
+    return !tool.luxates() && tool.head.kind == haptics::ShapeKind::capsule && tool.head.radius_mm >= kLeastBur_mm &&
            tool.head.radius_mm <= kMostBur_mm && haptics::halfHeight_mm(tool.head) >= kLeastHalf_mm;
   });
   const auto forceps = std::ranges::find_if(tray, [](const haptics::Tool& tool) { return tool.grips; });
@@ -56,6 +57,10 @@ OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
         "forceps; add --tool capsule:1.05,8 --tool forceps");
   found.bur = static_cast<std::size_t>(bur - tray.begin());
   found.forceps = static_cast<std::size_t>(forceps - tray.begin());
+  const auto elevator = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
+    return tool.elevator == haptics::ElevatorKind::straight_301 || tool.elevator == haptics::ElevatorKind::straight_34s;
+  });
+  if (elevator != tray.end()) found.elevator = static_cast<std::size_t>(elevator - tray.begin());
   return found;
 }
 
@@ -65,7 +70,7 @@ Demonstration::Demonstration(const assets::Patient& patient, const assets::Plann
     : bodies_(bodies),
       hand_(hand),
       tray_(operationTray(tray)),
-      planner_(patient, tray[tray_.bur].head.radius_mm),
+      planner_(patient, tray[tray_.bur].head.radius_mm, tray_.elevator.has_value()),
       tools_(tray),
       outside_P_mm_(outsideOf(gutter)),
       forceps_R_PT_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
@@ -87,7 +92,8 @@ void Demonstration::fail(const Frame& frame, const std::string& why) {
 
 /// What keeps the hand from its work; empty: nothing.
 std::string Demonstration::interruption(const Frame& frame) const {
-  const bool works = phase_ == Phase::cutting || phase_ == Phase::gripping || phase_ == Phase::taking_out;
+  const bool works = phase_ == Phase::cutting || phase_ == Phase::splitting || phase_ == Phase::gripping ||
+                     phase_ == Phase::taking_out;
   if (!works || !frame.is_applied || frame.newest.dt_s == 0.0) return {};
   if (!(frame.in_hand == tools_[wanted_])) return "another tool was taken";
   if (phase_ == Phase::cutting && !frame.drill_enabled) return "the drill was locked";
@@ -101,7 +107,9 @@ std::optional<ControlRequest> Demonstration::startStep(const Frame& frame) {
     fail(frame, end->why_not);
     return {};
   }
-  wanted_ = std::holds_alternative<CutStep>(step_.what) ? tray_.bur : tray_.forceps;
+  wanted_ = std::holds_alternative<CutStep>(step_.what)     ? tray_.bur
+            : std::holds_alternative<SplitStep>(step_.what) ? *tray_.elevator
+                                                            : tray_.forceps;
   enter(Phase::changing_tool, frame);
   if (frame.in_hand == tools_[wanted_]) return {};
   return ControlRequest{Control::tool, static_cast<int>(wanted_)};
@@ -115,11 +123,19 @@ void Demonstration::work(const Frame& frame) {
     const haptics::LedPath path = cutPath(step->cut, tools_[tray_.bur], kCut_mm_per_s);
     lead(joined(throughOutside(hand, startOf(path), outside_P_mm_), path));
     enter(Phase::cutting, frame);
+  } else if (const SplitStep* const split = std::get_if<SplitStep>(&step_.what); split && frame.is_ready_to_grip) {
+    // Without a bridge that may break the bur goes on.
+    if (frame.newest.bridge == haptics::BreakAnswer::armed) {
+      lead(twistInSlot(hand, outside_P_mm_, *split));
+      enter(Phase::splitting, frame);
+    } else if (frame.newest.t_s - since_s_ >= kBridgeWait_s) {
+      enter(Phase::settling, frame);
+    }
   } else if (frame.is_ready_to_grip) {
     lead(gripAndRock(hand, outside_P_mm_, std::get<DeliveryStep>(step_.what), forceps_R_PT_));
     enter(Phase::gripping, frame);
   } else if (frame.newest.t_s - since_s_ >= kLongestWait_s) {
-    fail(frame, "the pieces were not made ready for forceps");
+    fail(frame, "the pieces were not made ready");
   }
 }
 
@@ -136,6 +152,7 @@ std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
   if (const std::string why = interruption(frame); !why.empty()) fail(frame, why);
   switch (phase_) {
     case Phase::cutting:
+    case Phase::splitting:
     case Phase::taking_out:
       if (hand_.hasArrived()) enter(Phase::settling, frame);
       return {};

@@ -18,9 +18,11 @@
 
 namespace app {
 
-/// Bur for section and clearing, and forceps, by their place in the tray. Throws UsageError where one is missing.
+/// Bur for section and clearing, elevator and forceps, by their place in the tray. Throws UsageError where bur or
+/// forceps are missing.
 struct OperationTray {
   std::size_t bur = 0, forceps = 0;
+  std::optional<std::size_t> elevator;  ///< straight; none: the bur goes through
 };
 OperationTray operationTray(const std::vector<haptics::Tool>& tray);
 
@@ -35,7 +37,7 @@ class Demonstration {
     haptics::Tool in_hand;          ///< of the newest command
     bool drill_enabled = true;      ///< of the same
     bool is_applied = false;        ///< the newest command is in force in `newest`
-    bool is_ready_to_grip = false;  ///< the pieces are ready for forceps
+    bool is_ready_to_grip = false;  ///< the pieces are ready for elevator and forceps
     bool waits = false;             ///< for a servo that is stepped
   };
   /// What the hand asks for with its other hand or foot: a tool.
@@ -48,7 +50,7 @@ class Demonstration {
   const std::string& failure() const { return failure_; }
 
  private:
-  enum class Phase { cutting, settling, planning, changing_tool, gripping, taking_out, over };
+  enum class Phase { cutting, settling, planning, changing_tool, splitting, gripping, taking_out, over };
 
   void fail(const Frame& frame, const std::string& why);
   std::string interruption(const Frame& frame) const;

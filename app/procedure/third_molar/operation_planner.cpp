@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
 constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
 constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
-constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
+constexpr double kParted = 0.75;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
 constexpr double kTried_mm3 = 6.0;     ///< with no more in its way than this, a piece is pulled at before more is cut
 constexpr double kSamePiece_mm = 2.0;  ///< that its middle may have moved
@@ -26,6 +26,28 @@ constexpr double kGripped_mm = 2.0;    ///< radius between the beaks
 constexpr int kGripStep = 2;           ///< voxels from place to place that is looked at
 
 bool isSolid(std::uint8_t solid) { return solid >= assets::kHalfSolid; }
+
+/// Along the deepest of its strokes, the longest of those.
+std::optional<SplitStep> slotOf(const assets::PlannedCut& cut) {
+  constexpr double kAlike_mm = 0.3;
+  const glm::dvec3 out = glm::normalize(cut.outward_P);
+  std::optional<SplitStep> slot;
+  double deepest_mm = 1e9, longest_mm = 0.0;
+  for (const auto& stroke : cut.strokes_P_mm)
+    for (std::size_t n = 0; n + 1 < stroke.size(); ++n) {
+      const glm::dvec3 middle = 0.5 * (stroke[n] + stroke[n + 1]);
+      glm::dvec3 along = stroke[n + 1] - stroke[n];
+      along -= glm::dot(along, out) * out;
+      const double height_mm = glm::dot(middle, out), length_mm = glm::length(along);
+      const bool is_deeper = height_mm < deepest_mm - kAlike_mm;
+      if (length_mm < kAlike_mm || (!is_deeper && (height_mm > deepest_mm + kAlike_mm || length_mm <= longest_mm)))
+        continue;
+      deepest_mm = std::min(deepest_mm, height_mm);
+      longest_mm = length_mm;
+      slot = SplitStep{middle, along / length_mm, out};
+    }
+  return slot;
+}
 
 /// Of the places in a piece at which the beaks do not meet bone, the one with the most of it between them; the higher
 /// the better. Where there is none, its highest place.
@@ -86,8 +108,8 @@ BodiesCopy copyOf(const haptics::Bodies& bodies, const haptics::Tick& newest) {
   return copy;
 }
 
-OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_radius_mm)
-    : bur_radius_mm_(bur_radius_mm), up_(wayUp(patient)) {
+OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator)
+    : bur_radius_mm_(bur_radius_mm), with_elevator_(with_elevator), up_(wayUp(patient)) {
   now_.ct = patient.ct;
   now_.site = patient.site;
   now_.mandibular_canal_P_mm = patient.mandibular_canal_P_mm;
@@ -160,11 +182,14 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   if (whole_mm3_ == 0.0) whole_mm3_ = tooth.pieces()[0].volume_mm3;
   const bool is_parted = tooth.pieces()[0].volume_mm3 < kParted * whole_mm3_;
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
+  if (const auto slot = std::exchange(slot_, std::nullopt); slot && !is_parted)
+    return {*slot, "break what holds it with an elevator in the slot"};
   if (!is_parted && is_whole && sections_ >= kOvershoot_mm.size())
     return {EndStep{"it did not come apart"}, "the tooth stays whole"};
   if (!is_parted && sections_ < kOvershoot_mm.size()) {
     auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
     if (!cut) return {EndStep{"no bur reaches through it"}, "the tooth stays whole"};
+    if (with_elevator_) slot_ = slotOf(*cut);
     return cutStep(std::move(*cut), "part the tooth");
   }
 

@@ -1,7 +1,7 @@
 // What a scripted hand does next to remove an impacted lower third molar, from how bone and tooth are now: part the
-// tooth, take away the bone in a piece's way, or take a piece out. It sees what the surgeon would see at best: the
-// solid that is left, and the labels of the scan. Frame P, mm. Any thread, one at a time; some seconds a step;
-// allocates. The same bytes give the same step.
+// tooth, break what still holds it, take away the bone in a piece's way, or take a piece out. It sees what the surgeon
+// would see at best: the solid that is left, and the labels of the scan. Frame P, mm. Any thread, one at a time; some
+// seconds a step; allocates. The same bytes give the same step.
 #pragma once
 
 #include <array>
@@ -34,6 +34,13 @@ struct CutStep {
   assets::PlannedCut cut;
 };
 
+/// An elevator twisted in the slot that the last section left, which breaks a bridge (haptics/body/bridge_strength).
+struct SplitStep {
+  glm::dvec3 tip_P_mm{0.0};           ///< of the blade, over the slot's floor
+  glm::dvec3 along_P{1.0, 0.0, 0.0};  ///< unit, along the slot: the blade's width
+  glm::dvec3 out_P{0.0, 0.0, 1.0};    ///< unit, square to it: the shaft
+};
+
 struct DeliveryStep {
   std::size_t piece = 0;                      ///< of the bodies
   std::vector<haptics::PiecePose> path_X_PQ;  ///< from where it lies to outside
@@ -47,15 +54,15 @@ struct EndStep {
 };
 
 struct OperationStep {
-  std::variant<CutStep, DeliveryStep, EndStep> what;
+  std::variant<CutStep, SplitStep, DeliveryStep, EndStep> what;
   std::string words;  ///< for people, "part the tooth"
 };
 
 class OperationPlanner {
  public:
   /// The patient as scanned, with an operated lower third molar of its own. `bur_radius_mm`: of a round one, for
-  /// section and clearing.
-  OperationPlanner(const assets::Patient& patient, double bur_radius_mm);
+  /// section and clearing. `with_elevator`: a section is twisted open before it is cut deeper.
+  OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator = false);
 
   /// `first_voxel`: of the pieces' grid in the jaw's. Every call is a step: it counts what was tried.
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
@@ -67,6 +74,8 @@ class OperationPlanner {
 
   assets::Patient now_;  ///< its solid is what is left
   double bur_radius_mm_;
+  bool with_elevator_;
+  std::optional<SplitStep> slot_;  ///< of the last section, not twisted in yet
   WayUp up_;
   double whole_mm3_ = 0.0;  ///< of the tooth before it was parted; 0: not looked at yet
   std::size_t sections_ = 0;
