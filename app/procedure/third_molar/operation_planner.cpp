@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
 constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
 constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
-constexpr double kParted = 0.75;  ///< of the whole tooth: its largest piece when it is parted
+constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
 constexpr double kTried_mm3 = 6.0;     ///< with no more in its way than this, a piece is pulled at before more is cut
 constexpr double kSamePiece_mm = 2.0;  ///< that its middle may have moved
@@ -182,10 +182,12 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   if (whole_mm3_ == 0.0) whole_mm3_ = tooth.pieces()[0].volume_mm3;
   const bool is_parted = tooth.pieces()[0].volume_mm3 < kParted * whole_mm3_;
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
-  if (const auto slot = std::exchange(slot_, std::nullopt); slot && !is_parted)
-    return {*slot, "break what holds it with an elevator in the slot"};
-  if (!is_parted && is_whole && sections_ >= kOvershoot_mm.size())
+  if (!is_parted && is_whole && sections_ >= kOvershoot_mm.size()) {
+    // Where no bur may go. A break before leaves pieces that are harder to deliver than those of the planned slot.
+    if (const auto slot = std::exchange(slot_, std::nullopt))
+      return {*slot, "break what holds it with an elevator in the slot"};
     return {EndStep{"it did not come apart"}, "the tooth stays whole"};
+  }
   if (!is_parted && sections_ < kOvershoot_mm.size()) {
     auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
     if (!cut) return {EndStep{"no bur reaches through it"}, "the tooth stays whole"};

@@ -61,7 +61,7 @@ struct OperationStep {
 class OperationPlanner {
  public:
   /// The patient as scanned, with an operated lower third molar of its own. `bur_radius_mm`: of a round one, for
-  /// section and clearing. `with_elevator`: a section is twisted open before it is cut deeper.
+  /// section and clearing. `with_elevator`: what no bur may cut is twisted apart.
   OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator = false);
 
   /// `first_voxel`: of the pieces' grid in the jaw's. Every call is a step: it counts what was tried.

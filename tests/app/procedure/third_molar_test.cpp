@@ -247,6 +247,34 @@ TEST(OperationPlanner, GivesUpOnAToothThatStaysWhole) {
   EXPECT_EQ(cuts, 4);
 }
 
+TEST(OperationPlanner, TwistsTheLastSlotOpenWhereTheBurDidNotPartTheTooth) {
+  const Operation operation{phantom(3.0)};
+  const assets::VolumeGrid& grid = operation.patient.ct.grid;
+  OperationPlanner planner(operation.patient, kBur_mm, true);
+  assets::PlannedCut cut;
+  for (int section = 0; section < 4; ++section) {
+    const OperationStep step = planner.next(operation.copy(), grid, glm::ivec3(0));
+    ASSERT_TRUE(std::holds_alternative<CutStep>(step.what)) << step.words;
+    cut = std::get<CutStep>(step.what).cut;
+  }
+  const OperationStep next = planner.next(operation.copy(), grid, glm::ivec3(0));
+  const SplitStep* const split = std::get_if<SplitStep>(&next.what);
+  ASSERT_NE(split, nullptr) << next.words;
+  EXPECT_NEAR(glm::length(split->along_P), 1.0, 1e-9);
+  EXPECT_NEAR(glm::dot(split->along_P, split->out_P), 0.0, 1e-9);
+  // Where the bur was, over the slot's floor.
+  double nearest_mm = 1e9, deepest_mm = 1e9;
+  for (const auto& stroke : cut.strokes_P_mm)
+    for (std::size_t n = 0; n + 1 < stroke.size(); ++n) {
+      nearest_mm = std::min(nearest_mm, glm::distance(split->tip_P_mm, 0.5 * (stroke[n] + stroke[n + 1])));
+      deepest_mm = std::min(deepest_mm, glm::dot(stroke[n], split->out_P));
+    }
+  EXPECT_LT(nearest_mm, 1e-9);
+  EXPECT_LT(glm::dot(split->tip_P_mm, split->out_P) - deepest_mm, 1.5);
+  EXPECT_TRUE(std::holds_alternative<EndStep>(planner.next(operation.copy(), grid, glm::ivec3(0)).what))
+      << "it stayed whole";
+}
+
 TEST(OperationPlanner, TakesAwayWhatBlocksAPieceBeforeItIsGripped) {
   Operation operation{phantom(8.0)};
   assets::CtVolume& ct = operation.patient.ct;
@@ -343,6 +371,10 @@ TEST(Demonstration, NeedsALongBurAndForceps) {
   EXPECT_THROW(operationTray({ball, stub, haptics::forcepsTool()}), UsageError);
   EXPECT_THROW(operationTray({ball, bur}), UsageError);
   EXPECT_EQ(operationTray({ball, bur, haptics::forcepsTool()}).forceps, 2U);
+  EXPECT_FALSE(operationTray({ball, bur, haptics::forcepsTool()}).elevator);
+  const haptics::Tool cryer = haptics::elevatorTool(haptics::ElevatorKind::cryer_left),
+                      straight = haptics::elevatorTool(haptics::ElevatorKind::straight_301);
+  EXPECT_EQ(operationTray({ball, bur, cryer, straight, haptics::forcepsTool()}).elevator, 3U);
 }
 
 TEST(DeliveryPath, LeadsTheToolAsThePieceGoesAndOpensAtTheEnd) {
@@ -363,6 +395,30 @@ TEST(DeliveryPath, LeadsTheToolAsThePieceGoesAndOpensAtTheEnd) {
     fastest_mm_per_s = std::max(
         fastest_mm_per_s, glm::distance(path.script(t_s).position_mm, path.script(t_s + 0.001).position_mm) / 0.001);
   EXPECT_LT(fastest_mm_per_s, 30.0);
+}
+
+TEST(DeliveryPath, TwistsAnElevatorToBothSidesInTheSlot) {
+  SplitStep step;
+  step.tip_P_mm = {1.0, 2.0, 3.0};
+  step.along_P = {0.0, 1.0, 0.0};
+  const haptics::LedPath path = twistInSlot({{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 30.0}}, {0.0, 0.0, 60.0}, step);
+  const glm::dquat straight = path.script(path.duration_s).rotation;
+  EXPECT_LT(glm::distance(straight * glm::dvec3(1.0, 0.0, 0.0), step.along_P), 1e-9) << "the blade's width";
+  EXPECT_LT(glm::distance(straight * glm::dvec3(0.0, 0.0, 1.0), step.out_P), 1e-9) << "the shaft";
+  EXPECT_GT(path.script(path.duration_s).position_mm.z, 15.0) << "up again";
+  double least_rad = 0.0, most_rad = 0.0;
+  for (double t_s = 0.0; t_s < path.duration_s; t_s += 0.01) {
+    const haptics::HandTarget target = path.script(t_s);
+    EXPECT_FALSE(target.pedal);
+    if (glm::distance(target.position_mm, step.tip_P_mm) > 1e-6) continue;
+    const glm::dquat turn = glm::conjugate(straight) * target.rotation;
+    EXPECT_LT(std::hypot(turn.x, turn.y), 1e-9) << "about the shaft";
+    const double twist_rad = 2.0 * std::atan2(turn.z, turn.w);
+    least_rad = std::min(least_rad, twist_rad);
+    most_rad = std::max(most_rad, twist_rad);
+  }
+  EXPECT_NEAR(most_rad, 1.0, 0.01);
+  EXPECT_NEAR(least_rad, -1.0, 0.01);
 }
 
 TEST(DeliveryPath, GripsBeforeItRocksAndRocksToBothSides) {
