@@ -76,6 +76,29 @@ glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, c
   return most > -1e9 ? best_P_mm : highest_P_mm;
 }
 
+/// Pieces that touch, as along a break, stay pieces: a voxel's gap between them.
+void partBodies(const BodiesCopy& bodies, const assets::VolumeGrid& grid, std::vector<std::uint8_t>& solid) {
+  const auto holder = [&](std::size_t v) {
+    std::size_t most = 0;
+    for (std::size_t n = 1; n < bodies.piece.size(); ++n) {
+      const auto here = [&](std::size_t piece) { return bodies.piece[piece].empty() ? 0 : bodies.piece[piece][v]; };
+      if (here(n) > here(most)) most = n;
+    }
+    return most;
+  };
+  std::vector<std::size_t> between;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (!isSolid(solid[v])) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::ivec3 next = ijk;
+      if (++next[axis] >= grid.size[axis]) continue;
+      const std::size_t beside = grid.index(next);
+      if (isSolid(solid[beside]) && holder(beside) != holder(v)) between.push_back(v);
+    }
+  });
+  for (const std::size_t v : between) solid[v] = 0;
+}
+
 /// The nearest voxel counts.
 std::vector<std::uint8_t> whereItLies(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& at_rest,
                                       const haptics::PiecePose& X_PQ) {
@@ -166,6 +189,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
     std::uint8_t& here = now_.ct.solid[now_.ct.grid.index(ijk + first_voxel)];
     here = static_cast<std::uint8_t>(std::min(here + sum, 255));
   });
+  partBodies(bodies, piece_grid, tooth_solid);
   const haptics::Components tooth(piece_grid, tooth_solid);
   const auto pieces = static_cast<std::size_t>(std::ranges::count_if(
       tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastPiece_mm3; }));

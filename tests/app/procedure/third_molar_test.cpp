@@ -247,6 +247,21 @@ TEST(OperationPlanner, GivesUpOnAToothThatStaysWhole) {
   EXPECT_EQ(cuts, 4);
 }
 
+TEST(OperationPlanner, TakesPiecesThatTouchAlongABreakForPieces) {
+  const Operation operation{phantom(-6.5)};
+  const assets::VolumeGrid& grid = operation.patient.ct.grid;
+  OperationPlanner planner(operation.patient, kBur_mm, true);
+  ASSERT_TRUE(std::holds_alternative<CutStep>(planner.next(operation.copy(), grid, glm::ivec3(0)).what));
+  BodiesCopy halves = operation.copy();
+  halves.piece[1].assign(halves.piece[0].size(), 0);
+  const double middle_y_mm = operation.patient.site->centre_P_mm.y;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (grid.centre_P_mm(ijk).y > middle_y_mm) std::swap(halves.piece[0][v], halves.piece[1][v]);
+  });
+  const OperationStep next = planner.next(halves, grid, glm::ivec3(0));
+  EXPECT_TRUE(std::holds_alternative<DeliveryStep>(next.what)) << next.words;
+}
+
 TEST(OperationPlanner, TwistsTheLastSlotOpenWhereTheBurDidNotPartTheTooth) {
   const Operation operation{phantom(3.0)};
   const assets::VolumeGrid& grid = operation.patient.ct.grid;
