@@ -338,7 +338,8 @@ int run(RehearseOptions& options) {
   if (isShown(options)) {
     // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
     static const RehearseOptions kAsked;
-    if (options.tools == kAsked.tools) options.tools = {options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps"};
+    if (options.tools == kAsked.tools)
+      options.tools = {options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps"};
   }
   std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
