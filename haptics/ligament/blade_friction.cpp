@@ -19,30 +19,30 @@ std::size_t regionOf(const glm::dvec3& p_T_mm, bool on_piece) noexcept {
 }  // namespace
 
 /// Of the spring now, and the normal that held as the tick began.
-glm::dvec3 BladeFriction::stretch_P_mm(std::size_t n, const ToolPose& X_PT0, const PiecePose& X_PQ0,
+glm::dvec3 BladeFriction::stretch_P_mm(std::size_t n, const ToolPose& start_X_PT, const PiecePose& start_X_PQ,
                                        const ToolPose& X_PT, const PiecePose& X_PQ, glm::dvec3& out_P) const noexcept {
   const Region& r = region[n];
   const Point<Tool> at_T{r.at_T_mm};
-  const Point<Patient> then = X_PT0 * at_T;
+  const Point<Patient> then = start_X_PT * at_T;
   if (!isAgainstPiece(n)) {
     out_P = r.out;
     return r.stretched_mm + acrossOf((X_PT * at_T).mm - then.mm, out_P);
   }
-  out_P = X_PQ0.rotation * r.out;
-  const glm::dvec3 carried_mm = (X_PQ * (X_PQ0.inverse() * then)).mm;
-  return X_PQ0.rotation * r.stretched_mm + acrossOf((X_PT * at_T).mm - carried_mm, out_P);
+  out_P = start_X_PQ.rotation * r.out;
+  const glm::dvec3 carried_mm = (X_PQ * (start_X_PQ.inverse() * then)).mm;
+  return start_X_PQ.rotation * r.stretched_mm + acrossOf((X_PT * at_T).mm - carried_mm, out_P);
 }
 
-double BladeFriction::add(const ElevatorLaw& law, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
-                          const PiecePose& X_PQ, const glm::dvec3& middle_T_mm, const glm::dvec3& centre_Q_mm,
-                          PairBalance& balance) const noexcept {
+double BladeFriction::add(const ElevatorLaw& law, const ToolPose& start_X_PT, const PiecePose& start_X_PQ,
+                          const ToolPose& X_PT, const PiecePose& X_PQ, const glm::dvec3& middle_T_mm,
+                          const glm::dvec3& centre_Q_mm, PairBalance& balance) const noexcept {
   double stored_Nmm = 0.0;
   const glm::dvec3 middle_P_mm = (X_PT * Point<Tool>{middle_T_mm}).mm;
   const glm::dvec3 centre_P_mm = (X_PQ * Point<Piece>{centre_Q_mm}).mm;
   for (std::size_t n = 0; n < kRegions; ++n) {
     if (region[n].normal_N == 0.0 || law.friction == 0.0) continue;
     glm::dvec3 out;
-    const glm::dvec3 stretch_mm = stretch_P_mm(n, X_PT0, X_PQ0, X_PT, X_PQ, out);
+    const glm::dvec3 stretch_mm = stretch_P_mm(n, start_X_PT, start_X_PQ, X_PT, X_PQ, out);
     const double length_mm = glm::length(stretch_mm), most_N = law.friction * region[n].normal_N;
     const bool sticks = law.stick_N_per_mm * length_mm <= most_N;
     const glm::dvec3 any = std::fabs(out.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
@@ -61,8 +61,9 @@ double BladeFriction::add(const ElevatorLaw& law, const ToolPose& X_PT0, const P
   return stored_Nmm;
 }
 
-void BladeFriction::slide(const ElevatorLaw& law, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
-                          const PiecePose& X_PQ, std::span<const BladeContact> pressing) noexcept {
+void BladeFriction::slide(const ElevatorLaw& law, const ToolPose& start_X_PT, const PiecePose& start_X_PQ,
+                          const ToolPose& X_PT, const PiecePose& X_PQ,
+                          std::span<const BladeContact> pressing) noexcept {
   std::array<Region, kRegions> next{};
   const calibration::Pose<Tool, Patient> X_TP = X_PT.inverse();
   for (const BladeContact& contact : pressing) {
@@ -84,7 +85,7 @@ void BladeFriction::slide(const ElevatorLaw& law, const ToolPose& X_PT0, const P
     r.normal_N = size;
     glm::dvec3 out_P = r.out / size, then_out, stretch_P_mm_now(0.0);
     if (region[n].normal_N > 0.0)
-      stretch_P_mm_now = acrossOf(stretch_P_mm(n, X_PT0, X_PQ0, X_PT, X_PQ, then_out), out_P);
+      stretch_P_mm_now = acrossOf(stretch_P_mm(n, start_X_PT, start_X_PQ, X_PT, X_PQ, then_out), out_P);
     const double length_mm = glm::length(stretch_P_mm_now), most_mm = law.friction * r.normal_N / law.stick_N_per_mm;
     if (length_mm > most_mm) stretch_P_mm_now *= most_mm / length_mm;
     if (isAgainstPiece(n)) {

@@ -26,16 +26,16 @@ struct BladeFriction {
 
   static bool isAgainstPiece(std::size_t n) { return n >= kRegions / 2; }
 
-  /// Since a tick began at X_PT0, X_PQ0. Returns the energy in the springs.
-  double add(const ElevatorLaw& law, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
+  /// Since a tick began at start_X_PT, start_X_PQ. Returns the energy in the springs.
+  double add(const ElevatorLaw& law, const ToolPose& start_X_PT, const PiecePose& start_X_PQ, const ToolPose& X_PT,
              const PiecePose& X_PQ, const glm::dvec3& middle_T_mm, const glm::dvec3& centre_Q_mm,
              PairBalance& balance) const noexcept;
   /// As the tick ends.
-  void slide(const ElevatorLaw& law, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
+  void slide(const ElevatorLaw& law, const ToolPose& start_X_PT, const PiecePose& start_X_PQ, const ToolPose& X_PT,
              const PiecePose& X_PQ, std::span<const BladeContact> pressing) noexcept;
 
  private:
-  glm::dvec3 stretch_P_mm(std::size_t n, const ToolPose& X_PT0, const PiecePose& X_PQ0, const ToolPose& X_PT,
+  glm::dvec3 stretch_P_mm(std::size_t n, const ToolPose& start_X_PT, const PiecePose& start_X_PQ, const ToolPose& X_PT,
                           const PiecePose& X_PQ, glm::dvec3& out_P) const noexcept;
 };
 
