@@ -94,10 +94,10 @@ void JawStress::measure(const Plane& plane, std::span<const std::uint8_t> solid)
 }
 
 void JawStress::update(const haptics::Tick& newest) {
-  now_MPa_.reset();
+  now_N_per_mm2_.reset();
   if (newest.lever.on_bone_N < kPresses_N || modulus_mm3_ <= 0.0) return;
-  now_MPa_ = newest.lever.on_bone_N * kLever_mm / modulus_mm3_;
-  most_MPa_ = std::max(most_MPa_, *now_MPa_);
+  now_N_per_mm2_ = newest.lever.on_bone_N * kLever_mm / modulus_mm3_;
+  most_N_per_mm2_ = std::max(most_N_per_mm2_, *now_N_per_mm2_);
 }
 
 }  // namespace app

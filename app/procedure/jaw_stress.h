@@ -23,7 +23,7 @@ double sectionModulus_mm3(const assets::VolumeGrid& grid, std::span<const std::u
 
 class JawStress {
  public:
-  static constexpr double kLever_mm = 30.0, kHigh_MPa = 30.0, kDangerous_MPa = 60.0;
+  static constexpr double kLever_mm = 30.0, kHigh_N_per_mm2 = 30.0, kDangerous_N_per_mm2 = 60.0;
 
   /// Borrows the patient.
   explicit JawStress(const assets::Patient& patient);
@@ -35,9 +35,9 @@ class JawStress {
     update(newest);
   }
   /// None: no elevator presses on bone, or there is no arch to know the jaw's direction by.
-  std::optional<double> now_MPa() const { return now_MPa_; }
+  std::optional<double> now_N_per_mm2() const { return now_N_per_mm2_; }
   /// Since the start.
-  double most_MPa() const { return most_MPa_; }
+  double most_N_per_mm2() const { return most_N_per_mm2_; }
 
  private:
   struct Plane {
@@ -52,8 +52,8 @@ class JawStress {
   std::vector<glm::dvec2> arch_P_mm_;
   double modulus_mm3_ = 0.0, measured_s_ = -1.0;
   glm::dvec3 measured_P_mm_{0.0};
-  std::optional<double> now_MPa_;
-  double most_MPa_ = 0.0;
+  std::optional<double> now_N_per_mm2_;
+  double most_N_per_mm2_ = 0.0;
 };
 
 }  // namespace app

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSaid_s = 2.0, kReading_s_per_letter = 0.06;
 constexpr double kTurning_rpm = 200.0;
-constexpr double kMostTwist_Nm = 2.0;  // where the coupling ends (haptics/ligament/elevator_hold)
+constexpr double kMostTwist_Nmm = 2000.0;  // where the coupling ends (haptics/ligament/elevator_hold)
 
 /// "40,000 rpm" in steps of 500, "drill off", "drill locked".
 std::string driveText(double rpm, bool enabled) {
@@ -48,8 +48,8 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.force_N = glm::length(tick.commanded_force_P_N.xyz);
   content.force_share = content.force_N / std::max(0.1, command.safety.peak_force_N);
   if (command.tool.isElevator()) {
-    content.torque_Nm = std::abs(tick.lever.twist_Nmm) / 1000.0;
-    content.torque_share = *content.torque_Nm / kMostTwist_Nm;
+    content.torque_Nmm = std::abs(tick.lever.twist_Nmm);
+    content.torque_share = *content.torque_Nmm / kMostTwist_Nmm;
   }
   content.gap_mm = values.gap_mm;
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;

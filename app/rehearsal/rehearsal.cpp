@@ -297,7 +297,7 @@ class Rehearsal {
   HeadUp::Values headUpValues() const {
     Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                                       monitor_.recordingEnded());
-    situation.jaw_MPa = jaw_stress_.now_MPa();
+    situation.jaw_N_per_mm2 = jaw_stress_.now_N_per_mm2();
     return {situation, frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt, task(), rulerText(frame_.ruler),
             sites_->isReady()};
   }
@@ -332,8 +332,8 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.tooth = tooth_->ending();
     figures.luxation = luxation_.summary();
-    if (jaw_stress_.most_MPa() > 0.0)
-      figures.luxation += fmt::format(", jaw stressed to {:.0f} MPa (model)", jaw_stress_.most_MPa());
+    if (jaw_stress_.most_N_per_mm2() > 0.0)
+      figures.luxation += fmt::format(", jaw stressed to {:.0f} MPa (model)", jaw_stress_.most_N_per_mm2());
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();

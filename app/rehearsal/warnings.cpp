@@ -69,13 +69,15 @@ Words leveredOnTeeth(const Situation& s) {
 }
 
 Words jawAtRisk(const Situation& s) {
-  if (!s.jaw_MPa || *s.jaw_MPa < JawStress::kDangerous_MPa) return {};
-  return fmt::format("Jaw at risk, {:.0f} MPa: less force", *s.jaw_MPa);
+  if (!s.jaw_N_per_mm2 || *s.jaw_N_per_mm2 < JawStress::kDangerous_N_per_mm2) return {};
+  return fmt::format("Jaw at risk, {:.0f} MPa: less force", *s.jaw_N_per_mm2);
 }
 
 Words jawStressed(const Situation& s) {
-  if (!s.jaw_MPa || *s.jaw_MPa < JawStress::kHigh_MPa || *s.jaw_MPa >= JawStress::kDangerous_MPa) return {};
-  return fmt::format("Jaw stressed, {:.0f} MPa", *s.jaw_MPa);
+  if (!s.jaw_N_per_mm2 || *s.jaw_N_per_mm2 < JawStress::kHigh_N_per_mm2 ||
+      *s.jaw_N_per_mm2 >= JawStress::kDangerous_N_per_mm2)
+    return {};
+  return fmt::format("Jaw stressed, {:.0f} MPa", *s.jaw_N_per_mm2);
 }
 
 Words dry(const Situation& s) {

@@ -140,11 +140,11 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
               to.text(on ? "water on" : "water off", {1.3 * text, 0.5 * size.y}, text, on ? kBlueWater : kDim,
                       Align::left, true);
             });
-    const double of_limit = c.torque_Nm ? c.torque_share : c.force_share;
+    const double of_limit = c.torque_Nmm ? c.torque_share : c.force_share;
     const int steps = static_cast<int>(std::lround(kForceSteps * std::clamp(of_limit, 0.0, 1.0)));
-    const double number_width = c.torque_Nm ? 5.9 : 4.3;
+    const double number_width = c.torque_Nmm ? 5.9 : 4.3;
     const std::string newtons =
-        c.torque_Nm ? fmt::format("{:.2f} N m", *c.torque_Nm) : fmt::format("{:.1f} N", c.force_N);
+        c.torque_Nmm ? fmt::format("{:.2f} N m", *c.torque_Nmm / 1000.0) : fmt::format("{:.1f} N", c.force_N);
     in_line(Cells::force, fmt::format("{} {}", steps, newtons), [=](const Drawing& to, const glm::dvec2& size) {
       const double share = static_cast<double>(steps) / kForceSteps, bar = size.x - number_width * text;
       const glm::dvec2 corner{0.5 * text, 0.5 * size.y - 0.3 * text};

@@ -31,7 +31,7 @@ struct HeadUpContent {
   bool turning = false;                     ///< the bur
   bool irrigating = true;                   ///< water on
   double force_N = 0.0, force_share = 0.0;  ///< share of the device's limit
-  std::optional<double> torque_Nm;          ///< of an elevator, of the model: shown instead of the force
+  std::optional<double> torque_Nmm;         ///< of an elevator, of the model: shown instead of the force
   double torque_share = 0.0;                ///< of what an elevator turns with at most
   std::optional<double> gap_mm;             ///< of the bur to bone or tooth; none: too far to show
   std::string ruler;                        ///< "ruler 7.3 mm"; empty: none

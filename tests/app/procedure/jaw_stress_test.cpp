@@ -53,27 +53,27 @@ TEST(JawStress, IsForceTimesLeverOverWhatIsLeft) {
   std::vector<std::uint8_t> solid = bar.patient.ct.solid;
   const auto jaw = [&] { return solid; };
   stress.follow(tick, jaw);
-  EXPECT_FALSE(stress.now_MPa());
+  EXPECT_FALSE(stress.now_N_per_mm2());
   tick.lever.on_bone_N = 200.0;
   stress.follow(tick, jaw);
-  ASSERT_TRUE(stress.now_MPa());
-  const double whole_MPa = *stress.now_MPa();
-  EXPECT_NEAR(whole_MPa, 200.0 * 30.0 / 638.0, 0.2);
+  ASSERT_TRUE(stress.now_N_per_mm2());
+  const double whole_N_per_mm2 = *stress.now_N_per_mm2();
+  EXPECT_NEAR(whole_N_per_mm2, 200.0 * 30.0 / 638.0, 0.2);
   // Half the height is drilled away: measured again elsewhere, or some seconds later.
   assets::forVoxels(bar.patient.ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
     if (bar.patient.ct.grid.centre_P_mm(ijk).z > -12.1) solid[v] = 0;
   });
   tick.t_s = 1.0;
   stress.follow(tick, jaw);
-  EXPECT_EQ(*stress.now_MPa(), whole_MPa);
+  EXPECT_EQ(*stress.now_N_per_mm2(), whole_N_per_mm2);
   tick.lever.fulcrum_P_mm = {0.0, 3.0, 0.0};
   stress.follow(tick, jaw);
   // 12.5 x 12 mm are left.
-  EXPECT_NEAR(*stress.now_MPa(), 200.0 * 30.0 / 300.0, 0.5);
+  EXPECT_NEAR(*stress.now_N_per_mm2(), 200.0 * 30.0 / 300.0, 0.5);
   tick.lever.on_bone_N = 0.0;
   stress.follow(tick, jaw);
-  EXPECT_FALSE(stress.now_MPa());
-  EXPECT_NEAR(stress.most_MPa(), 20.0, 0.5);
+  EXPECT_FALSE(stress.now_N_per_mm2());
+  EXPECT_NEAR(stress.most_N_per_mm2(), 20.0, 0.5);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(HeadUp, ShowsWhatTheForcepsDoWhereADrillHasItsSpeed) {
 
 TEST(HeadUp, ShowsTheTorqueOfAnElevatorInsteadOfTheForce) {
   Picture picture;
-  EXPECT_FALSE(picture.at(milliseconds(0)).torque_Nm);
+  EXPECT_FALSE(picture.at(milliseconds(0)).torque_Nmm);
   picture.command.tool = haptics::elevatorTool(haptics::ElevatorKind::straight_301);
   EXPECT_EQ(picture.at(milliseconds(0)).drive, "not ready");
   picture.ready = true;
@@ -46,7 +46,7 @@ TEST(HeadUp, ShowsTheTorqueOfAnElevatorInsteadOfTheForce) {
   picture.tick.torn_share = 0.42;
   const HeadUpContent shown = picture.at(milliseconds(0));
   EXPECT_EQ(shown.drive, "torn 42 %");
-  EXPECT_EQ(shown.torque_Nm, 0.5);
+  EXPECT_EQ(shown.torque_Nmm, 500.0);
   EXPECT_EQ(shown.torque_share, 0.25);
 }
 

@@ -17,7 +17,7 @@ struct Scene {
   haptics::Command command;
   assets::Patient patient;
   bool has_motors = false, recording_ended = false;
-  std::optional<double> jaw_MPa;
+  std::optional<double> jaw_N_per_mm2;
   Warnings warnings;
 
   Scene() {
@@ -30,7 +30,7 @@ struct Scene {
   }
   std::vector<HeadUpWarning> shown() {
     Situation situation = situationOf(tick, command, patient, has_motors, recording_ended);
-    situation.jaw_MPa = jaw_MPa;
+    situation.jaw_N_per_mm2 = jaw_N_per_mm2;
     return warnings.update(situation);
   }
   std::string first() {
@@ -82,11 +82,11 @@ TEST(Warnings, AnElevatorThatRestsOnANeighbour) {
 
 TEST(Warnings, AJawThatAnElevatorBends) {
   Scene scene;
-  scene.jaw_MPa = 29.0;
+  scene.jaw_N_per_mm2 = 29.0;
   EXPECT_EQ(scene.first(), "");
-  scene.jaw_MPa = 34.4;
+  scene.jaw_N_per_mm2 = 34.4;
   EXPECT_EQ(scene.first(), "Jaw stressed, 34 MPa");
-  scene.jaw_MPa = 72.0;
+  scene.jaw_N_per_mm2 = 72.0;
   EXPECT_EQ(scene.first(), "Jaw at risk, 72 MPa: less force");
 }
 
