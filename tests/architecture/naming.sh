@@ -16,6 +16,10 @@ fi
 alone=$build/names
 cmake -S "$root" -B "$alone" -G Ninja -DBUILD_TESTING=OFF >/dev/null 2>&1
 cmake --build "$alone" --target render/shaders/shader_sources.inc >/dev/null
+# As a target of the build it would wait for every library below it.
+steps=$root/app/procedure/steps
+cmake -DFOLDER="$steps" -DFILES="$(cd "$steps" && printf '%s\n' *.toml | paste -sd,)" \
+  -DOUT="$alone/app/procedure/steps/shipped_procedures.inc" -P "$steps/embed.cmake"
 
 passed=$build/naming_passed
 mkdir -p "$passed"
