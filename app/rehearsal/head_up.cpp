@@ -7,6 +7,7 @@
 
 #include "app/options/bur_name.h"
 #include "app/rehearsal/luxation_log.h"
+#include "haptics/ligament/hand_coupling.h"
 #include "haptics/tool/spindle.h"
 
 namespace app {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kSaid_s = 2.0, kReading_s_per_letter = 0.06;
 constexpr double kTurning_rpm = 200.0;
-constexpr double kMostTwist_Nmm = 2000.0;  // where the coupling ends (haptics/ligament/elevator_hold)
 
 /// "40,000 rpm" in steps of 500, "drill off", "drill locked".
 std::string driveText(double rpm, bool enabled) {
@@ -49,7 +49,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.force_share = content.force_N / std::max(0.1, command.safety.peak_force_N);
   if (command.tool.isElevator()) {
     content.torque_Nmm = std::abs(tick.lever.twist_Nmm);
-    content.torque_share = *content.torque_Nmm / kMostTwist_Nmm;
+    content.torque_share = *content.torque_Nmm / haptics::ElevatorHand{}.most_twist_Nmm;
   }
   content.gap_mm = values.gap_mm;
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;

@@ -333,7 +333,8 @@ class Rehearsal {
     figures.tooth = tooth_->ending();
     figures.luxation = luxation_.summary();
     if (jaw_stress_.most_N_per_mm2() > 0.0)
-      figures.luxation += fmt::format(", jaw stressed to {:.0f} MPa (model)", jaw_stress_.most_N_per_mm2());
+      figures.luxation += fmt::format("{}jaw stressed to {:.0f} MPa (model)", figures.luxation.empty() ? "" : ", ",
+                                      jaw_stress_.most_N_per_mm2());
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     figures.touched = touches_.counts();
     figures.warnings = head_up_.warnings().counts();

@@ -65,6 +65,18 @@ struct Hand {
         << std::sin(half_rad) << ",0," << tool << ",\n";
     rows += row.str();
   }
+  /// To and fro in the slot, from above and up again.
+  void twistIn(const glm::dvec3& in_slot_mm, int times, double twist_rad) {
+    const glm::dvec3 above_mm(0.0, 0.0, 9.0);
+    lever(0.2, above_mm, 0.0, "elevator:301");
+    lever(0.8, above_mm, 0.0);
+    lever(1.0, in_slot_mm, 0.0);
+    for (int n = 0; n < times; ++n) lever(0.5, in_slot_mm, n % 2 == 0 ? twist_rad : -twist_rad);
+    lever(0.3, in_slot_mm, 0.0);
+    lever(0.8, above_mm, 0.0);
+    lever(0.5, above_mm, 0.0);
+    be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  }
   /// Through the bridge at the bottom of the slot.
   void section() {
     be(0.0, {0.0, 0.0, 9.0}, false, 0.0, "round:1.2");
@@ -177,15 +189,7 @@ TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBi
 TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotLoosensAPiece) {
   Hand hand;
   hand.section();
-  const glm::dvec3 above_mm(0.0, 0.0, 9.0), in_slot_mm(0.0, 0.0, 0.5);
-  hand.lever(0.2, above_mm, 0.0, "elevator:301");
-  hand.lever(0.6, above_mm, 0.0);
-  hand.lever(1.0, in_slot_mm, 0.0);
-  for (int n = 0; n < 8; ++n) hand.lever(0.4, in_slot_mm, n % 2 == 0 ? 0.9 : -0.9);
-  hand.lever(0.3, in_slot_mm, 0.0);
-  hand.lever(0.8, above_mm, 0.0);
-  hand.lever(0.5, above_mm, 0.0);
-  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  hand.twistIn({0.0, 0.0, 0.5}, 8, 0.9);
   const std::string session = at("s.molar");
   const ProgramOutput said = rehearse(hand, session);
   ASSERT_EQ(said.status, 0) << said.err;
@@ -203,22 +207,14 @@ TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotLoosensAPiece) {
 
 TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotBreaksTheBridge) {
   Hand hand;
-  const glm::dvec3 above_mm(0.0, 0.0, 9.0), in_slot_mm(0.0, 0.0, -2.0);
   // A pass along the floor of the slot.
-  hand.be(0.0, above_mm, false, 0.0, "round:1.2");
+  hand.be(0.0, {0.0, 0.0, 9.0}, false, 0.0, "round:1.2");
   hand.be(1.0, {0.0, -2.4, -6.2}, false);
   hand.be(0.01, {0.0, -2.4, -6.2}, true);
   hand.be(1.0, {0.0, 2.4, -6.2}, true);
   hand.be(0.01, {0.0, 2.4, -6.2}, false);
-  hand.be(0.8, above_mm, false);
-  hand.lever(0.2, above_mm, 0.0, "elevator:301");
-  hand.lever(1.0, above_mm, 0.0);
-  hand.lever(1.0, in_slot_mm, 0.0);
-  for (int n = 0; n < 4; ++n) hand.lever(0.5, in_slot_mm, n % 2 == 0 ? 1.0 : -1.0);
-  hand.lever(0.3, in_slot_mm, 0.0);
-  hand.lever(0.8, above_mm, 0.0);
-  hand.lever(0.5, above_mm, 0.0);
-  hand.be(0.2, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  hand.be(0.8, {0.0, 0.0, 9.0}, false);
+  hand.twistIn({0.0, 0.0, -2.0}, 4, 1.0);
   const std::string session = at("s.molar");
   const ProgramOutput said = rehearse(hand, session);
   ASSERT_EQ(said.status, 0) << said.err;
