@@ -85,7 +85,7 @@ struct Frame {
   std::optional<RulerLine> ruler;
   glm::dvec3 slices_beside_bur_P_mm{0.0};  ///< where the CT slices cross, from the bur
   bool tool_visible = true;
-  bool tool_shades = true;    ///< as a bur does; forceps and elevators have no parts for it
+  bool tool_shades = true;    ///< as a bur does; forceps, elevators and hand instruments have no parts for it
   bool has_handpiece = true;  ///< behind the bur; it shades, too
   calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< the second instrument
   bool second_visible = false;

@@ -344,7 +344,7 @@ int run(RehearseOptions& options) {
   std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
   plan.command.tool = tool_of(options.tools.front());
-  if (plan.command.tool.luxates())
+  if (!plan.command.tool.turns())
     throw UsageError("--tool " + options.tools.front() + ": the first tool is a bur, name one before it");
   for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
     plan.other_tools.push_back(tool_of(*other));

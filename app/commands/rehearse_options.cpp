@@ -62,7 +62,8 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.option("--device", options.plan.device, poseSourceHelp()).showsDefault();
   command
       .option("--tool", options.tools,
-              headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() +
+              headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() + "; or " +
+                  handInstrumentForms() +
                   ". Give several to change between them by key T or pedal; without any, an elevator and forceps lie "
                   "beside the bur where a tooth is to be removed")
       .repeated()

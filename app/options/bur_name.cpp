@@ -14,6 +14,9 @@ constexpr std::array<std::string_view, 4> kShapes{"round", "round-end fissure", 
 // In the order of haptics::ElevatorKind.
 constexpr std::array<std::string_view, 5> kElevators{"none", "elevator 301", "elevator 34S", "Cryer elevator left",
                                                      "Cryer elevator right"};
+// In the order of haptics::HandInstrument.
+constexpr std::array<std::string_view, 6> kHandInstruments{"none",    "scalpel no. 15", "periosteal elevator",
+                                                           "curette", "bone file",      "suction tip"};
 constexpr double kSameSize = 0.02;  ///< tenths of a millimetre
 
 }  // namespace
@@ -27,6 +30,7 @@ std::string burName(const haptics::BurShape& head) {
 
 std::string toolName(const haptics::Tool& tool) {
   if (tool.grips) return "extraction forceps";
+  if (tool.isHandInstrument()) return std::string(kHandInstruments[static_cast<std::size_t>(tool.hand_instrument)]);
   return tool.isElevator() ? std::string(kElevators[static_cast<std::size_t>(tool.elevator)]) : burName(tool.head);
 }
 

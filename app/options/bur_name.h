@@ -11,7 +11,7 @@ namespace app {
 
 /// "round 2.3 mm, ISO 023"; without ISO size where the diameter is no tenth of a millimetre.
 std::string burName(const haptics::BurShape& head);
-/// "extraction forceps", "elevator 301", "Cryer elevator left", or the bur's.
+/// "extraction forceps", "elevator 301", "Cryer elevator left", "scalpel no. 15", or the bur's.
 std::string toolName(const haptics::Tool& tool);
 
 }  // namespace app

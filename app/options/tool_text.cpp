@@ -84,6 +84,14 @@ std::string alternatives(std::vector<std::string> ways) {
   return joined(ways) + " or " + last;
 }
 
+/// None: it is none of them.
+std::optional<haptics::Tool> handInstrumentFrom(std::string_view text) {
+  for (std::size_t n = 1; n < haptics::kHandInstrumentKeys.size(); ++n)
+    if (haptics::kHandInstrumentKeys[n] == text)
+      return haptics::handInstrumentTool(static_cast<haptics::HandInstrument>(n));
+  return {};
+}
+
 haptics::Tool elevatorFrom(const std::string& text) {
   const std::string_view kind = std::string_view(text).substr(std::min(text.size(), kElevator.size() + 1));
   for (std::size_t n = 1; n < haptics::kElevatorKeys.size(); ++n)
@@ -104,6 +112,10 @@ std::string elevatorForms() {
   for (std::size_t n = 1; n < haptics::kElevatorKeys.size(); ++n)
     ways.push_back(fmt::format("{}:{}", kElevator, haptics::kElevatorKeys[n]));
   return alternatives(std::move(ways));
+}
+
+std::string handInstrumentForms() {
+  return alternatives({haptics::kHandInstrumentKeys.begin() + 1, haptics::kHandInstrumentKeys.end()});
 }
 
 std::map<ShapeKind, std::string_view> headKinds() {
@@ -127,12 +139,13 @@ BurShape headFrom(const std::string& text) {
 
 haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
   if (text == "forceps") return haptics::forcepsTool();
+  if (const auto by_hand = handInstrumentFrom(text)) return *by_hand;
   const std::string_view key = std::string_view(text).substr(0, text.find(':'));
   if (key == "forceps") throw UsageError("--tool " + text + ": forceps have no size, write forceps alone");
   if (key == kElevator) return elevatorFrom(text);
   if (std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
     throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps, or " +
-                     elevatorForms());
+                     elevatorForms() + ", or " + handInstrumentForms());
   const BurShape head = headFrom(text);
   return {head, shaft.empty() ? haptics::standardShaft(head) : shaftFrom(shaft)};
 }

@@ -1,7 +1,8 @@
 // Tools as text, as a dentist orders them: `round:D`, `fissure:D,L` (D the diameter in mm or an ISO 6360 size as iso023
 // = 2.3 mm, L the length of the head); or by shape: heads `sphere:R`, `capsule:R,L` (L the cylindrical part),
 // `cylinder:R,L`, `cone:R,L` (R at the base, L high) and shafts `R,L`, all in mm. Start-up only. Throws UsageError with
-// the accepted forms. `forceps` and `elevator:KIND` are tools without a head.
+// the accepted forms. `forceps`, `elevator:KIND` and hand instruments (`scalpel:15`, `curette`, …) are tools without a
+// head.
 #pragma once
 
 #include <map>
@@ -29,7 +30,10 @@ haptics::BurShape headFrom(const std::string& text);
 /// "elevator:301, elevator:34s, elevator:cryer-left or elevator:cryer-right"
 std::string elevatorForms();
 
-/// `forceps`, an elevator, or a head with this shaft; empty: what is usual for it.
+/// "scalpel:15, periosteal, curette, bone-file or suction"
+std::string handInstrumentForms();
+
+/// `forceps`, an elevator, a hand instrument, or a head with this shaft; empty: what is usual for it.
 haptics::Tool toolFrom(const std::string& text, const std::string& shaft);
 
 /// `none` or radius 0.1..5 and length 0.1..100 mm, counted from the head's centre.

@@ -25,7 +25,7 @@ render::Frame openingFrame(const RehearsalPlan& plan) {
 
 render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, const haptics::Command& command) {
   render::Frame frame = before;
-  frame.tool_shades = !command.tool.luxates();
+  frame.tool_shades = command.tool.turns();
   frame.has_handpiece = command.tool.handpiece;
   const haptics::BurShape& head = command.tool.head;
   frame.bur_radius_mm = head.radius_mm;

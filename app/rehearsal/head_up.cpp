@@ -7,6 +7,8 @@
 
 #include "app/options/bur_name.h"
 #include "app/rehearsal/luxation_log.h"
+#include "assets/soft_tissue.h"
+#include "assets/tissue.h"
 #include "haptics/ligament/hand_coupling.h"
 #include "haptics/tool/spindle.h"
 
@@ -21,6 +23,13 @@ std::string driveText(double rpm, bool enabled) {
   if (rpm < kTurning_rpm) return enabled ? "drill off" : "drill locked";
   const long rounded = 500 * std::lround(rpm / 500.0);
   return rounded < 1000 ? fmt::format("{} rpm", rounded) : fmt::format("{},{:03} rpm", rounded / 1000, rounded % 1000);
+}
+
+/// What a hand instrument meets: "on bone", "on gingiva", "free".
+std::string meetsText(const haptics::Tick& tick) {
+  if (tick.depth_mm > 0.0) return assets::isTooth(tick.contact_tissue) ? "on tooth" : "on bone";
+  if (!tick.soft.touches()) return "free";
+  return fmt::format("on {}", assets::properties(tick.soft.tissue).name);
 }
 
 }  // namespace
@@ -41,8 +50,9 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.line_shown = line_shown_;
   content.bur = toolName(command.tool);
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
-  content.drive = command.tool.luxates() ? luxationText(tick, command.tool, values.pieces_ready)
-                                         : driveText(rpm, command.drill_enabled);
+  content.drive = command.tool.luxates()            ? luxationText(tick, command.tool, values.pieces_ready)
+                  : command.tool.isHandInstrument() ? meetsText(tick)
+                                                    : driveText(rpm, command.drill_enabled);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
   content.force_N = glm::length(tick.commanded_force_P_N.xyz);

@@ -9,6 +9,20 @@ namespace app {
 namespace {
 
 StepInstrument instrumentOf(const haptics::Tool& tool) {
+  switch (tool.hand_instrument) {
+    case haptics::HandInstrument::none:
+      break;
+    case haptics::HandInstrument::scalpel_15:
+      return StepInstrument::scalpel;
+    case haptics::HandInstrument::periosteal:
+      return StepInstrument::periosteal_elevator;
+    case haptics::HandInstrument::curette:
+      return StepInstrument::curette;
+    case haptics::HandInstrument::bone_file:
+      return StepInstrument::bone_file;
+    case haptics::HandInstrument::suction:
+      return StepInstrument::suction;
+  }
   return tool.isElevator() ? StepInstrument::elevator : tool.grips ? StepInstrument::forceps : StepInstrument::bur;
 }
 

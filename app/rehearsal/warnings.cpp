@@ -121,7 +121,7 @@ Words forceLimited(const Situation& s) {
 
 Words neckTouches(const Situation& s) {
   const bool force_without_head = s.tick.depth_mm <= 0.0 && glm::length(s.tick.law_force_P_N.xyz) > kShaftForce_N;
-  return force_without_head && !s.command.tool.luxates() && !s.tick.soft.touches() ? "The bur's neck touches" : "";
+  return force_without_head && s.command.tool.turns() && !s.tick.soft.touches() ? "The bur's neck touches" : "";
 }
 
 struct Row {
@@ -163,9 +163,9 @@ std::optional<int> neighbourAt(const haptics::Tick& tick, const haptics::BurShap
 Situation situationOf(const haptics::Tick& tick, const haptics::Command& command, const assets::Patient& patient,
                       bool has_motors, bool recording_ended) {
   const haptics::BurShape& head = command.tool.head;
-  return {
-      tick, command, has_motors, recording_ended, neighbourAt(tick, head, patient), canalGap_mm(tick, head, patient),
-      {}};
+  // A hand instrument that touches a tooth harms nothing.
+  const auto neighbour = command.tool.isHandInstrument() ? std::nullopt : neighbourAt(tick, head, patient);
+  return {tick, command, has_motors, recording_ended, neighbour, canalGap_mm(tick, head, patient), {}};
 }
 
 std::vector<HeadUpWarning> Warnings::update(const Situation& now) {

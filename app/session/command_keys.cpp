@@ -28,13 +28,18 @@ std::string_view keyOf(haptics::ElevatorKind kind) {
   return haptics::kElevatorKeys[static_cast<std::size_t>(kind) % haptics::kElevatorKeys.size()];
 }
 
+std::string_view keyOf(haptics::HandInstrument kind) {
+  return haptics::kHandInstrumentKeys[static_cast<std::size_t>(kind) % haptics::kHandInstrumentKeys.size()];
+}
+
 /// Sets the kind of this key; unchanged if the key is unknown here.
 template <class Kind>
 void setByKey(Kind& kind, std::string_view key) {
-  constexpr std::size_t kCount = std::same_as<Kind, haptics::LawKind>        ? haptics::kLaws.size()
-                                 : std::same_as<Kind, haptics::ErosionKind>  ? haptics::kErosions.size()
-                                 : std::same_as<Kind, haptics::ElevatorKind> ? haptics::kElevatorKeys.size()
-                                                                             : kShapes.size();
+  constexpr std::size_t kCount = std::same_as<Kind, haptics::LawKind>          ? haptics::kLaws.size()
+                                 : std::same_as<Kind, haptics::ErosionKind>    ? haptics::kErosions.size()
+                                 : std::same_as<Kind, haptics::ElevatorKind>   ? haptics::kElevatorKeys.size()
+                                 : std::same_as<Kind, haptics::HandInstrument> ? haptics::kHandInstrumentKeys.size()
+                                                                               : kShapes.size();
   for (std::size_t i = 0; i < kCount; ++i)
     if (keyOf(static_cast<Kind>(i)) == key) kind = static_cast<Kind>(i);
 }
@@ -48,13 +53,13 @@ void visitByTissue(const std::string& key, auto& factors, Visit&& visit) {
 
 template <class Visit>
 void visitTool(auto& tool, Visit&& visit) {
-  auto& [head, shaft, handpiece, grips, elevator] = tool;
+  auto& [head, shaft, handpiece, grips, elevator, hand_instrument] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("tool.head.kind", kind), visit("tool.head.radius_mm", radius_mm), visit("tool.head.length_mm", length_mm);
   visit("tool.shaft.radius_mm", shaft_radius_mm), visit("tool.shaft.length_mm", shaft_length_mm);
   visit("tool.handpiece", handpiece), visit("tool.grips", grips);
-  visit("tool.elevator", elevator);
+  visit("tool.elevator", elevator), visit("tool.hand_instrument", hand_instrument);
 }
 
 /// The plan follows from the bodies.

@@ -71,7 +71,7 @@ void forEachParameter(auto& jaw, auto&& visit) {
 
 /// Whether there is a handpiece is the device's, not the tray's.
 void forEachNumber(auto& tool, auto&& visit) {
-  auto& [head, shaft, handpiece, grips, elevator] = tool;
+  auto& [head, shaft, handpiece, grips, elevator, hand_instrument] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("radius_mm", radius_mm), visit("length_mm", length_mm);
@@ -85,7 +85,8 @@ json setupJson(const SessionSetup& setup) {
   for (const haptics::Tool& tool : setup.tray) {
     json one = {{"kind", static_cast<int>(tool.head.kind)},
                 {"grips", tool.grips},
-                {"elevator", static_cast<int>(tool.elevator)}};
+                {"elevator", static_cast<int>(tool.elevator)},
+                {"hand_instrument", static_cast<int>(tool.hand_instrument)}};
     forEachNumber(tool, [&](const char* key, double value) { one[key] = value; });
     object["tray"].push_back(std::move(one));
   }
@@ -112,6 +113,10 @@ SessionSetup setupFrom(const json& object) {
       if (elevator < 0 || elevator > static_cast<int>(haptics::ElevatorKind::cryer_right))
         throw damagedSession("it has no valid tray");
       tool.elevator = static_cast<haptics::ElevatorKind>(elevator);
+      const int by_hand = valueOf(one, "hand_instrument", 0);
+      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::suction))
+        throw damagedSession("it has no valid tray");
+      tool.hand_instrument = static_cast<haptics::HandInstrument>(by_hand);
       if (kind < 0 || kind > static_cast<int>(haptics::ShapeKind::cone)) throw damagedSession("it has no valid tray");
       tool.head.kind = static_cast<haptics::ShapeKind>(kind);
       forEachNumber(tool, [&](const char* key, double& value) { value = valueOf(one, key, value); });

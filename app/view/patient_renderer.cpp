@@ -2,6 +2,7 @@
 
 #include "assets/instrument/elevator.h"
 #include "assets/instrument/forceps.h"
+#include "assets/instrument/hand_instrument.h"
 #include "assets/instrument/handpiece.h"
 
 namespace app {
@@ -23,6 +24,12 @@ assets::ElevatorForm formOf(haptics::ElevatorKind kind) {
 }
 static_assert(static_cast<int>(assets::ElevatorForm::cryer_right) + 1 ==
               static_cast<int>(haptics::ElevatorKind::cryer_right));
+
+assets::HandInstrumentForm formOf(haptics::HandInstrument kind) {
+  return static_cast<assets::HandInstrumentForm>(static_cast<int>(kind) - 1);
+}
+static_assert(static_cast<int>(assets::HandInstrumentForm::suction) + 1 ==
+              static_cast<int>(haptics::HandInstrument::suction));
 
 /// A little wider than what they grip (haptics::forcepsTool).
 constexpr double kOpenBeaks_mm = 8.0;
@@ -50,6 +57,7 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
   if (tool.grips) return showForceps(renderer, kOpenBeaks_mm);
   if (tool.isElevator()) return renderer.setInstrument(assets::elevator(formOf(tool.elevator)));
+  if (tool.isHandInstrument()) return renderer.setInstrument(assets::handInstrument(formOf(tool.hand_instrument)));
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
 }
 

@@ -54,12 +54,13 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   const bool embedded = undo_.isToolEmbedded(), was_undone = embedded || undo_.hasChanged();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
-  // A pedal that was down when bur, forceps and elevator changed, or at an undo, must be released for these.
+  // A pedal that was down when bur, forceps, elevator or hand instrument changed, or at an undo, must be released.
   const Tool before = std::exchange(tool_before_, command.tool);
-  const bool changed = before.grips != command.tool.grips || before.isElevator() != command.tool.isElevator();
+  const bool changed = before.grips != command.tool.grips || before.isElevator() != command.tool.isElevator() ||
+                       before.isHandInstrument() != command.tool.isHandInstrument();
   pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (was_undone && command.tool.luxates()));
   const bool pedal = valid.drill_pedal && !pedal_spent_;
-  const bool foot = pedal && command.drill_enabled && !command.tool.luxates();
+  const bool foot = pedal && command.drill_enabled && command.tool.turns();
   tick.drill_inhibit = undo_.inhibitFor((valid.drill_pedal && command.drill_enabled) || !admitted.mayDrill());
   tick.drilling = foot && admitted.mayDrill() && tick.drill_inhibit == DrillInhibit::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);

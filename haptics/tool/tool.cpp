@@ -19,6 +19,7 @@ Tool sanitised(const Tool& tool) noexcept {
             tool.handpiece,
             tool.grips,
             tool.grips || tool.elevator > ElevatorKind::cryer_right ? ElevatorKind::none : tool.elevator};
+  if (!safe.luxates() && tool.hand_instrument <= HandInstrument::suction) safe.hand_instrument = tool.hand_instrument;
   const Shaft& shaft = tool.shaft;
   if (shaft.radius_mm > 0.0 && shaft.length_mm > 0.0 && std::isfinite(shaft.radius_mm) &&
       std::isfinite(shaft.length_mm))
@@ -32,6 +33,14 @@ Tool elevatorTool(ElevatorKind kind) noexcept {
   const bool straight = kind == ElevatorKind::straight_301 || kind == ElevatorKind::straight_34s;
   const Shaft along_blade = straight ? Shaft{kBladeHalf_mm, kBladeAndShank_mm} : Shaft{};
   return {{ShapeKind::sphere, kBladeHalf_mm, 0.0}, along_blade, false, false, kind};
+}
+
+Tool handInstrumentTool(HandInstrument kind) noexcept {
+  const HandInstrumentSize& size = kHandInstrumentSizes[static_cast<std::size_t>(kind)];
+  return {.head = {ShapeKind::sphere, size.tip_radius_mm, 0.0},
+          .shaft = {size.shank_radius_mm, size.length_mm},
+          .handpiece = false,
+          .hand_instrument = kind};
 }
 
 Shaft standardShaft(const BurShape& head) noexcept {

@@ -5,6 +5,7 @@
 
 #include "haptics/tool/bur_shape.h"
 #include "haptics/tool/elevator_kind.h"
+#include "haptics/tool/hand_instrument.h"
 
 namespace haptics {
 
@@ -21,10 +22,14 @@ struct Tool {
   bool handpiece = true;  ///< false: the bur alone, for a hand that cannot turn it out of the way
   bool grips = false;     ///< forceps: the head is the place between the beaks, the pedal closes them, nothing turns
   ElevatorKind elevator = ElevatorKind::none;  ///< of this kind: T's origin is its blade's tip, nothing turns
+  HandInstrument hand_instrument = HandInstrument::none;  ///< of this kind: nothing turns, the pedal does nothing
 
   bool isElevator() const { return elevator != ElevatorKind::none; }
   /// Moves pieces of tooth: forceps or an elevator.
   bool luxates() const { return grips || isElevator(); }
+  bool isHandInstrument() const { return hand_instrument != HandInstrument::none; }
+  /// A bur: the pedal turns it and it cuts.
+  bool turns() const { return !luxates() && !isHandInstrument(); }
   bool operator==(const Tool&) const = default;
 };
 
@@ -37,6 +42,9 @@ Tool forcepsTool() noexcept;
 /// Until its blade works on a piece it meets bone and tooth with the tip and, if it is straight, the middle of blade
 /// and shank (ligament/elevator_hold).
 Tool elevatorTool(ElevatorKind kind) noexcept;
+
+/// `kind` not none.
+Tool handInstrumentTool(HandInstrument kind) noexcept;
 
 /// The usual shaft of a bur: a shank of 2.35 mm (ISO 1797, type 2), or a neck narrower than the head that lets chips
 /// out; 25 mm long, as far as it stands out of a handpiece.

@@ -78,5 +78,18 @@ TEST(Tool, IsDrawnBackIntoItsRange) {
   EXPECT_EQ(sanitised(haptics::Tool{{ShapeKind::cone, 1.0, 99.0}, {1.0, 20.0}}).head.length_mm, 20.0);
 }
 
+TEST(Tool, IsOneKindOfInstrumentAtMost) {
+  haptics::Tool both = haptics::elevatorTool(ElevatorKind::straight_301);
+  both.hand_instrument = HandInstrument::curette;
+  EXPECT_FALSE(sanitised(both).isHandInstrument());
+  haptics::Tool unknown;
+  unknown.hand_instrument = static_cast<HandInstrument>(9);
+  EXPECT_TRUE(sanitised(unknown).turns());
+  const haptics::Tool scalpel = haptics::handInstrumentTool(HandInstrument::scalpel_15);
+  EXPECT_EQ(sanitised(scalpel), scalpel);
+  EXPECT_FALSE(scalpel.turns());
+  EXPECT_FALSE(scalpel.luxates());
+}
+
 }  // namespace
 }  // namespace haptics

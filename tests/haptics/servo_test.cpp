@@ -70,6 +70,26 @@ TEST(Servo, ReplaysBitForBit) {
   }
 }
 
+TEST(Servo, HandInstrumentsMeetBoneAndTakeNothingAway) {
+  for (std::size_t n = 1; n < kHandInstrumentKeys.size(); ++n) {
+    Bodies bone = halfSpace(12.0, 0.25).bodies(1);
+    const std::uint64_t digest = bone.digest();
+    Servo servo(bone);
+    Command command;
+    command.tool = handInstrumentTool(static_cast<HandInstrument>(n));
+    Tick tick;
+    for (int i = 0; i < 400; ++i) {
+      const double z_mm = 4.0 - 0.01 * i + command.tool.head.radius_mm;
+      tick = servo.step(handAt({0.01 * i - 2.0, 0.0, z_mm}, i > 100), command, 1e-3);
+      ASSERT_FALSE(tick.drilling);
+      ASSERT_EQ(tick.spindle_rad_per_s, 0.0);
+    }
+    EXPECT_GT(tick.law_force_P_N.xyz.z, 0.1) << kHandInstrumentKeys[n];
+    EXPECT_GT(tick.depth_mm, 0.0) << kHandInstrumentKeys[n];
+    EXPECT_EQ(bone.digest(), digest) << kHandInstrumentKeys[n];
+  }
+}
+
 TEST(Servo, CutsATroughUnderTheScriptedHand) {
   const std::vector<Tick> ticks = session(11.0);
   double removed = 0.0, most_N = 0.0, deepest_mm = 0.0, roughest_N = 0.0;

@@ -46,7 +46,7 @@ HandPose startOf(const haptics::LedPath& path) {
 OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
   OperationTray found;
   const auto bur = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
-    return !tool.luxates() && tool.head.kind == haptics::ShapeKind::capsule && tool.head.radius_mm >= kLeastBur_mm &&
+    return tool.turns() && tool.head.kind == haptics::ShapeKind::capsule && tool.head.radius_mm >= kLeastBur_mm &&
            tool.head.radius_mm <= kMostBur_mm && haptics::halfHeight_mm(tool.head) >= kLeastHalf_mm;
   });
   const auto forceps = std::ranges::find_if(tray, [](const haptics::Tool& tool) { return tool.grips; });

@@ -21,6 +21,8 @@ TEST(BurName, NamesInstrumentsThatAreNoBurs) {
   EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::straight_34s)), "elevator 34S");
   EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::cryer_left)), "Cryer elevator left");
   EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::cryer_right)), "Cryer elevator right");
+  EXPECT_EQ(toolName(haptics::handInstrumentTool(haptics::HandInstrument::scalpel_15)), "scalpel no. 15");
+  EXPECT_EQ(toolName(haptics::handInstrumentTool(haptics::HandInstrument::suction)), "suction tip");
 }
 
 TEST(BurName, HasNoIsoSizeBetweenTenths) { EXPECT_EQ(burName({ShapeKind::sphere, 0.925, 0.0}), "round 1.85 mm"); }

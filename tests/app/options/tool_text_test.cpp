@@ -42,6 +42,21 @@ TEST(ToolText, ReadsEveryElevator) {
         << bad;
 }
 
+TEST(ToolText, ReadsEveryHandInstrument) {
+  for (const auto& [text, kind] : {std::pair{"scalpel:15", haptics::HandInstrument::scalpel_15},
+                                   {"periosteal", haptics::HandInstrument::periosteal},
+                                   {"curette", haptics::HandInstrument::curette},
+                                   {"bone-file", haptics::HandInstrument::bone_file},
+                                   {"suction", haptics::HandInstrument::suction}})
+    EXPECT_EQ(toolFrom(text, ""), haptics::handInstrumentTool(kind)) << text;
+  for (const char* bad : {"scalpel", "scalpel:11", "none", "curette:3"})
+    EXPECT_NE(tests::refusalOf<UsageError>([&] {
+                toolFrom(bad, "");
+              }).find("scalpel:15, periosteal, curette, bone-file or suction"),
+              std::string::npos)
+        << bad;
+}
+
 TEST(ToolText, ReadsBursAsDentistsOrderThem) {
   EXPECT_EQ(headFrom("round:3.0"), headFrom("sphere:1.5"));
   EXPECT_EQ(headFrom("round:iso023"), headFrom("sphere:1.15"));

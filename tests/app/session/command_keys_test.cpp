@@ -72,6 +72,7 @@ TEST(CommandKeys, NameLawsShapesAndTissues) {
   command.erosion.kind = haptics::ErosionKind::dose;
   command.tool.head.kind = haptics::ShapeKind::cone;
   command.tool.elevator = haptics::ElevatorKind::cryer_right;
+  command.tool.hand_instrument = haptics::HandInstrument::curette;
   const std::string text = commandText(command);
   for (const char* part : {"\"law.kind\":\"harmonic\"", "\"erosion.kind\":\"dose\"", "\"tool.head.kind\":\"cone\"",
                            "\"law.tissue.factor.enamel\":1.5"})
@@ -81,6 +82,7 @@ TEST(CommandKeys, NameLawsShapesAndTissues) {
   EXPECT_EQ(back.erosion.kind, haptics::ErosionKind::dose);
   EXPECT_EQ(back.tool.head.kind, haptics::ShapeKind::cone);
   EXPECT_EQ(back.tool.elevator, haptics::ElevatorKind::cryer_right);
+  EXPECT_EQ(back.tool.hand_instrument, haptics::HandInstrument::curette);
 }
 
 TEST(CommandKeys, OfAnotherProgramArePassedByAndMissingOnesDefaulted) {

@@ -1,0 +1,34 @@
+// Hand instruments that neither turn, nor grip, nor lever: scalpel, periosteal elevator, curette, bone file, suction
+// tip. They meet bone and tooth with a ball at the tip and a round shank behind it, and take nothing away by
+// themselves: what each does to gum, follicle, chips or edges is the procedure's. Part of a Tool; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace haptics {
+
+enum class HandInstrument : std::uint8_t {
+  none = 0,
+  scalpel_15 = 1,  ///< handle no. 3 with blade no. 15
+  periosteal = 2,  ///< periosteal elevator, as Molt no. 9: a broad thin blade
+  curette = 3,     ///< as Lucas no. 85: a spoon of 2.4 mm
+  bone_file = 4,   ///< as Miller: a flat toothed head
+  suction = 5,     ///< a surgical suction tip of 3 mm
+};
+
+/// As ordered and recorded, in the order of the kinds.
+inline constexpr std::array<std::string_view, 6> kHandInstrumentKeys{"none",    "scalpel:15", "periosteal",
+                                                                     "curette", "bone-file",  "suction"};
+
+/// What of it meets bone and tooth: a ball about T's origin and a rod of `shank_radius_mm` along +z. The drawn
+/// instrument (assets/instrument/hand_instrument) has its tip at z = -tip_radius_mm. Our defaults: a ball is as thick
+/// as blade or head, so that no flat of it sinks in.
+struct HandInstrumentSize {
+  double tip_radius_mm = 0.5, shank_radius_mm = 0.5, length_mm = 40.0;
+};
+inline constexpr std::array<HandInstrumentSize, kHandInstrumentKeys.size()> kHandInstrumentSizes{
+    {{}, {0.3, 0.3}, {0.6, 0.6}, {1.2, 0.8}, {1.0, 1.0}, {1.5, 1.5}}};
+
+}  // namespace haptics
