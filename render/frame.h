@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "assets/instrument/handpiece.h"
 #include "calibration/geometry/frames.h"
@@ -55,6 +57,23 @@ inline constexpr std::size_t kMostPieces = 4;
 /// The pose of each piece that has left its place in the jaw's volume; none: it lies there, drawn with the jaw.
 using MovedPieces = std::array<std::optional<calibration::Pose<calibration::Patient, calibration::Piece>>, kMostPieces>;
 
+/// Small things at the site, drawn as balls or splinters.
+enum class BeadKind : std::uint8_t {
+  mark,      ///< a place to look at, seen as it is, unlit
+  chip,      ///< loose bone or tooth
+  follicle,  ///< soft
+  stitch
+};
+struct Bead {
+  calibration::Point<calibration::Patient> at_P;
+  double radius_mm = 0.3;
+  BeadKind kind = BeadKind::mark;
+  std::uint64_t number = 0;  ///< gives a chip its form
+};
+inline bool operator==(const Bead& a, const Bead& b) {
+  return a.at_P.mm == b.at_P.mm && a.radius_mm == b.radius_mm && a.kind == b.kind && a.number == b.number;
+}
+
 enum class Antialias { none, edges };
 
 /// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
@@ -94,6 +113,7 @@ struct Frame {
   calibration::Point<calibration::Patient> site_P;
   SurgicalField field;
   SoftMarks marks;
+  std::vector<Bead> beads;
 };
 
 }  // namespace render

@@ -8,6 +8,7 @@
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_image.h"
+#include "render/scene/bead_mesh.h"
 #include "render/scene/guide_tube.h"
 #include "render/scene_renderer.h"
 #include "render/volume/clearance_legend.h"
@@ -181,6 +182,12 @@ void FrameRenderer::updateRuler(const Frame& frame) {
                      ruler_ ? rulerMesh(*ruler_, behind) : assets::MeshModel{});
 }
 
+void FrameRenderer::updateBeads(const Frame& frame) {
+  if (frame.beads == beads_) return;
+  beads_ = frame.beads;
+  scene_->setModel(Model::beads, beadMesh(beads_));
+}
+
 void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   scene_->drawEye(frame, eye, px);
   drawn(eye) = {frame, px};
@@ -189,6 +196,7 @@ void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
 // Pieces are brought up to date where they are seen.
 void FrameRenderer::prepare(const Frame& frame) {
   updateRuler(frame);
+  updateBeads(frame);
   std::vector<PlacedFields> placed;
   bool any_changed = false;
   for (std::size_t n = 0; n < kMostPieces; ++n) {

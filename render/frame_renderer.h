@@ -108,6 +108,7 @@ class FrameRenderer {
   void updateInsets(const Frame& frame, glm::ivec2 eye_px);
   void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
   void updateRuler(const Frame& frame);
+  void updateBeads(const Frame& frame);
   void prepare(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
   void compose(const Frame& frame);
@@ -129,6 +130,7 @@ class FrameRenderer {
   std::optional<GuideField> guides_;
   bool has_canal_ = false;
   std::optional<RulerLine> ruler_;  ///< whose meshes the back-end has
+  std::vector<Bead> beads_;         ///< alike
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;

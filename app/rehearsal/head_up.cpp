@@ -66,6 +66,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.time_s = tick.t_s + tick.dt_s;
   content.task = values.task;
   content.ruler = values.ruler;
+  content.site = values.socket;
   if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);
 
   if (!said_.line.empty() && !said_.until) {

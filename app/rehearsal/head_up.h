@@ -39,6 +39,7 @@ class HeadUp {
     std::string task;           ///< of a procedure
     std::string ruler;          ///< rulerText()
     bool pieces_ready = false;  ///< for forceps and elevators
+    std::string socket;         ///< SocketFollower::line()
   };
   HeadUpContent content(const Values& values, Time now);
 

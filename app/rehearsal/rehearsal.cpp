@@ -18,6 +18,7 @@
 #include "app/rehearsal/luxation_log.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
+#include "app/rehearsal/socket_follower.h"
 #include "app/rehearsal/soft_mark_trail.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
@@ -75,6 +76,7 @@ class Rehearsal {
     view_.attach(station().bodies());
     tooth_.emplace(station().bodies(), wholeTooth(plan_));
     sites_.emplace(station().bodies());
+    socket_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (equipment_.led() != nullptr)
       demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
@@ -252,6 +254,8 @@ class Rehearsal {
   void followTooth() {
     const std::vector<glm::ivec3> changed = view_.takeChangedBricks();
     tooth_->follow(changed, newest_, !pace_.isRealTime());
+    socket_->follow(changed, newest_, !pace_.isRealTime());
+    frame_.beads = socket_->marks();
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
     if (station().isApplied(newest_)) makePiecesReady();
     const haptics::Bodies& bodies = station().bodies();
@@ -298,8 +302,12 @@ class Rehearsal {
     Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                                       monitor_.recordingEnded());
     situation.jaw_N_per_mm2 = jaw_stress_.now_N_per_mm2();
-    return {situation, frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt, task(), rulerText(frame_.ruler),
-            sites_->isReady()};
+    return {situation,
+            frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
+            task(),
+            rulerText(frame_.ruler),
+            sites_->isReady(),
+            socket_->line()};
   }
 
   std::string task() const {
@@ -320,6 +328,7 @@ class Rehearsal {
     followTicks();
     for (const Touch& touch : touches_.finish()) noteTouch(touch);
     if (steps_) steps_->finish();
+    socket_->finish(view_.takeChangedBricks(), station().newestTick());
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
@@ -332,6 +341,7 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.tooth = tooth_->ending();
     figures.luxation = luxation_.summary();
+    figures.socket = socket_->newest();
     if (jaw_stress_.most_N_per_mm2() > 0.0)
       figures.luxation += fmt::format("{}jaw stressed to {:.0f} MPa (model)", figures.luxation.empty() ? "" : ", ",
                                       jaw_stress_.most_N_per_mm2());
@@ -361,6 +371,7 @@ class Rehearsal {
   render::Frame frame_;
   std::optional<ToothFollower> tooth_;
   std::optional<SiteDesk> sites_;
+  std::optional<SocketFollower> socket_;
   JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
   std::optional<StepFollower> steps_;

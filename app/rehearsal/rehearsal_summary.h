@@ -11,6 +11,7 @@
 #include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/warnings.h"
 #include "app/session/recorder.h"
+#include "app/session/socket_event.h"
 #include "app/session/soft_touches.h"
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"
@@ -27,6 +28,7 @@ struct RehearsalFigures {
   WorkTimes times;
   std::string tooth;                      ///< what it has come apart into, tooth_follower.h; empty: whole
   std::string luxation;                   ///< LuxationLog::summary()
+  std::optional<SocketRecord> socket;     ///< none: no piece is out
   std::optional<ProcedureRun> procedure;  ///< step by step
   Prediction prediction;                  ///< nothing said without a procedure
   std::vector<TouchCount> touched;        ///< teeth and canal

@@ -103,6 +103,7 @@ SessionMetrics metricsOf(const std::string& path) {
       if (!metrics.touched) metrics.touched.emplace();
       if (const auto touch = touchFrom(event.text)) countInto(*metrics.touched, *touch);
     }
+    if (event.kind == kSocketEvent) metrics.socket = socketFrom(event.text);
     if (event.kind == kStepEvent) addStepEvent(metrics.procedure, event.text);
     if (event.kind == kPredictionEvent) metrics.prediction = predictionFrom(event.text);
   }
@@ -189,6 +190,7 @@ std::string metricsText(const SessionMetrics& metrics) {
         fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
                     broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
   if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, endOfWork_s(metrics)) + "\n";
+  if (metrics.socket) words += "socket: " + socketInWords(*metrics.socket) + "\n";
   if (metrics.procedure) {
     words += "procedure: " + procedureInWords(*metrics.procedure) + "\n";
     for (const std::string& step : stepsInWords(*metrics.procedure)) words += "  " + step + "\n";
@@ -250,6 +252,29 @@ nlohmann::ordered_json softTouchesJson(const SoftTouches& touches) {
                                          {"bur_on", touches.cut[n].times},
                                          {"bur_on_s", touches.cut[n].seconds}};
   return json;
+}
+
+nlohmann::ordered_json placesJson(const std::vector<Place>& places, const char* unit) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Place& place : places) {
+    const glm::dvec3& p = place.centre_P_mm;
+    list.push_back({{unit, place.amount}, {"centre_P_mm", {p.x, p.y, p.z}}});
+  }
+  return list;
+}
+
+/// Where something is, and how much in all.
+nlohmann::ordered_json socketJson(const SocketRecord& socket) {
+  const std::vector<Place> canal = socket.canal.amount > 0.0 ? std::vector{socket.canal} : std::vector<Place>();
+  return {{"clean", socket.isClean()},
+          {"retained_mm3", sumOf(socket.retained)},
+          {"retained", placesJson(socket.retained, "volume_mm3")},
+          {"canal_open_mm2", socket.canal.amount},
+          {"canal", placesJson(canal, "area_mm2")},
+          {"lingual_open_mm2", sumOf(socket.lingual)},
+          {"lingual", placesJson(socket.lingual, "area_mm2")},
+          {"sharp_edges_mm", sumOf(socket.edges)},
+          {"sharp_edges", placesJson(socket.edges, "length_mm")}};
 }
 
 /// A step by its key; times of one that was not reached are null.
@@ -321,6 +346,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
                                      {"bending_Nmm", broke.bending_Nmm},
                                      {"area_mm2", broke.area_mm2},
                                      {"complete", broke.is_complete}});
+  json["socket"] = metrics.socket ? socketJson(*metrics.socket) : nlohmann::ordered_json();
   json["procedure"] = metrics.procedure ? procedureJson(*metrics.procedure) : nlohmann::ordered_json();
   json["prediction"] = nullptr;
   if (metrics.prediction) json["prediction"] = predictionJson(*metrics.prediction, endOfWork_s(metrics));

@@ -13,6 +13,7 @@
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
 #include "app/session/session_text.h"
+#include "app/session/socket_event.h"
 #include "app/session/soft_touches.h"
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"
@@ -49,6 +50,7 @@ struct SessionMetrics {
   std::vector<MeasuredWay> measured;
   std::vector<BridgeBreak> bridge_breaks;          ///< undone ones too
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
+  std::optional<SocketRecord> socket;              ///< none: no piece of a tooth was out at the end
   std::optional<ProcedureRun> procedure;           ///< none: no procedure was followed
   std::optional<Prediction> prediction;            ///< none: nothing was predicted
   SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …

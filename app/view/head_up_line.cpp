@@ -167,7 +167,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     });
   }
 
-  // Towards the middle: warnings, the task, then what was just said.
+  // Towards the middle: warnings, the task, the socket, then what was just said.
   const auto stacked = [&](const std::string& words, double height, const Ink& ink, const Ink& ground) {
     if (words.empty()) return;
     const double limit = 0.94 * free;
@@ -190,6 +190,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     stacked(c.warnings[n].words, 1.3 * text, c.warnings[n].danger ? kWhite : kBlack,
             c.warnings[n].danger ? kRedPlate : kAmberPlate);
   stacked(c.task, 1.15 * text, kWhite, kPlate);
+  stacked(c.site, text, kWhite, kPlate);
   stacked(c.said, text, kWhite, kPlate);
 
   if (!c.keys.empty()) {

@@ -38,6 +38,7 @@ struct HeadUpContent {
   double time_s = 0.0;
   std::string said;                                       ///< just now; empty: nothing
   std::string task;                                       ///< of an experiment; empty: none
+  std::string site;                                       ///< state of the socket; empty: none
   std::vector<HeadUpWarning> warnings;                    ///< the most important first; two are shown
   std::vector<std::pair<std::string, std::string>> keys;  ///< key and meaning; empty: no sheet
 };

@@ -15,7 +15,7 @@ bool isOverlay(Model model) {
   return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::ghost;
 }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
-bool isMoving(Model model) { return isInHand(model) || model >= Model::first_piece; }
+bool isMoving(Model model) { return isInHand(model) || model >= Model::beads; }
 
 MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
   MeshBodyPart kept;

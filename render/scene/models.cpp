@@ -26,7 +26,8 @@ Placements placementsIn(const Frame& frame) {
                           {.opacity = layers.mandibular_canal ? kMandibularCanalOverlay : 0.0f},
                           {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)},
                           {.opacity = shown(frame.ruler.has_value())},
-                          {.opacity = frame.ruler ? kRulerOverlay : 0.0f}}}};
+                          {.opacity = frame.ruler ? kRulerOverlay : 0.0f},
+                          {.opacity = shown(!frame.beads.empty())}}}};
   for (std::size_t n = 0; n < kMostPieces; ++n)
     placements[static_cast<std::size_t>(pieceModel(n))] = {
         .P_from_mesh = frame.pieces[n] ? frame.pieces[n]->matrix() : glm::dmat4(1.0),

@@ -23,6 +23,7 @@ enum class Model {
   ghost,
   ruler,
   ruler_overlay,
+  beads,
   first_piece
 };
 inline constexpr std::size_t kModels = static_cast<std::size_t>(Model::first_piece) + kMostPieces;
@@ -43,14 +44,21 @@ enum class Finish {
 };
 
 constexpr Finish finishOf(Model model) {
-  constexpr std::array kFinish{Finish::skin,  Finish::gingiva,    Finish::instrument, Finish::instrument, Finish::guide,
-                               Finish::guide, Finish::instrument, Finish::guide,      Finish::guide};
+  constexpr std::array kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
+                               Finish::guide, Finish::guide,   Finish::instrument, Finish::guide,
+                               Finish::guide, Finish::tooth};
   if (model >= Model::first_piece) return Finish::piece;
   return kFinish[static_cast<std::size_t>(model)];
 }
 
-/// Teeth of the face are shaded as the enamel of the volume.
+/// Parts of Model::beads.
+inline constexpr char kMarksPart[] = "Marks", kChipsPart[] = "Chips", kFolliclePart[] = "Follicle",
+                      kStitchesPart[] = "Stitches";
+
+/// Teeth of the face are shaded as the enamel of the volume; beads (bead_mesh.h) each as what they are.
 inline Finish finishOf(Model model, std::string_view part) {
+  if (model == Model::beads)
+    return part == kMarksPart ? Finish::guide : part == kFolliclePart ? Finish::skin : Finish::tooth;
   return model == Model::face && part.ends_with("Teeth") ? Finish::tooth : finishOf(model);
 }
 
