@@ -419,11 +419,14 @@ int run(RehearseOptions& options) {
   // An assistant holds cheek and flap aside.
   if (isShown(options)) plan.soft_tissue = {};
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
-  // Whoever named no tools finds an elevator and forceps beside the burs.
+  // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.
   static const RehearseOptions kUntouched;
   if (!former && options.tools == kUntouched.tools && plan.patient.site) {
     plan.other_tools.push_back(haptics::elevatorTool(haptics::ElevatorKind::straight_301));
     plan.other_tools.push_back(haptics::forcepsTool());
+    for (const haptics::HandInstrument kind :
+         {haptics::HandInstrument::suction, haptics::HandInstrument::curette, haptics::HandInstrument::bone_file})
+      plan.other_tools.push_back(haptics::handInstrumentTool(kind));
   }
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);

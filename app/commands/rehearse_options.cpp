@@ -61,11 +61,12 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.optionGroup("Hand and instruments");
   command.option("--device", options.plan.device, poseSourceHelp()).showsDefault();
   command
-      .option("--tool", options.tools,
-              headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() + "; or " +
-                  handInstrumentForms() +
-                  ". Give several to change between them by key T or pedal; without any, an elevator and forceps lie "
-                  "beside the bur where a tooth is to be removed")
+      .option(
+          "--tool", options.tools,
+          headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() + "; or " +
+              handInstrumentForms() +
+              ". Give several to change between them by key T or pedal; without any, an elevator, forceps, suction, "
+              "curette and bone file lie beside the bur where a tooth is to be removed")
       .repeated()
       .showsDefault();
   command.option("--shaft", options.shaft,

@@ -21,6 +21,7 @@ void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.split = from.split;
   to.bridge = from.bridge;
   to.site = from.site;
+  to.chips = from.chips;
   to.rearm = from.rearm;
 }
 
@@ -219,6 +220,13 @@ void ActiveCommand::makeReady(const haptics::SiteOrder& order) {
   const std::uint64_t serial = command_.site.serial + 1;
   command_.site = order;
   command_.site.serial = serial;
+  workstation_->change(command_);
+}
+
+void ActiveCommand::loosen(const haptics::ChipOrder& order) {
+  const std::uint64_t serial = command_.chips.serial + 1;
+  command_.chips = order;
+  command_.chips.serial = serial;
   workstation_->change(command_);
 }
 

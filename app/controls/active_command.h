@@ -43,8 +43,10 @@ class ActiveCommand {
   void arm(const haptics::BreakOrder& order);
   /// Makes a piece ready for forceps or elevator, alike.
   void makeReady(const haptics::SiteOrder& order);
-  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, bridge, site and rearm stay as
-  /// they are.
+  /// Lets chips leave the volumes, alike.
+  void loosen(const haptics::ChipOrder& order);
+  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, bridge, site, chips and rearm stay
+  /// as they are.
   void adopt(const haptics::Command& command);
 
   /// Tools to change between, in order.

@@ -199,8 +199,9 @@ class Rehearsal {
     countSoftTouches(ticks);
     followLuxation(ticks);
     soft_marks_.follow(ticks, command.tool.head);
+    socket_->follow(ticks, command);
     head_up_.follow(ticks, command.irrigating);
-    if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm());
+    if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest());
     for (const Touch& touch : touches_.follow(ticks, command.tool.head)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
@@ -254,8 +255,12 @@ class Rehearsal {
   void followTooth() {
     const std::vector<glm::ivec3> changed = view_.takeChangedBricks();
     tooth_->follow(changed, newest_, !pace_.isRealTime());
-    socket_->follow(changed, newest_, !pace_.isRealTime());
-    frame_.beads = socket_->marks();
+    // The shown operation was planned for crumbs that stay where they are: a piece's way out hangs on them.
+    const bool may_loosen = !demonstration_ && station().isApplied(newest_);
+    if (const auto order = socket_->follow({changed, newest_, may_loosen, !pace_.isRealTime()}))
+      active_command_.loosen(*order);
+    frame_.beads = socket_->beads();
+    if (const auto line = socket_->news()) head_up_.say(*line);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
     if (station().isApplied(newest_)) makePiecesReady();
     const haptics::Bodies& bodies = station().bodies();
@@ -278,8 +283,8 @@ class Rehearsal {
     if (!demonstration_) return;
     const haptics::Command& command = active_command_.inForce();
     const Demonstration::Frame frame{
-        newest_,           command.tool,       command.drill_enabled, station().isApplied(newest_),
-        sites_->isReady(), !pace_.isRealTime()};
+        newest_,           command.tool,        command.drill_enabled, station().isApplied(newest_),
+        sites_->isReady(), !pace_.isRealTime(), socket_->left()};
     if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
     while (const auto line = demonstration_->news()) {
       head_up_.say(*line);

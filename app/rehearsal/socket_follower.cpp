@@ -1,54 +1,148 @@
 #include "app/rehearsal/socket_follower.h"
 
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
 namespace app {
 namespace {
 
-constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6;  ///< radii
+constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6, kStitch_mm = 0.45;  ///< radii
+constexpr double kFollicleShown = 0.75;  ///< of its radius: it lies flat on the wall
+constexpr double kBetweenEvents_s = 1.0;
 
-std::vector<render::Bead> marksOf(const SocketFindings& found) {
-  std::vector<render::Bead> marks;
-  for (const SharpEdge& edge : found.edges)
-    for (const glm::dvec3& p : edge.points_P_mm) marks.push_back({{p}, kEdgeMark_mm, render::BeadKind::mark});
-  for (const Place& rest : found.record.retained)
-    marks.push_back({{rest.centre_P_mm}, kRestMark_mm, render::BeadKind::mark});
-  return marks;
+std::optional<SuctionTip> suctionOf(const haptics::Tick& tick, const haptics::Command& command) {
+  if (command.tool.hand_instrument != haptics::HandInstrument::suction) return {};
+  const glm::dvec3 to_tip = tick.heldRotation() * glm::dvec3(0.0, 0.0, -command.tool.head.radius_mm);
+  return SuctionTip{tick.proxy_P.mm + to_tip, command.irrigating};
+}
+
+/// Down, as the patient lies.
+glm::dvec3 downOf(const calibration::Rig& rig) {
+  return glm::conjugate(rig.X_WP.rotation) * glm::dvec3(0.0, -1.0, 0.0);
+}
+
+Amount amountOf(const std::vector<const LooseChip*>& chips) {
+  Amount amount;
+  for (const LooseChip* const chip : chips) ++amount.count, amount.mm3 += chip->chip.volume_mm3;
+  return amount;
 }
 
 }  // namespace
 
 SocketFollower::SocketFollower(const RehearsalPlan& plan, const haptics::Bodies& bodies, EventLog& event_log)
-    : event_log_(event_log) {
+    : event_log_(event_log),
+      desk_(bodies),
+      chips_(bodies, plan.soft_tissue, downOf(plan.rig)),
+      follicle_(follicleOf(plan.patient)),
+      stitches_(stitchPlaces_P_mm(plan.patient)) {
   if (bodies.pieces() == 0 || !plan.patient.site || plan.patient.ct.label.empty()) return;
   watch_.emplace(plan.patient, plan.scanned_solid.empty() ? plan.patient.ct.solid : plan.scanned_solid, bodies);
 }
 
-void SocketFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, bool waits) {
-  if (!watch_) return;
-  watch_->follow(bricks, newest, waits);
-  tell();
+void SocketFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
+  for (const haptics::Tick& tick : ticks) {
+    const std::optional<SuctionTip> tip = suctionOf(tick, command);
+    chips_.follow(tick, tip);
+    follicle_.follow(tick, command.tool, tip);
+    if (isAnyOut() && stitches_.follow(tick, command.tool)) {
+      news_ = fmt::format("stitch {} of {}", stitches_.made(), stitches_.places().size());
+      event_log_.note("stitch", news_);
+    }
+  }
+}
+
+std::optional<haptics::ChipOrder> SocketFollower::follow(const Frame& frame) {
+  const auto order = desk_.follow(frame.bricks, frame.newest, frame.is_applied, frame.waits);
+  chips_.followBone(frame.bricks, frame.newest);
+  if (const haptics::ChipPlan* const loosened = desk_.takeLoosened()) chips_.add(*loosened, frame.newest);
+  if (watch_) watch_->follow(frame.bricks, frame.newest, frame.waits);
+  tell(frame.newest.t_s, false);
+  return order;
 }
 
 void SocketFollower::finish(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
-  if (!watch_) return;
-  watch_->finish(bricks, newest);
-  tell();
+  chips_.followBone(bricks, newest);
+  if (watch_) watch_->finish(bricks, newest);
+  tell(newest.t_s, true);
 }
 
-void SocketFollower::tell() {
-  const std::optional<SocketFindings>& found = watch_->newest();
-  if (!found) {
-    // Put back by an undo: the recording must not keep what it was.
-    if (told_) event_log_.note(kSocketEvent, "no piece is out");
-    told_.reset();
-    marks_.clear();
-    return;
+std::optional<SocketRecord> SocketFollower::record() const {
+  SocketRecord record;
+  if (watch_ && watch_->newest())
+    record = watch_->newest()->record;
+  else
+    record.is_out = false;
+  const std::vector<const LooseChip*> left = chips_.left();
+  record.chips = amountOf(left);
+  if (record.is_out) {
+    record.stitches = stitches_.made();
+    record.stitch_places = static_cast<int>(stitches_.places().size());
   }
-  if (told_ == found->record) return;
-  told_ = found->record;
-  marks_ = marksOf(*found);
-  event_log_.note(kSocketEvent, socketText(*told_));
+  record.follicle_left = follicle_.left();
+  record.chips_taken = amountOf(chips_.taken());
+  for (const LooseChip* const chip : left) record.chip_places.push_back({chip->chip.volume_mm3, chip->at_P_mm});
+  std::ranges::stable_sort(record.chip_places, std::greater{}, &Place::amount);
+  if (record.chip_places.size() > kMostPlaces) record.chip_places.resize(kMostPlaces);
+  if (!record.is_out && record.chips.count + record.chips_taken.count == 0) return {};
+  return record;
 }
 
-std::string SocketFollower::line() const { return told_ ? "socket " + socketInWords(*told_) : std::string(); }
+void SocketFollower::tell(double t_s, bool is_last) {
+  if (!is_last && told_s_ && t_s - *told_s_ < kBetweenEvents_s) return;
+  const std::optional<SocketRecord> now = record();
+  told_s_ = t_s;
+  if (told_ == now) return;
+  told_ = now;
+  // Put back by an undo: the recording must not keep what it was.
+  event_log_.note(kSocketEvent, told_ ? socketText(*told_) : "nothing is out or loose");
+}
+
+bool SocketFollower::isAnyOut() const { return watch_ && watch_->newest(); }
+
+std::optional<std::string> SocketFollower::news() {
+  if (news_.empty()) return {};
+  return std::exchange(news_, {});
+}
+
+std::string SocketFollower::line() const {
+  const std::string words = told_ ? socketInWords(*told_) : "";
+  return words.empty() ? words : told_->is_out ? "socket " + words : words;
+}
+
+SiteLeft SocketFollower::left() const {
+  SiteLeft left;
+  for (const LooseChip* const chip : chips_.left())
+    if (chip->chip.volume_mm3 >= kDust_mm3) left.chips_P_mm.push_back(chip->at_P_mm);
+  for (const FollicleBlob& blob : follicle_.blobs()) {
+    if (blob.state == FollicleBlob::State::stuck) left.stuck_P_mm.push_back(blob.at_P_mm);
+    if (blob.state == FollicleBlob::State::loose) left.loose_P_mm.push_back(blob.at_P_mm);
+  }
+  if (watch_ && watch_->newest()) left.edges = watch_->newest()->edges;
+  for (const StitchPlace& place : stitches_.places())
+    if (!place.is_made) left.stitches_P_mm.push_back(place.at_P_mm);
+  return left;
+}
+
+std::vector<render::Bead> SocketFollower::beads() const {
+  std::vector<render::Bead> beads;
+  const std::vector<LooseChip>& chips = chips_.chips();
+  for (std::size_t n = 0; n < chips.size(); ++n)
+    if (chips[n].state == LooseChip::State::loose)
+      beads.push_back({{chips[n].at_P_mm}, chips[n].radius_mm, render::BeadKind::chip, n});
+  for (const FollicleBlob& blob : follicle_.blobs())
+    if (blob.state != FollicleBlob::State::taken)
+      beads.push_back({{blob.at_P_mm}, kFollicleShown * blob.radius_mm, render::BeadKind::follicle});
+  if (!watch_ || !watch_->newest()) return beads;
+  if (isAnyOut())
+    for (const StitchPlace& place : stitches_.places())
+      beads.push_back({{place.at_P_mm}, kStitch_mm, place.is_made ? render::BeadKind::stitch : render::BeadKind::mark});
+  for (const SharpEdge& edge : watch_->newest()->edges)
+    for (const glm::dvec3& p : edge.points_P_mm) beads.push_back({{p}, kEdgeMark_mm, render::BeadKind::mark});
+  for (const Place& rest : watch_->newest()->record.retained)
+    beads.push_back({{rest.centre_P_mm}, kRestMark_mm, render::BeadKind::mark});
+  return beads;
+}
 
 }  // namespace app

@@ -52,8 +52,14 @@ void StepFollower::predict(const std::string& difficulty, std::optional<double> 
 }
 
 void StepFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
-                          std::optional<double> bridge_mm) {
-  StepFacts facts{instrumentOf(command.tool), command.irrigating, {}, {}, bridge_mm, {}};
+                          std::optional<double> bridge_mm, const std::optional<SocketRecord>& socket) {
+  StepFacts facts;
+  facts.in_hand = instrumentOf(command.tool);
+  facts.irrigating = command.irrigating;
+  facts.bridge_mm = bridge_mm;
+  if (socket && socket->is_out)
+    facts.socket = SocketFacts{socket->chips.mm3, socket->follicle_left.value_or(0.0), sumOf(socket->edges),
+                               socket->isClean(), socket->stitches};
   if (gutter_ && gutter_->newest()) {
     facts.gutter_removed = gutter_->newest()->gutter_removed;
     facts.crown_bared = gutter_->newest()->crown_bared;

@@ -13,6 +13,7 @@
 #include "app/procedure/steps/step_tracker.h"
 #include "app/rehearsal/event_log.h"
 #include "app/rehearsal/rehearsal_plan.h"
+#include "app/session/socket_event.h"
 #include "app/session/touch_event.h"
 
 namespace app {
@@ -26,8 +27,10 @@ class StepFollower {
   void start();
   /// The surgeon's, at that time; nothing said is no prediction.
   void predict(const std::string& difficulty, std::optional<double> minutes, double t_s);
-  /// All ticks, in order, made with this command. `bridge_mm`: the thinnest bridge that holds the tooth.
-  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::optional<double> bridge_mm);
+  /// All ticks, in order, made with this command. `bridge_mm`: the thinnest bridge that holds the tooth. `socket`: once
+  /// a piece is out.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::optional<double> bridge_mm,
+              const std::optional<SocketRecord>& socket);
   /// A touch that ended.
   void follow(const Touch& touch);
   /// Bricks of the jaw's grid that have changed.

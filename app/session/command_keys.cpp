@@ -93,6 +93,14 @@ void visitSite(auto& order, Visit&& visit) {
   visit("site.serial", serial), visit("site.bodies_digest", bodies_digest), visit("site.piece", piece);
 }
 
+/// The plan follows from the bodies at the start and these.
+template <class Visit>
+void visitChips(auto& order, Visit&& visit) {
+  auto& [serial, bodies_digest, plan_digest, plan] = order;
+  visit("chips.serial", serial), visit("chips.bodies_digest", bodies_digest);
+  visit("chips.plan_digest", plan_digest);
+}
+
 template <class Visit>
 void visitMachining(auto& machining, Visit&& visit) {
   auto& [chip_tangential_N_per_mm2, chip_radial_N_per_mm2, chip_axial_N_per_mm2, edge_tangential_N_per_mm,
@@ -192,8 +200,8 @@ void visitSafety(auto& safety, Visit&& visit) {
 
 template <class Visit>
 void forEachKey(auto& command, Visit&& visit) {
-  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, bridge, site, law, erosion, spindle,
-         safety, rearm] = command;
+  auto& [serial, tool, drill_enabled, irrigating, undo_serial, redo_serial, split, bridge, site, chips, law, erosion,
+         spindle, safety, rearm] = command;
   visit("serial", serial);
   visitTool(tool, visit);
   visit("drill_enabled", drill_enabled), visit("irrigating", irrigating), visit("undo_serial", undo_serial);
@@ -201,6 +209,7 @@ void forEachKey(auto& command, Visit&& visit) {
   visitSplit(split, visit);
   visitBridge(bridge, visit);
   visitSite(site, visit);
+  visitChips(chips, visit);
   visitLaw(law, visit);
   visitErosion(erosion, visit);
   visitSpindle(spindle, visit);

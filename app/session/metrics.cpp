@@ -190,7 +190,8 @@ std::string metricsText(const SessionMetrics& metrics) {
         fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
                     broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
   if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, endOfWork_s(metrics)) + "\n";
-  if (metrics.socket) words += "socket: " + socketInWords(*metrics.socket) + "\n";
+  if (metrics.socket && !socketInWords(*metrics.socket).empty())
+    words += "socket: " + socketInWords(*metrics.socket) + "\n";
   if (metrics.procedure) {
     words += "procedure: " + procedureInWords(*metrics.procedure) + "\n";
     for (const std::string& step : stepsInWords(*metrics.procedure)) words += "  " + step + "\n";
@@ -266,15 +267,27 @@ nlohmann::ordered_json placesJson(const std::vector<Place>& places, const char* 
 /// Where something is, and how much in all.
 nlohmann::ordered_json socketJson(const SocketRecord& socket) {
   const std::vector<Place> canal = socket.canal.amount > 0.0 ? std::vector{socket.canal} : std::vector<Place>();
-  return {{"clean", socket.isClean()},
-          {"retained_mm3", sumOf(socket.retained)},
-          {"retained", placesJson(socket.retained, "volume_mm3")},
-          {"canal_open_mm2", socket.canal.amount},
-          {"canal", placesJson(canal, "area_mm2")},
-          {"lingual_open_mm2", sumOf(socket.lingual)},
-          {"lingual", placesJson(socket.lingual, "area_mm2")},
-          {"sharp_edges_mm", sumOf(socket.edges)},
-          {"sharp_edges", placesJson(socket.edges, "length_mm")}};
+  nlohmann::ordered_json json = {{"clean", nullptr},
+                                 {"chips", socket.chips.count},
+                                 {"chips_mm3", socket.chips.mm3},
+                                 {"chip_places", placesJson(socket.chip_places, "volume_mm3")},
+                                 {"chips_taken", socket.chips_taken.count},
+                                 {"chips_taken_mm3", socket.chips_taken.mm3},
+                                 {"follicle_left", nullptr}};
+  if (socket.follicle_left) json["follicle_left"] = *socket.follicle_left;
+  if (!socket.is_out) return json;
+  json["clean"] = socket.isClean();
+  json["stitches"] = socket.stitches;
+  json["stitch_places"] = socket.stitch_places;
+  json.update(nlohmann::ordered_json{{"retained_mm3", sumOf(socket.retained)},
+                                     {"retained", placesJson(socket.retained, "volume_mm3")},
+                                     {"canal_open_mm2", socket.canal.amount},
+                                     {"canal", placesJson(canal, "area_mm2")},
+                                     {"lingual_open_mm2", sumOf(socket.lingual)},
+                                     {"lingual", placesJson(socket.lingual, "area_mm2")},
+                                     {"sharp_edges_mm", sumOf(socket.edges)},
+                                     {"sharp_edges", placesJson(socket.edges, "length_mm")}});
+  return json;
 }
 
 /// A step by its key; times of one that was not reached are null.

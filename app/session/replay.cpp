@@ -1,5 +1,6 @@
 #include "app/session/replay.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "app/session/session_error.h"
 #include "app/text/version.h"
 #include "haptics/body/bridge_break.h"
+#include "haptics/body/chip_search.h"
 #include "haptics/body/piece_split.h"
 #include "haptics/ligament/piece_site.h"
 #include "haptics/servo/servo.h"
@@ -55,6 +57,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.bridge != again.bridge || !same(recorded.bridge_share, again.bridge_share) ||
       recorded.broken != again.broken)
     return "the breaking of the bridge differs";
+  if (recorded.chips != again.chips) return "the chips that came loose differ";
   if (recorded.site != again.site || recorded.gripped != again.gripped || recorded.set_aside != again.set_aside)
     return "the grip of the forceps differs";
   if (!same(recorded.grip_force_P_N.xyz, again.grip_force_P_N.xyz) ||
@@ -74,7 +77,10 @@ class Rerun {
  public:
   /// Borrows bodies and soft tissue.
   Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands)
-      : bodies_(bodies), sockets_(bodies), servo_(bodies, &soft_tissue), commands_(std::move(commands)) {}
+      : bodies_(bodies), sockets_(bodies), servo_(bodies, &soft_tissue), commands_(std::move(commands)) {
+    if (std::ranges::any_of(commands_, [](const SessionCommand& one) { return one.command.chips.serial != 0; }))
+      first_.emplace(bodies);
+  }
 
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded) {
@@ -87,6 +93,7 @@ class Rerun {
     command_.bridge.plan =
         command_.bridge.serial == before.bridge.serial ? before.bridge.plan : breakFor(command_.bridge);
     command_.site.site = command_.site.serial == before.site.serial ? before.site.site : siteFor(command_.site);
+    command_.chips.plan = command_.chips.serial == before.chips.serial ? before.chips.plan : chipsFor(command_.chips);
     if (lost > 0) return std::to_string(lost) + " ticks before it were lost";
     if (command_.serial != recorded.command_serial) return "its command was not recorded";
     return std::nullopt;
@@ -114,6 +121,19 @@ class Rerun {
     return plan ? &breaks_.emplace_back(std::move(*plan)) : nullptr;
   }
 
+  /// Found again from what has changed since the last search.
+  const haptics::ChipPlan* chipsFor(const haptics::ChipOrder& order) {
+    if (order.bodies_digest != bodies_.digest()) return nullptr;
+    if (!search_) {
+      search_.emplace(*first_);
+      first_.reset();
+    }
+    std::vector<glm::ivec3> bricks;
+    bodies_.takeDirtyBricks(bricks);
+    for (const glm::ivec3& brick : bricks) haptics::giveBrick(bodies_, brick, *search_);
+    return &chips_.emplace_back(search_->plan());
+  }
+
   haptics::PieceSite* siteFor(const haptics::SiteOrder& order) {
     if (order.piece >= bodies_.pieces() || order.bodies_digest != bodies_.digest() || grips_) return nullptr;
     std::array<haptics::PiecePose, haptics::kMaxPieces> X_PQ;
@@ -137,6 +157,9 @@ class Rerun {
   std::vector<SessionCommand> commands_;
   std::deque<haptics::SplitPlan> plans_;
   std::deque<haptics::BreakPlan> breaks_;
+  std::optional<haptics::FirstBytes> first_;  ///< none: no chips are looked for, or search_ has them
+  std::optional<haptics::ChipSearch> search_;
+  std::deque<haptics::ChipPlan> chips_;
   haptics::Command command_;
   std::size_t next_ = 0;
   std::uint64_t next_index_ = 0;

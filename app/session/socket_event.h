@@ -1,6 +1,6 @@
-// The state of the socket as an event of a recording: what is left of the tooth, what was laid open or broken through,
-// sharp edges. Written when it was looked at after a piece came out; the last one stands for the session. Frame P, mm.
-// Pure; any thread.
+// The state of the socket as an event of a recording: chips that came loose, and once a piece of tooth is out what is
+// left of it, what was laid open or broken through, sharp edges. Written when it changes; the last one stands for the
+// session. Frame P, mm. Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -23,27 +23,47 @@ struct Place {
 };
 double sumOf(const std::vector<Place>& places);
 
+/// So many, and so much of them.
+struct Amount {
+  int count = 0;
+  double mm3 = 0.0;
+
+  bool operator==(const Amount&) const = default;
+};
+
 /// The largest first; at most kMostPlaces of each are kept.
 struct SocketRecord {
-  std::vector<Place> retained;  ///< pieces of tooth, mm³
-  Place canal;                  ///< laid open, mm²; 0: not
-  std::vector<Place> lingual;   ///< holes in the lingual plate, mm²
-  std::vector<Place> edges;     ///< sharp, mm
+  Amount chips;                         ///< loose in the mouth
+  std::vector<Place> chip_places;       ///< mm³, where they lie
+  std::optional<double> follicle_left;  ///< share; none: there was none
+  Amount chips_taken;                   ///< by suction
+  bool is_out = true;                   ///< a piece of tooth is out; false: the rest was not looked at
+  std::vector<Place> retained;          ///< pieces of tooth, mm³
+  Place canal;                          ///< laid open, mm²; 0: not
+  std::vector<Place> lingual;           ///< holes in the lingual plate, mm²
+  std::vector<Place> edges;             ///< sharp, mm
+
+  int stitches = 0, stitch_places = 0;  ///< confirmed, of so many
 
   /// Nothing is left to do. What was laid open or broken through stays so.
   bool isClean() const;
   bool operator==(const SocketRecord&) const = default;
 };
 inline constexpr std::size_t kMostPlaces = 32;
+/// As chips go, dust.
+inline constexpr double kDust_mm3 = 0.05;
+/// A smaller share of the follicle is let be.
+inline constexpr double kFollicleLeft = 0.1;
 /// Shorter in all, sharp edges are let be.
 inline constexpr double kEdgesLeft_mm = 2.0;
 
 /// One line of JSON.
 std::string socketText(const SocketRecord& socket);
-/// None of other words.
+/// None of other words, numbers that are not finite, or amounts below 0.
 std::optional<SocketRecord> socketFrom(const std::string& text);
 
-/// "clean", "not clean: tooth 34.2 mm³, sharp edges 12 mm; canal laid open 2.5 mm²".
+/// "clean", "not clean: tooth 34.2 mm³, 3 chips 1.2 mm³, follicle 40 %, sharp edges 12 mm; canal laid open 2.5 mm²; 2
+/// of 3 stitches"; before a piece is out "3 chips 1.2 mm³", or nothing.
 std::string socketInWords(const SocketRecord& socket);
 
 }  // namespace app

@@ -96,7 +96,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
          bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
-         split, bridge, broken, bridge_share, site, gripped, set_aside, unsettled, X_PQ, grip_force_P_N,
+         split, bridge, broken, bridge_share, site, chips, gripped, set_aside, unsettled, X_PQ, grip_force_P_N,
          grip_torque_P_Nmm, lever, torn_share, torn_total_Nmm, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
@@ -124,6 +124,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"pieces"}, pieces);
   visit(Text{"split", "", "", "", kSplitMeaning}, split);
   visit(Text{"bridge", "", "", "", kBridgeMeaning}, bridge);
+  visit(Text{"chips", "", "", "", kSplitMeaning}, chips);
   auto& [broken_piece, is_complete, area_mm2, force_N, bending_Nmm] = broken;
   visit(Text{"broken.piece", "", "", "", "none 0, else 1 + piece"}, broken_piece);
   visit(Text{"broken.is_complete"}, is_complete);

@@ -62,6 +62,12 @@ void Bodies::moveBlock(std::size_t from, std::size_t to, std::size_t block,
   bones_[from + 1].moveBlock(block, given, bones_[to + 1], strokes);
 }
 
+double Bodies::loseBlock(std::size_t bone, std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
+                         StrokeHistory* strokes) noexcept {
+  const std::int64_t steps = bones_[bone].loseBlock(block, given, strokes);
+  return static_cast<double>(steps) * grid().voxelVolume_mm3() / 255.0;
+}
+
 void Bodies::place(std::size_t piece, const PiecePose& X_PQ) {
   assert(piece + 1 < bones_.size());
   assert(calibration::isFinite(X_PQ.translation_mm) && glm::length(X_PQ.rotation) > 0.5);

@@ -55,6 +55,10 @@ class Bodies {
   void moveBlock(std::size_t from, std::size_t to, std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
                  StrokeHistory* strokes = nullptr) noexcept;
 
+  /// Takes up to `given` of each voxel of a block of a bone (in the order of bones()) away. Returns mm3. Writer only.
+  double loseBlock(std::size_t bone, std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
+                   StrokeHistory* strokes = nullptr) noexcept;
+
   SolidBodies view() const;
 
   /// The brick of a piece at rest under a brick of the jaw's grid; none: outside the tooth's grid.

@@ -12,23 +12,11 @@ std::vector<std::uint8_t> bytesOf(const Components& components, std::span<const 
   const assets::VolumeGrid& grid = components.grid();
   assert(chosen.size() == grid.voxelCount());
   std::vector<std::uint8_t> bytes(grid.voxelCount(), 0);
-  const auto follows = [&](glm::ivec3 ijk) {
-    std::uint8_t most = 0;
-    bool goes = false;
-    for (int reach = 1; reach <= 3 && most < assets::kHalfSolid; ++reach)
-      assets::forVoxels(ijk - 1, ijk + 2, [&](glm::ivec3 beside) {
-        const glm::ivec3 away = glm::abs(beside - ijk);
-        const std::uint8_t solid = components.solidAt(beside);
-        if (away.x + away.y + away.z != reach || solid < assets::kHalfSolid || solid <= most) return;
-        most = solid;
-        goes = chosen[grid.index(beside)] != 0;
-      });
-    return goes;
-  };
+  const auto is_chosen = [&](glm::ivec3 ijk) { return chosen[grid.index(ijk)] != 0; };
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     const std::uint8_t solid = components.solidAt(ijk);
     if (solid == 0) return;
-    if (solid >= assets::kHalfSolid ? chosen[v] != 0 : follows(ijk)) bytes[v] = solid;
+    if (solid >= assets::kHalfSolid ? chosen[v] != 0 : followsChosen(components, ijk, is_chosen)) bytes[v] = solid;
   });
   return bytes;
 }

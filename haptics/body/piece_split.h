@@ -7,11 +7,29 @@
 #include <span>
 #include <vector>
 
+#include "assets/ct_volume.h"
 #include "haptics/body/bridge.h"
 #include "haptics/body/components.h"
 #include "haptics/body/split_plan.h"
 
 namespace haptics {
+
+/// Whether a voxel that is less than half solid goes with what is chosen: as the most solid of its six neighbours of at
+/// least half, else of the twelve at its edges, else of the eight at its corners. is_chosen(ijk) is asked of those.
+template <class IsChosen>
+bool followsChosen(const Components& components, glm::ivec3 ijk, const IsChosen& is_chosen) {
+  std::uint8_t most = 0;
+  bool goes = false;
+  for (int reach = 1; reach <= 3 && most < assets::kHalfSolid; ++reach)
+    assets::forVoxels(ijk - 1, ijk + 2, [&](glm::ivec3 beside) {
+      const glm::ivec3 away = glm::abs(beside - ijk);
+      const std::uint8_t solid = components.solidAt(beside);
+      if (away.x + away.y + away.z != reach || solid < assets::kHalfSolid || solid <= most) return;
+      most = solid;
+      goes = is_chosen(beside);
+    });
+  return goes;
+}
 
 /// Of the voxels that are chosen (not 0), in the order of the grid: whole, with what is partly solid next to them. A
 /// voxel that is less than half solid goes with the most solid of its six neighbours, else of its 26.

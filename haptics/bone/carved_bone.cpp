@@ -160,6 +160,25 @@ void CarvedBone::moveBlock(std::size_t block, std::span<const std::uint8_t, kBlo
   to.restoreBlock(block, to_state);
 }
 
+std::int64_t CarvedBone::loseBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
+                                   StrokeHistory* strokes) {
+  BlockState state = stateOf(block);
+  const History* const history = historyOf(block);
+  const auto key = static_cast<std::uint32_t>(calibration::mixedBits(block + 1) >> 32);
+  bool loses = false;
+  for (std::size_t n = 0; n < kBlockVoxels; ++n) {
+    const std::uint8_t taken = std::min(given[n], state.solid[n]);
+    if (taken == 0) continue;
+    loses = true;
+    state.solid[n] = static_cast<std::uint8_t>(state.solid[n] - taken);
+    if (history != nullptr)
+      state.dose[n] = doseLeaving(history->first[n], state.solid[n], key, static_cast<std::uint32_t>(n));
+  }
+  if (!loses) return 0;
+  saveTo(strokes, block);
+  return -restoreBlock(block, state);
+}
+
 BlockState CarvedBone::stateOf(std::size_t block) const {
   BlockState state;
   const std::uint8_t* const solid = field().solid + block * kBlockVoxels;

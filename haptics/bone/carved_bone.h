@@ -82,6 +82,11 @@ class CarvedBone {
   void moveBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given, CarvedBone& to,
                  StrokeHistory* strokes = nullptr);
 
+  /// Takes up to `given` of each voxel of a block away, as if it had been cut. Returns the solid steps of 1/255 taken.
+  /// Marks the brick. Saves the block to `strokes` first where needed. Writer only.
+  std::int64_t loseBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
+                         StrokeHistory* strokes = nullptr);
+
   BlockState stateOf(std::size_t block) const;
   /// Restores an earlier state of this block with its sums, digest and removed volume. Returns the solid steps of 1/255
   /// restored. Marks the brick. Writer only.

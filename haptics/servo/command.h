@@ -7,6 +7,7 @@
 #include "haptics/bone/erosion.h"
 #include "haptics/contact/law.h"
 #include "haptics/safety/safety_limits.h"
+#include "haptics/servo/chip_removal.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/tooth_break.h"
 #include "haptics/servo/tooth_split.h"
@@ -25,6 +26,7 @@ struct Command {
   SplitOrder split;
   BreakOrder bridge;
   SiteOrder site;
+  ChipOrder chips;
   LawSettings law;
   ErosionSettings erosion;
   SpindleSettings spindle;

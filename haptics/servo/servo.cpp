@@ -42,13 +42,14 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // Undo before the bone is evaluated.
   split_.receive(bodies_, command.split);
   breaks_.receive(bodies_, command.bridge);
+  chips_.receive(bodies_, command.chips);
   if (sites_.isNew(command.site))
     sites_.receive(bodies_, command.site, luxation_.holds(), undo_.leftByLuxation(command.site.piece));
   const StrokeUndo::Serials serials{command.undo_serial, command.redo_serial};
   double restored_mm3 = 0.0;
   if (luxation_.holds())
     undo_.ignore(serials);
-  else if (!split_.isRunning())
+  else if (!split_.isRunning() && !chips_.isRunning())
     restored_mm3 = undo_.restore(bodies_, sites_, serials, command.tool, at_proxy_X_PT_);
   if (undo_.hasMovedPieces()) luxation_.lookAgain(bodies_, sites_);
   const bool embedded = undo_.isToolEmbedded(), was_undone = embedded || undo_.hasChanged();
@@ -141,13 +142,17 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.energy_Nmm = safety_.energy_Nmm();
   tick.faults = tick.faults | delivered.faults;
 
-  // The bur cuts at the proxy. In a socket that changes nothing goes on settling.
+  // Bur or file cut at the proxy. In a socket that changes nothing goes on settling.
   const Cutting::Engagement at{at_proxy_X_PT_, command.tool.head, embedded ? Contact{} : proxy.head, proxy.force_P_N()};
-  const bool cuts = tick.drilling && proxy.head.volume_mm3 > 0.0;
+  const bool files =
+      command.tool.hand_instrument == HandInstrument::bone_file && admitted.mayDrill() && !embedded && !was_undone;
+  const bool cuts = (tick.drilling || files) && proxy.head.volume_mm3 > 0.0;
   if (cuts) undo_.endLuxation(bodies_, sites_);
-  const CarveResult removed = cutting_.cut(bodies_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
-                                           tick.drilling, tick.dt_s, tick.index);
-  undo_.update(cuts, proxy.proxy_P, removed.removed_mm3, !split_.isRunning(), tick.dt_s);
+  CarveResult removed = cutting_.cut(bodies_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
+                                     tick.drilling, tick.dt_s, tick.index);
+  removed += filing_.file(bodies_, undo_.strokes(), {at.X_PT, at.head, at.contact, at.force_P_N}, files, tick.dt_s,
+                          tick.index);
+  undo_.update(cuts, proxy.proxy_P, removed.removed_mm3, !split_.isRunning() && !chips_.isRunning(), tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // The bridge of the piece that is twisted or wedged breaks: the tool leads alone until its parts are ready.
@@ -163,14 +168,16 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     split_.breakOff(bodies_, broken - 1, breaks_.planOf(broken - 1), undo_.strokes());
   }
 
-  // A piece that has fallen apart becomes two.
-  if (split_.step(bodies_, !proxy.touches() && !led.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating(),
-                  undo_.strokes()))
-    undo_.keepStrokes();
+  // A piece that has fallen apart becomes two, and chips come loose.
+  const bool clear = !proxy.touches() && !led.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating();
+  const bool parts = split_.step(bodies_, clear && !chips_.isRunning(), undo_.strokes());
+  if (!split_.isRunning()) tick.removed_mm3 += chips_.step(bodies_, clear, undo_.strokes());
+  if (parts || chips_.hasChanged()) undo_.keepStrokes();
   if (const auto begun = split_.begun()) sites_.part(bodies_, begun->from, begun->to);
   tick.split = split_.answer();
   tick.bridge = split_.isBreaking() ? BreakAnswer::breaking : breaks_.answer(bodies_);
   tick.site = sites_.answer();
+  tick.chips = chips_.answer();
   tick.pieces = static_cast<std::uint8_t>(bodies_.pieces());
   for (std::size_t n = 0; n < bodies_.pieces(); ++n) tick.X_PQ[n] = bodies_.pose(n);
   tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());

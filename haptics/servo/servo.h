@@ -5,9 +5,11 @@
 
 #include "haptics/body/bodies.h"
 #include "haptics/safety/safety_layer.h"
+#include "haptics/servo/chip_removal.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
+#include "haptics/servo/filing.h"
 #include "haptics/servo/luxation.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/proxy.h"
@@ -39,10 +41,12 @@ class Servo {
   SoftHold soft_hold_;
   Proxy proxy_;
   Cutting cutting_;
+  Filing filing_;
   Delivery delivery_;
   StrokeUndo undo_;
   ToothSplit split_;
   ToothBreak breaks_;
+  ChipRemoval chips_;
   PieceSites sites_;
   Luxation luxation_;
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;

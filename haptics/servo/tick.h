@@ -10,6 +10,7 @@
 #include "haptics/safety/fault.h"
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/safety_state.h"
+#include "haptics/servo/chip_removal.h"
 #include "haptics/servo/drill_inhibit.h"
 #include "haptics/servo/levering.h"
 #include "haptics/servo/piece_sites.h"
@@ -33,7 +34,7 @@ struct Tick {
   double spindle_rad_per_s = 0.0;                                    ///< about +z of T
   double overlap_mm3 = 0.0;                                          ///< of the bur at the proxy
   double depth_mm = 0.0;                                             ///< equivalent depth of the law at the proxy
-  double removed_mm3 = 0.0;                                          ///< this tick; below 0 during undo
+  double removed_mm3 = 0.0;                                          ///< this tick, chips too; below 0 during undo
   double restored_total_mm3 = 0.0;                                   ///< since the start, by undo, less what was redone
   std::uint64_t bone_digest = 0;                                     ///< after this tick
   /// Since the start, by assets::Tissue, less what was restored.
@@ -50,6 +51,7 @@ struct Tick {
   BrokenBridge broken;                                          ///< in this tick
   double bridge_share = 0.0;                                    ///< of what breaks the bridge under load
   SiteAnswer site = SiteAnswer::none;                           ///< to the newest Command::site
+  ChipAnswer chips = ChipAnswer::none;                          ///< to the newest Command::chips
   std::uint8_t gripped = 0;                                     ///< 1 + the piece that the forceps hold; 0: none
   bool set_aside = false;                                       ///< a piece was let go of outside, in this tick
   bool unsettled = false;                                       ///< the piece's balance was not found in this tick

@@ -74,8 +74,14 @@ DoneWhen doneWhen(assets::TomlReader& keys, const std::string& table) {
   when.pieces = countIfGiven(keys, table, "pieces", 2);
   when.pieces_out = countIfGiven(keys, table, "pieces_out", 1);
   when.all_out = keys.boolean(table, "all_out", false);
+  when.chips_mm3 = numberIfGiven(keys, table, "chips_mm3", {0.05, 1000.0, "mm³"});
+  when.follicle_left = numberIfGiven(keys, table, "follicle_left", kShare);
+  when.edges_mm = numberIfGiven(keys, table, "edges_mm", {0.5, 200.0, "mm"});
+  when.socket_clean = keys.boolean(table, "socket_clean", false);
+  when.stitches = countIfGiven(keys, table, "stitches", 1);
   const bool has_rule = when.in_hand || when.gutter_removed || when.crown_bared || when.bone_mm3 || when.tooth_mm3 ||
-                        when.bridge_mm || when.torn || when.pieces || when.pieces_out || when.all_out;
+                        when.bridge_mm || when.torn || when.pieces || when.pieces_out || when.all_out ||
+                        when.chips_mm3 || when.follicle_left || when.edges_mm || when.socket_clean || when.stitches;
   if (has_rule == !when.given.empty())
     keys.refuse(table, "",
                 has_rule ? "what is given is not done by hand, leave out given or the rules"

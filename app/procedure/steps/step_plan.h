@@ -47,6 +47,12 @@ struct DoneWhen {
   std::optional<double> torn;       ///< share of the ligament of the piece held, or held last
   std::optional<int> pieces, pieces_out;  ///< at least
   bool all_out = false;                   ///< every piece
+  // The socket, once a piece is out.
+  std::optional<double> chips_mm3;      ///< loose in the mouth, at most
+  std::optional<double> follicle_left;  ///< share, at most
+  std::optional<double> edges_mm;       ///< sharp, at most
+  bool socket_clean = false;            ///< as SocketRecord::isClean()
+  std::optional<int> stitches;          ///< confirmed, at least
 };
 
 /// What counts as an error in a step, once each time it begins.

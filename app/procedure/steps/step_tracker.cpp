@@ -52,6 +52,16 @@ void requireVolume(RuleState& state, const std::optional<double>& wanted, double
   require(state, is_mm3 >= *wanted, [&] { return fmt::format("{} {:.0f} of {:.0f} mm³", what, is_mm3, *wanted); });
 }
 
+/// Of a socket that was looked at.
+void requireAtMost(RuleState& state, const std::optional<double>& wanted, const std::optional<SocketFacts>& socket,
+                   double SocketFacts::*which, double scale, const char* what, const char* unit) {
+  if (!wanted) return;
+  require(state, socket && (*socket).*which <= *wanted, [&] {
+    return socket ? fmt::format("{} {:.1f} of {:.1f} {} at most", what, scale * (*socket).*which, scale * *wanted, unit)
+                  : fmt::format("{} not looked at", what);
+  });
+}
+
 bool isParted(const haptics::Tick& tick) { return tick.pieces >= 2 || piecesOut(tick) > 0; }
 
 std::string bridgeWords(const std::optional<double>& bridge_mm, double most_mm) {
@@ -76,6 +86,15 @@ RuleState stateOf(const DoneWhen& when, const haptics::Tick& tick, const StepFac
   if (when.pieces)
     require(state, tick.pieces >= *when.pieces,
             [&] { return fmt::format("{} of {} pieces", std::max<int>(1, tick.pieces), *when.pieces); });
+  requireAtMost(state, when.chips_mm3, facts.socket, &SocketFacts::chips_mm3, 1.0, "chips", "mm³");
+  requireAtMost(state, when.follicle_left, facts.socket, &SocketFacts::follicle_left, 100.0, "follicle", "%");
+  requireAtMost(state, when.edges_mm, facts.socket, &SocketFacts::edges_mm, 1.0, "sharp edges", "mm");
+  if (when.socket_clean)
+    require(state, facts.socket && facts.socket->is_clean, [] { return std::string("the socket is not clean"); });
+  if (when.stitches) {
+    const int made = facts.socket ? facts.socket->stitches : 0;
+    require(state, made >= *when.stitches, [&] { return fmt::format("{} of {} stitches", made, *when.stitches); });
+  }
   if (wanted_out > 0) require(state, out >= wanted_out, [&] { return fmt::format("{} of {} out", out, wanted_out); });
   return state;
 }

@@ -31,6 +31,13 @@ inline constexpr std::size_t kStepErrors = 10;
 /// In files and summaries: "cutting dry".
 std::string_view wordsOf(StepError error);
 
+/// The socket as it was looked at last, after a piece came out.
+struct SocketFacts {
+  double chips_mm3 = 0.0, follicle_left = 0.0, edges_mm = 0.0;
+  bool is_clean = false;
+  int stitches = 0;
+};
+
 /// What the tick alone does not say. None: not known.
 struct StepFacts {
   StepInstrument in_hand = StepInstrument::bur;
@@ -38,6 +45,7 @@ struct StepFacts {
   std::optional<double> gutter_removed, crown_bared;  ///< shares
   std::optional<double> bridge_mm;                    ///< the thinnest
   std::optional<double> nerve_mm;                     ///< of the bur to the wall of the mandibular canal
+  std::optional<SocketFacts> socket;
 };
 
 class StepTracker {

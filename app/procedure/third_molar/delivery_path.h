@@ -3,12 +3,11 @@
 // device's frame D; handle and tool coincide. mm, s. Pure functions; speeds and swings are our defaults.
 #pragma once
 
+#include "app/procedure/third_molar/led_keys.h"
 #include "app/procedure/third_molar/operation_planner.h"
 #include "haptics/device/simulated/led_hand.h"
 
 namespace app {
-
-using HandPose = calibration::Pose<calibration::Patient, calibration::Tool>;
 
 /// Out of the mouth to `outside_P_mm`, turned there, and in again: soft tissue is met by none of it.
 haptics::LedPath throughOutside(const HandPose& from, const HandPose& to, const glm::dvec3& outside_P_mm);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/procedure/third_molar/cleaning_path.h"
 #include "app/text/usage_error.h"
 #include "haptics/device/simulated/trough_path.h"
 #include "haptics/servo/piece_sites.h"
@@ -60,6 +61,12 @@ OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
   const auto elevator = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
     return tool.elevator == haptics::ElevatorKind::straight_301 || tool.elevator == haptics::ElevatorKind::straight_34s;
   });
+  const auto placeOf = [&](haptics::HandInstrument kind) -> std::optional<std::size_t> {
+    const auto at = std::ranges::find(tray, kind, &haptics::Tool::hand_instrument);
+    return at == tray.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - tray.begin()));
+  };
+  found.cleaning = {placeOf(haptics::HandInstrument::suction), placeOf(haptics::HandInstrument::curette),
+                    placeOf(haptics::HandInstrument::bone_file), found.forceps};
   if (elevator != tray.end()) found.elevator = static_cast<std::size_t>(elevator - tray.begin());
   return found;
 }
@@ -71,6 +78,8 @@ Demonstration::Demonstration(const assets::Patient& patient, const assets::Plann
       hand_(hand),
       tray_(operationTray(tray)),
       planner_(patient, tray[tray_.bur].head.radius_mm, tray_.elevator.has_value()),
+      cleaning_(planner_.out_P(), {tray_.cleaning[0].has_value(), tray_.cleaning[1].has_value(),
+                                   tray_.cleaning[2].has_value(), tray_.cleaning[3].has_value()}),
       tools_(tray),
       outside_P_mm_(outsideOf(gutter)),
       forceps_R_PT_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
@@ -93,7 +102,7 @@ void Demonstration::fail(const Frame& frame, const std::string& why) {
 /// What keeps the hand from its work; empty: nothing.
 std::string Demonstration::interruption(const Frame& frame) const {
   const bool works = phase_ == Phase::cutting || phase_ == Phase::splitting || phase_ == Phase::gripping ||
-                     phase_ == Phase::taking_out;
+                     phase_ == Phase::taking_out || phase_ == Phase::cleaning;
   if (!works || !frame.is_applied || frame.newest.dt_s == 0.0) return {};
   if (!(frame.in_hand == tools_[wanted_])) return "another tool was taken";
   if (phase_ == Phase::cutting && !frame.drill_enabled) return "the drill was locked";
@@ -104,12 +113,16 @@ std::string Demonstration::interruption(const Frame& frame) const {
 std::optional<ControlRequest> Demonstration::startStep(const Frame& frame) {
   news_.push_back(step_.words);
   if (const EndStep* const end = std::get_if<EndStep>(&step_.what)) {
-    fail(frame, end->why_not);
+    if (end->why_not.empty()) is_out_ = true;
+    if (!is_out_) fail(frame, end->why_not);
+    enter(is_out_ ? Phase::settling : Phase::over, frame);
     return {};
   }
   wanted_ = std::holds_alternative<CutStep>(step_.what)     ? tray_.bur
             : std::holds_alternative<SplitStep>(step_.what) ? *tray_.elevator
                                                             : tray_.forceps;
+  if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what))
+    wanted_ = *tray_.cleaning[static_cast<std::size_t>(cleaning->what)];
   enter(Phase::changing_tool, frame);
   if (frame.in_hand == tools_[wanted_]) return {};
   return ControlRequest{Control::tool, static_cast<int>(wanted_)};
@@ -131,6 +144,9 @@ void Demonstration::work(const Frame& frame) {
     } else if (frame.newest.t_s - since_s_ >= kBridgeWait_s) {
       enter(Phase::settling, frame);
     }
+  } else if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what)) {
+    lead(cleaningPath(hand, outside_P_mm_, *cleaning, tools_[wanted_], forceps_R_PT_));
+    enter(Phase::cleaning, frame);
   } else if (frame.is_ready_to_grip) {
     lead(gripAndRock(hand, outside_P_mm_, std::get<DeliveryStep>(step_.what), forceps_R_PT_));
     enter(Phase::gripping, frame);
@@ -154,10 +170,17 @@ std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
     case Phase::cutting:
     case Phase::splitting:
     case Phase::taking_out:
+    case Phase::cleaning:
       if (hand_.hasArrived()) enter(Phase::settling, frame);
       return {};
     case Phase::settling:
       if (!isStill(frame)) return {};
+      if (is_out_) {
+        auto next = cleaning_.next(frame.left);
+        if (!next) return enter(Phase::over, frame), std::nullopt;
+        step_ = std::move(*next);
+        return startStep(frame);
+      }
       planning_ = std::async(
           frame.waits ? std::launch::deferred : std::launch::async,
           [this, copy = copyOf(bodies_, tick), grid = bodies_.bones()[1].grid(),

@@ -1,8 +1,8 @@
 // A lower third molar taken out from beginning to end by a scripted hand: gutter, section, what blocks a piece, piece
-// by piece out. Each step is planned from the bone and tooth as they are when the one before has ended
-// (operation_planner), so it is carried out as a person would, by hand, pedal and change of tool alone. Main thread,
-// once a frame, of which one a step takes 30 ms for a copy; steps are planned on a thread of their own, for which the
-// destructor waits, or on this one where the servo is stepped.
+// by piece out; then the socket cleaned and the places of stitches confirmed. Each step is planned from the bone and
+// tooth as they are when the one before has ended (operation_planner), so it is carried out as a person would, by hand,
+// pedal and change of tool alone. Main thread, once a frame, of which one a step takes 30 ms for a copy; steps are
+// planned on a thread of their own, for which the destructor waits, or on this one where the servo is stepped.
 #pragma once
 
 #include <deque>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/controls/control.h"
+#include "app/procedure/third_molar/cleaning_plan.h"
 #include "app/procedure/third_molar/delivery_path.h"
 #include "haptics/servo/tick.h"
 #include "haptics/tool/tool.h"
@@ -23,6 +24,8 @@ namespace app {
 struct OperationTray {
   std::size_t bur = 0, forceps = 0;
   std::optional<std::size_t> elevator;  ///< straight; none: the bur goes through
+  /// By Cleaning; none: that is left out. Stitches are confirmed with the forceps.
+  std::array<std::optional<std::size_t>, kCleanings> cleaning{};
 };
 OperationTray operationTray(const std::vector<haptics::Tool>& tray);
 
@@ -39,6 +42,7 @@ class Demonstration {
     bool is_applied = false;        ///< the newest command is in force in `newest`
     bool is_ready_to_grip = false;  ///< the pieces are ready for elevator and forceps
     bool waits = false;             ///< for a servo that is stepped
+    SiteLeft left;                  ///< at the site
   };
   /// What the hand asks for with its other hand or foot: a tool.
   std::optional<ControlRequest> follow(const Frame& frame);
@@ -50,7 +54,7 @@ class Demonstration {
   const std::string& failure() const { return failure_; }
 
  private:
-  enum class Phase { cutting, settling, planning, changing_tool, splitting, gripping, taking_out, over };
+  enum class Phase { cutting, settling, planning, changing_tool, splitting, gripping, taking_out, cleaning, over };
 
   void fail(const Frame& frame, const std::string& why);
   std::string interruption(const Frame& frame) const;
@@ -64,6 +68,7 @@ class Demonstration {
   haptics::LedHand& hand_;
   OperationTray tray_;
   OperationPlanner planner_;
+  CleaningPlanner cleaning_;
   std::vector<haptics::Tool> tools_;
   glm::dvec3 outside_P_mm_;  ///< of the mouth
   glm::dquat forceps_R_PT_;
@@ -75,6 +80,7 @@ class Demonstration {
   std::size_t wanted_ = 0;  ///< tool of the tray
   std::deque<std::string> news_;
   std::string failure_;
+  bool is_out_ = false;  ///< the tooth: what is left is cleaning
 };
 
 }  // namespace app

@@ -49,12 +49,23 @@ struct DeliveryStep {
   glm::dvec3 out_P{0.0, 0.0, 1.0};            ///< unit
 };
 
+/// What cleans the socket, at the end.
+enum class Cleaning : std::uint8_t { suction, curette, file, stitch };
+inline constexpr std::size_t kCleanings = 4;
+
+struct CleaningStep {
+  Cleaning what = Cleaning::suction;
+  std::vector<std::vector<glm::dvec3>> ways_P_mm;  ///< places, or the courses of edges
+  glm::dvec3 out_P{0.0, 0.0, 1.0};                 ///< unit
+  glm::dvec3 middle_P_mm{0.0};                     ///< of the socket, for a curette
+};
+
 struct EndStep {
   std::string why_not;  ///< the tooth could not be taken out; empty: it is out
 };
 
 struct OperationStep {
-  std::variant<CutStep, SplitStep, DeliveryStep, EndStep> what;
+  std::variant<CutStep, SplitStep, DeliveryStep, CleaningStep, EndStep> what;
   std::string words;  ///< for people, "part the tooth"
 };
 
@@ -65,6 +76,8 @@ class OperationPlanner {
   OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator = false);
 
   /// `first_voxel`: of the pieces' grid in the jaw's. Every call is a step: it counts what was tried.
+  /// Unit, out of the socket.
+  const glm::dvec3& out_P() const { return up_.direction_P; }
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
 
  private:

@@ -141,9 +141,9 @@ TEST_F(RehearseCommand, NamesTheRowOfAnInvalidRequest) {
     write("p.csv", std::string(kPoseHeader) + "0,0,0,9,1,0,0,0,0,,\n" + row + "\n");
     expectRefusal(kQuick + ("--device poses:" + at("p.csv")), word);
   };
-  refused("1,0,0,9,1,0,0,0,0,6,", "line 3: tool 6: the tray holds 5");
+  refused("1,0,0,9,1,0,0,0,0,9,", "line 3: tool 9: the tray holds 8");
   refused("1,0,0,9,1,0,0,0,0,,jump", "line 3: ");
-  refused("1,0,0,9,1,0,0,0,0,,tool:9", "line 3: tool 9: the tray holds 5");
+  refused("1,0,0,9,1,0,0,0,0,,tool:12", "line 3: tool 12: the tray holds 8");
   refused("1,0,0,9,2,0,0,0,0,,", "line 3: the quaternion");
   refused("0,0,0,9,1,0,0,0,0,,", "line 3: t_s does not rise");
   refused("4000,0,0,9,1,0,0,0,0,,", "line 3: t_s is beyond an hour");

@@ -1,0 +1,15 @@
+// How a scripted hand cleans a socket: suction held over one place after another, a curette drawn along the wall, a
+// file drawn to and fro along edges, an instrument held at the place of a stitch. Frame P is the device's frame D;
+// handle and tool coincide. mm, s. Pure; speeds and pressures are our defaults.
+#pragma once
+
+#include "app/procedure/third_molar/delivery_path.h"
+#include "haptics/tool/tool.h"
+
+namespace app {
+
+/// From `from` through outside, place by place, and up again. `R_PT`: how the instrument is held.
+haptics::LedPath cleaningPath(const HandPose& from, const glm::dvec3& outside_P_mm, const CleaningStep& step,
+                              const haptics::Tool& tool, const glm::dquat& R_PT);
+
+}  // namespace app
