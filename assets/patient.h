@@ -19,7 +19,7 @@ struct Classification {
 };
 
 struct Patient {
-  std::string title;  ///< one line, e.g. "built-in patient, right, mesio-angular 45 deg"
+  std::string title;  ///< one line, e.g. "built-in patient, right, mesio-angular 45°"
   CtVolume ct;
   Classification classification;
   std::optional<OperativeSite> site;              ///< none: no suitable tooth is labelled

@@ -34,7 +34,7 @@ void addAngle(const ImpactionMeasures& found, ExtractionPlan& plan) {
     named.how = "the crown points across the arch";
   } else if (found.angle_deg.value) {
     named.value = std::string(nameOf(winterClass(*found.angle_deg.value)));
-    named.how = "vertical from -10 to 10 deg, mesio-angular to 79, horizontal to 100, disto-angular to -79";
+    named.how = "vertical from -10 to 10°, mesio-angular to 79, horizontal to 100, disto-angular to -79";
   }
   plan.push_back(std::move(named));
 }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <future>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
@@ -13,6 +14,7 @@
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/patient/plain_volume.h"
 #include "assets/scenery/face_placement.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/synthetic/face.h"
@@ -46,6 +48,36 @@ assets::Patient generate(const assets::JawParameters& parameters, const assets::
   return patient;
 }
 
+/// Beside the patient's folder, which holds its own files only.
+std::string keptVolumeFile(const fs::path& folder) { return folder.string() + ".volume"; }
+
+/// Without it the next start takes a second longer.
+void keepVolume(const assets::CtVolume& volume, const fs::path& folder) {
+  try {
+    assets::writePlainVolume(volume, keptVolumeFile(folder));
+  } catch (const std::runtime_error&) {
+  }
+}
+
+/// Volume and meshes side by side.
+assets::Patient cachedPatient(const fs::path& folder, const assets::ReportProgress& report) {
+  const std::string kept = keptVolumeFile(folder);
+  std::error_code ignored;
+  if (fs::exists(kept, ignored)) {
+    if (report) report(0.0);
+    std::future<assets::CtVolume> volume =
+        std::async(std::launch::async, [&] { return assets::readPlainVolume(kept); });
+    try {
+      return assets::loadPatient(folder.string(), [&] { return volume.get(); });
+    } catch (const assets::LoadError&) {
+      fs::remove(kept, ignored);
+    }
+  }
+  assets::Patient patient = assets::loadPatient(folder.string(), report);
+  keepVolume(patient.ct, folder);
+  return patient;
+}
+
 }  // namespace
 
 assets::Patient builtInPatient(const assets::JawParameters& parameters, const assets::ReportProgress& report) {
@@ -53,12 +85,13 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters, const as
   std::error_code ignored;
   if (fs::exists(folder, ignored)) {
     try {
-      return assets::loadPatient(folder.string());
+      return cachedPatient(folder, report);
     } catch (const assets::LoadError&) {
       printMessage("the cached built-in patient cannot be read, generating it again");
     }
   } else {
     printMessage("generating the built-in patient (once, up to a minute)");
+    if (report) report(0.0);
   }
   assets::Patient made = generate(parameters, report);
   if (report) report(0.92);
@@ -69,8 +102,9 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters, const as
     printMessage(fmt::format("the built-in patient is not cached: {}", error.what()));
     return made;
   }
+  keepVolume(made.ct, folder);
   // Read back from the cache, so that the first run equals the next.
-  return assets::loadPatient(folder.string(), std::move(made.ct));
+  return assets::loadPatient(folder.string(), [&] { return std::move(made.ct); });
 }
 
 assets::FacePose replaceFace(assets::Patient& patient, const std::string& face_path) {

@@ -155,7 +155,9 @@ Prediction computedDifficulty(const assets::Patient& patient) {
 PreparedCase prepared(const RehearseOptions& options, const assets::JawParameters& jaw, const haptics::Tool& tool,
                       const assets::ReportProgress& report) {
   PreparedCase one;
-  one.patient = options.patient.empty() ? builtInPatient(jaw, report) : assets::loadPatient(options.patient);
+  constexpr double kPatientShare = 0.75, kSoftTissueShare = 0.9;
+  const auto load = assets::sectionOf(report, 0.0, kPatientShare);
+  one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
   auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
   auto computed = std::async(std::launch::async, [&] {
@@ -165,6 +167,7 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   });
   const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
   one.soft_tissue = softTissueAround(one.patient.gingiva, one.patient.face, region);
+  report(kSoftTissueShare);
   one.computed = computed.get();
   one.cut = cut.get();
   if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);

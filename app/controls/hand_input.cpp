@@ -11,7 +11,7 @@ namespace app {
 namespace {
 
 // A notch of the wheel: a part of the gap, within limits; away from the bone it is at least an ordinary step.
-constexpr double kNotchOfGap = 0.2, kFinestNotch_mm = 0.1, kLeavingNotch_mm = 0.3, kCoarsestNotch_mm = 2.0;
+constexpr double kNotchOfGap = 0.4, kFinestNotch_mm = 0.1, kLeavingNotch_mm = 0.3, kCoarsestNotch_mm = 2.0;
 // Walls of a deep hole stay near: whoever turns out notch after notch wants out of it.
 constexpr int kEvenNotches = 3;
 constexpr double kLeavingGrowth = 1.3;

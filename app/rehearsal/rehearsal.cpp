@@ -148,9 +148,9 @@ class Rehearsal {
     render::Frame held = frame_;
     held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool(plan_.rig, plan_.cut).rotation;
     held.tool_visible = true;
-    const glm::dvec3 goal_P_mm = plan_.cut ? plan_.cut->surface_P_mm : plan_.patient.focus_P_mm();
-    const auto start_W_mm =
-        startBeforeBone(held, goal_P_mm, [this](const render::Frame& frame) { return view_.gapOf(frame); });
+    const GapOf gap_of = [this](const render::Frame& frame) { return view_.gapOf(frame); };
+    const auto start_W_mm = plan_.cut ? startBeforePlan(held, *plan_.cut, gap_of)
+                                      : startBeforeBone(held, plan_.patient.focus_P_mm(), gap_of);
     if (!start_W_mm) return;
     router_.placeHandAt(*start_W_mm);
     head_up_.say(fmt::format("{:.0f} mm off the bone: wheel away from you goes in", kStartGap_mm));

@@ -10,6 +10,7 @@
 #include "app/case/patient_placement.h"
 #include "app/session/session_folder.h"
 #include "app/text/clock_text.h"
+#include "assets/synthetic/jaw.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
 
@@ -114,6 +115,23 @@ StartList positionList() {
   return list;
 }
 
+/// Only of the built-in patient: a scan's mouth is as it was scanned.
+StartList openingList() {
+  constexpr double kWide_mm = assets::kMostOpening_mm, kNarrow_mm = 30.0, kTrismus_mm = assets::kLeastOpening_mm;
+  StartList list{"Mouth opens", {}, 0};
+  const auto offer = [&](double mm, const char* beside, const char* about, std::vector<std::string> arguments) {
+    list.choices.push_back(
+        {.words = fmt::format("{:g} mm", mm), .beside = beside, .about = about, .arguments = std::move(arguments)});
+  };
+  const auto asked = [](double mm) { return std::vector<std::string>{"--opening", fmt::format("{:g}", mm)}; };
+  offer(assets::kUsualOpening_mm, "usual", "Between the edges of the incisors, as most adults open comfortably.", {});
+  offer(kWide_mm, "wide", "The most that the built-in patient opens: more room for the handpiece.", asked(kWide_mm));
+  offer(kNarrow_mm, "limited", "Less than 35 mm is trismus, as with pericoronitis: little room for the handpiece.",
+        asked(kNarrow_mm));
+  offer(kTrismus_mm, "trismus", "The least: the handpiece hardly passes between the teeth.", asked(kTrismus_mm));
+  return list;
+}
+
 StartList sessionList(std::span<const SessionListing> sessions) {
   StartList list{"Go on with", {}, 0};
   list.choices.push_back(
@@ -136,7 +154,11 @@ StartList sessionList(std::span<const SessionListing> sessions) {
 }  // namespace
 
 StartLists startLists(const StartFindings& found) {
-  return {caseStartList(found.patients), handList(found.devices), calibrationList(found.calibrations), positionList(),
+  return {caseStartList(found.patients),
+          handList(found.devices),
+          calibrationList(found.calibrations),
+          positionList(),
+          openingList(),
           sessionList(found.sessions)};
 }
 

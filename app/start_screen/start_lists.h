@@ -1,6 +1,7 @@
 // What can be chosen on the start screen, from where the program itself has it: the imported patients and the table of
-// cases, the devices that are plugged in, the calibrations in force, the positions of the patient and the sessions.
-// Pure, but for startListsHere(), which searches devices and reads folders: some tenths of a second, main thread.
+// cases, the devices that are plugged in, the calibrations in force, the positions of the patient, how far its mouth
+// opens, and the sessions. Pure, but for startListsHere(), which searches devices and reads folders: some tenths of a
+// second, main thread.
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@ namespace app {
 namespace {
 
 constexpr auto kCases = static_cast<std::size_t>(StartListName::cases),
+               kOpening = static_cast<std::size_t>(StartListName::opening),
                kSessions = static_cast<std::size_t>(StartListName::sessions);
 
 }  // namespace
@@ -46,8 +47,11 @@ void StartMenu::moveChoice(std::size_t which, int by) {
 void StartMenu::choose(std::size_t list, std::size_t choice) {
   message_.clear();
   if (list >= lists_.size() || choice >= lists_[list].choices.size()) return;
-  // Whoever points at a case means a new rehearsal.
-  if (isOverruled(list)) lists_[kSessions].chosen = 0;
+  // Whoever points at a case means a new rehearsal; a mouth is opened with its case chosen before.
+  if (isOverruled(list)) {
+    if (list == kOpening && lists_[kCases].choice().is_imported) return;
+    lists_[kSessions].chosen = 0;
+  }
   focus_ = list;
   lists_[list].chosen = choice;
 }
@@ -74,7 +78,9 @@ StartMenu::Answer StartMenu::start() {
 }
 
 bool StartMenu::isOverruled(std::size_t list) const {
-  return list == kCases && lists_[kSessions].chosen > 0 && !lists_[kSessions].choice().is_imported;
+  const bool goes_on = lists_[kSessions].chosen > 0, imported_goes_on = lists_[kSessions].choice().is_imported;
+  if (list == kOpening) return goes_on || lists_[kCases].choice().is_imported;
+  return list == kCases && goes_on && !imported_goes_on;
 }
 
 std::vector<std::string> StartMenu::arguments() const {

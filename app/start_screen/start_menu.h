@@ -30,8 +30,8 @@ struct StartList {
 };
 
 /// In the order of Tab.
-enum class StartListName : std::uint8_t { cases, hand, calibration, position, sessions };
-inline constexpr std::size_t kStartLists = 5;
+enum class StartListName : std::uint8_t { cases, hand, calibration, position, opening, sessions };
+inline constexpr std::size_t kStartLists = 6;
 using StartLists = std::vector<StartList>;
 
 class StartMenu {
@@ -50,7 +50,7 @@ class StartMenu {
 
   const StartLists& lists() const { return lists_; }
   std::size_t focus() const { return focus_; }
-  /// A session to go on with brings its own case, but not an imported patient.
+  /// A session to go on with brings its own case, but not an imported patient; only a built-in one has a mouth to open.
   bool isOverruled(std::size_t list) const;
   /// Of `molar`: "rehearse", then those of all choices.
   std::vector<std::string> arguments() const;

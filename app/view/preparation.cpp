@@ -23,10 +23,15 @@ namespace {
 using PreparationClock = std::chrono::steady_clock;
 
 constexpr auto kLook = std::chrono::milliseconds(15);
+/// A volume is read by a fork of this process (assets/scan/volume_reader.h), best before the graphics driver's threads
+/// are there: until the first report, if it comes soon.
+constexpr auto kLookForBeginning = std::chrono::milliseconds(1), kLongestBeginning = std::chrono::milliseconds(250);
 constexpr auto kLineAfter = std::chrono::milliseconds(400);  ///< short work needs no line on the terminal
 
 constexpr Ink kGround = inkOf(0x0d0f12), kWords = inkOf(0xe6e8ea), kQuietWords = inkOf(0x8d949c),
               kBar = inkOf(0x57b5e8), kTrack = inkOf(0x262a30);
+
+constexpr const char* kThen = "Drawing the first picture";
 
 /// Thrown out of the work by its next report.
 struct WorkCancelled {};
@@ -59,20 +64,20 @@ render::Image preparationPage(const calibration::Rig& rig, const render::StereoL
 
 Preparation::Preparation(const PreparationOptions& options, const calibration::Rig& rig, std::string what,
                          const ReportLine& report)
-    : rig_(rig), what_(std::move(what)) {
-  if (options.headless) return;
-  try {
-    windows_ = std::make_unique<DisplayWindows>(options.windows, report);
-    screen_ = std::make_unique<Screen>(*windows_, options.windows.screen_px, options.eyes_swapped);
-  } catch (const render::GpuError&) {
-    // The display tries again, reports it and goes on without.
-    if (options.needs_window) throw;
-    return;
-  }
-  showPage(0.0);
-}
+    : options_(options), rig_(rig), what_(std::move(what)), report_(report) {}
 
 Preparation::~Preparation() = default;
+
+void Preparation::openWindows() {
+  if (options_.headless) return;
+  try {
+    windows_ = std::make_unique<DisplayWindows>(options_.windows, report_);
+    screen_ = std::make_unique<Screen>(*windows_, options_.windows.screen_px, options_.eyes_swapped);
+  } catch (const render::GpuError&) {
+    // The display tries again, reports it and goes on without.
+    if (options_.needs_window) throw;
+  }
+}
 
 void Preparation::showPage(double share) {
   if (!screen_ || percentText(share) == shown_on_page_) return;
@@ -99,11 +104,12 @@ bool Preparation::isCancelled() {
 
 bool Preparation::runUntilDone(const std::function<void(const assets::ReportProgress&)>& work) {
   std::atomic<double> share{0.0};
-  std::atomic<bool> cancelled{false}, over{false};
+  std::atomic<bool> begun{false}, cancelled{false}, over{false};
   std::exception_ptr failure;
   std::thread worker([&] {
     try {
       work([&](double now) {
+        begun = true;
         if (cancelled) throw WorkCancelled();
         // Workers report in no order.
         for (double before = share; now > before && !share.compare_exchange_weak(before, now);) continue;
@@ -114,18 +120,34 @@ bool Preparation::runUntilDone(const std::function<void(const assets::ReportProg
     over = true;
   });
 
-  const PreparationClock::time_point begun = PreparationClock::now();
+  const PreparationClock::time_point start = PreparationClock::now();
   const bool on_terminal = isatty(STDERR_FILENO) == 1;
+  while (!begun && !over && PreparationClock::now() - start < kLongestBeginning)
+    std::this_thread::sleep_for(kLookForBeginning);
+  try {
+    openWindows();
+    showPage(share);
+  } catch (...) {
+    cancelled = true;
+    worker.join();
+    throw;
+  }
   while (!over) {
     std::this_thread::sleep_for(kLook);
     if (!cancelled) cancelled = isCancelled();
     // The window goes at once, the work when it has noticed.
     if (cancelled) screen_.reset(), windows_.reset();
     showPage(share);
-    if (on_terminal && PreparationClock::now() - begun > kLineAfter) showLine(share);
+    if (on_terminal && PreparationClock::now() - start > kLineAfter) showLine(share);
   }
   worker.join();
   if (!shown_on_line_.empty()) std::fputs("\r\033[K", stderr);
+  if (!cancelled && !failure) {
+    // Stays until the first picture.
+    what_ = kThen;
+    shown_on_page_.clear();
+    showPage(1.0);
+  }
   screen_.reset();
   if (cancelled) return false;
   if (failure) std::rethrow_exception(failure);

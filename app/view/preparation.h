@@ -29,13 +29,14 @@ struct PreparationOptions {
 
 class Preparation {
  public:
-  /// Opens the windows and shows the first page. Borrows the rig. Throws GpuError.
+  /// Borrows the rig.
   Preparation(const PreparationOptions& options, const calibration::Rig& rig, std::string what,
               const ReportLine& report);
   ~Preparation();
 
-  /// The result of `work`, none if cancelled. Throws what the work throws. After a cancellation it waits until the
-  /// work has noticed, which ends at its next report.
+  /// The result of `work`, none if cancelled. Begins it, opens the windows meanwhile and shows the first page; once.
+  /// Throws what the work throws, and GpuError. After a cancellation it waits until the work has noticed, which ends at
+  /// its next report; its first is to come soon.
   template <class Result>
   std::optional<Result> run(const std::function<Result(const assets::ReportProgress&)>& work) {
     std::optional<Result> result;
@@ -49,13 +50,16 @@ class Preparation {
  private:
   struct Screen;
 
+  void openWindows();
   bool runUntilDone(const std::function<void(const assets::ReportProgress&)>& work);
   void showPage(double share);
   void showLine(double share);
   bool isCancelled();
 
+  PreparationOptions options_;
   calibration::Rig rig_;
   std::string what_;
+  ReportLine report_;
   std::unique_ptr<DisplayWindows> windows_;
   std::unique_ptr<Screen> screen_;
   std::string shown_on_page_, shown_on_line_;  ///< percentages

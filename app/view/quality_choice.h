@@ -19,7 +19,7 @@ class QualityChoice {
         held_(held.has_value()),
         budget_s_(display.backend() == render::Backend::cpu ? std::max(1.0 / display.refresh_Hz(), kSlowestSmooth_s)
                                                             : 1.0 / display.refresh_Hz()),
-        ladder_(budget_s_, held.value_or(0)) {}
+        ladder_(budget_s_, held.value_or(firstStep(display))) {}
 
   /// Whether the ladder overrides the frame's own quality.
   bool overridesFrame() { return isChoosing() || held_; }
@@ -52,6 +52,13 @@ class QualityChoice {
   static constexpr int kSettled = 4;  ///< frames without a change
   static constexpr std::chrono::seconds kMaxSettling{3};
 
+  /// Without a graphics card the first picture is one as it is drawn while something moves: in tenths of a second
+  /// instead of seconds. It refines when nothing moves.
+  static int firstStep(SurgeonDisplay& display) {
+    return display.window() != nullptr && display.drawsOnProcessor()
+               ? static_cast<int>(render::kQualitySteps.size()) - 1
+               : 0;
+  }
   bool isChoosing() { return display_.window() != nullptr && !held_; }
 
   SurgeonDisplay& display_;

@@ -14,6 +14,9 @@ Backend byCard(std::optional<Backend> requested, const ReportLine& report) {
     report("drawing on the CPU: no graphics card, OpenGL is " + card.name);
     return Backend::cpu;
   }
+  if (card.is_software)
+    report("OpenGL is " + card.name +
+           ", without a graphics card: the first picture takes long; --renderer cpu is faster");
   if (!requested) report("drawing with OpenGL on " + card.name);
   return requested.value_or(Backend::gl_fragment);
 }

@@ -3,6 +3,7 @@
 #include "app/view/renderer_choice.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
+#include "render/gpu/graphics_card.h"
 
 namespace app {
 namespace {
@@ -42,6 +43,7 @@ void SurgeonDisplay::open() {
     openOffscreen();
   else
     options_.backend = rendererForWindow(options_.backend, report_);
+  draws_on_processor_ = options_.backend == Backend::cpu || render::currentGraphicsCard().is_software;
   fence_.emplace();
 }
 

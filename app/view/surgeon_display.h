@@ -57,6 +57,8 @@ class SurgeonDisplay {
   glm::ivec2 imageSize_px(const calibration::Rig& rig);
   render::DisplayMode mode() const { return windows_ ? windows_->mode() : options_.windows.mode; }
   render::Backend backend() const { return *options_.backend; }
+  /// By its own renderer, or because OpenGL runs on it (Mesa's llvmpipe).
+  bool drawsOnProcessor() const { return draws_on_processor_; }
   /// Null: headless.
   render::Window* window() { return windows_ ? &windows_->first() : nullptr; }
   std::vector<render::WindowEvent> takeEvents() {
@@ -97,6 +99,7 @@ class SurgeonDisplay {
   std::optional<std::pair<glm::ivec2, glm::ivec2>> shown_px_;  ///< size and place of the newest image on the panel
   double drawing_s_ = 0.0;
   int context_losses_ = 0;
+  bool draws_on_processor_ = false;
 };
 
 }  // namespace app

@@ -4,9 +4,11 @@
 // case. What is stable: README.md. Any thread; about 1 s per 10^7 voxels.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "assets/patient.h"
+#include "assets/progress.h"
 
 namespace assets {
 
@@ -14,13 +16,14 @@ namespace assets {
 /// content, which would be lost.
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite);
 
-/// Throws LoadError: no such folder, a file missing, damaged or foreign, a value out of range.
-Patient loadPatient(const std::string& folder);
+/// The volume is read beside the meshes. Throws LoadError: no such folder, a file missing, damaged or foreign, a value
+/// out of range.
+Patient loadPatient(const std::string& folder, const ReportProgress& report = {});
 
 /// Everything but ct, gingiva and face, of patient.toml alone; microseconds. Throws LoadError.
 Patient describedPatient(const std::string& folder);
 
-/// The same of a folder that was just written with this volume: the file keeps it as it is, so it is not read.
-Patient loadPatient(const std::string& folder, CtVolume volume);
+/// The same of a folder whose volume is known: asked for after the meshes were read, the file is not.
+Patient loadPatient(const std::string& folder, const std::function<CtVolume()>& volume);
 
 }  // namespace assets

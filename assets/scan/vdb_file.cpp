@@ -8,7 +8,6 @@
 #include "assets/scan/file_checksum.h"
 #include "assets/scan/vdb_leaf.h"
 #include "assets/scan/vdb_parse.h"
-#include "assets/scan/volume_reader.h"
 
 namespace assets {
 
@@ -78,9 +77,11 @@ void writeVdb(const CtVolume& volume, const std::string& path) {
   appendChecksum(path);
 }
 
-CtVolume readVdb(const std::string& path) {
+std::unique_ptr<VolumeInChild> beginVdb(const std::string& path) {
   requireChecksum(path);
-  return readVolumeInChild(path);
+  return std::make_unique<VolumeInChild>(path);
 }
+
+CtVolume readVdb(const std::string& path) { return beginVdb(path)->take(); }
 
 }  // namespace assets

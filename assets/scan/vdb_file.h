@@ -8,9 +8,11 @@
 // (volume_reader.h). Any thread; about 10 ns a voxel and grid; a dense copy in memory.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "assets/ct_volume.h"
+#include "assets/scan/volume_reader.h"
 
 namespace assets {
 
@@ -20,5 +22,8 @@ void writeVdb(const CtVolume& volume, const std::string& path);
 /// Throws LoadError: missing, damaged, foreign, another schema, a grid missing or of another type or transform, a value
 /// out of range, too many voxels.
 CtVolume readVdb(const std::string& path);
+
+/// The same, read beside the caller until it is taken. Throws as readVdb, at once what the checksum shows.
+std::unique_ptr<VolumeInChild> beginVdb(const std::string& path);
 
 }  // namespace assets

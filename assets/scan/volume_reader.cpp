@@ -101,34 +101,6 @@ void applyLimits(const ReaderLimits& limits) {
   ::setrlimit(RLIMIT_DATA, &memory);
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() { ::close(descriptor_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  operator int() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-/// Default action of SIGCHLD in scope, so that waitpid reports the status of children.
-class DefaultChildSignal {
- public:
-  DefaultChildSignal() {
-    struct sigaction standard {};
-    standard.sa_handler = SIG_DFL;
-    ::sigaction(SIGCHLD, &standard, &before_);
-  }
-  ~DefaultChildSignal() { ::sigaction(SIGCHLD, &before_, nullptr); }
-  DefaultChildSignal(const DefaultChildSignal&) = delete;
-  DefaultChildSignal& operator=(const DefaultChildSignal&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
-
 [[noreturn]] void refuseFailure(const std::string& path) {
   throw LoadError(path + ": it is damaged (its reader failed on it); import the scan again");
 }
@@ -205,18 +177,72 @@ CtVolume volumeFromAnswer(int answer_descriptor, int wait_status, const std::str
   return volume;
 }
 
-CtVolume readVolumeInChild(const std::string& path) {
-  const Descriptor answer(::memfd_create("volume", MFD_CLOEXEC));
+struct VolumeInChild::Process {
+  class Descriptor {
+   public:
+    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+    ~Descriptor() { ::close(descriptor_); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    operator int() const { return descriptor_; }
+
+   private:
+    int descriptor_;
+  };
+
+  /// Default action of SIGCHLD in scope, so that waitpid reports the status of children.
+  class DefaultChildSignal {
+   public:
+    DefaultChildSignal() {
+      struct sigaction standard {};
+      standard.sa_handler = SIG_DFL;
+      ::sigaction(SIGCHLD, &standard, &before_);
+    }
+    ~DefaultChildSignal() { ::sigaction(SIGCHLD, &before_, nullptr); }
+    DefaultChildSignal(const DefaultChildSignal&) = delete;
+    DefaultChildSignal& operator=(const DefaultChildSignal&) = delete;
+
+   private:
+    struct sigaction before_ {};
+  };
+
+  DefaultChildSignal children_wait;
+  Descriptor answer{::memfd_create("volume", MFD_CLOEXEC)};
+  pid_t reader = -1;
+};
+
+VolumeInChild::VolumeInChild(const std::string& path) : path_(path), process_(std::make_unique<Process>()) {
   std::error_code error;
   const std::uint64_t bytes = std::filesystem::file_size(path, error);
-  const DefaultChildSignal children_wait;
-  const pid_t reader = answer < 0 ? -1 : ::fork();
-  if (reader == 0) runVolumeReader(path, readerLimits(error ? 0 : bytes), answer);
-  if (reader < 0) throw LoadError(path + ": no process can be started to read it; close other programs");
-  int status = 0;
-  while (::waitpid(reader, &status, 0) < 0)
-    if (errno != EINTR) refuseFailure(path);
-  return volumeFromAnswer(answer, status, path);
+  process_->reader = process_->answer < 0 ? -1 : ::fork();
+  if (process_->reader == 0) runVolumeReader(path, readerLimits(error ? 0 : bytes), process_->answer);
+  if (process_->reader < 0) throw LoadError(path + ": no process can be started to read it; close other programs");
 }
+
+VolumeInChild::~VolumeInChild() {
+  if (!process_ || process_->reader < 0) return;
+  ::kill(process_->reader, SIGKILL);
+  waited();
+}
+
+/// Its status; -1: none.
+int VolumeInChild::waited() {
+  int status = 0;
+  while (::waitpid(process_->reader, &status, 0) < 0)
+    if (errno != EINTR) {
+      status = -1;
+      break;
+    }
+  process_->reader = -1;
+  return status;
+}
+
+CtVolume VolumeInChild::take() {
+  const int status = waited();
+  if (status == -1) refuseFailure(path_);
+  return volumeFromAnswer(process_->answer, status, path_);
+}
+
+CtVolume readVolumeInChild(const std::string& path) { return VolumeInChild(path).take(); }
 
 }  // namespace assets

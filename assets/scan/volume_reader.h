@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "assets/ct_volume.h"
@@ -21,7 +22,28 @@ struct ReaderLimits {
 /// Limits for a file of that size, far above the usual needs (40 times its size, 60 ms a megabyte).
 ReaderLimits readerLimits(std::uint64_t file_bytes);
 
-/// Throws LoadError with the reader's message, or that it failed on the file.
+/// A reading process that runs beside its maker until its volume is taken. One at a time in a thread.
+class VolumeInChild {
+ public:
+  /// Starts it. Throws LoadError.
+  explicit VolumeInChild(const std::string& path);
+  /// A volume that nobody takes is given up.
+  ~VolumeInChild();
+  VolumeInChild(const VolumeInChild&) = delete;
+  VolumeInChild& operator=(const VolumeInChild&) = delete;
+
+  /// Waits for it; once. Throws LoadError with the reader's message, or that it failed on the file.
+  CtVolume take();
+
+ private:
+  int waited();
+
+  std::string path_;
+  struct Process;
+  std::unique_ptr<Process> process_;
+};
+
+/// Throws LoadError as take().
 CtVolume readVolumeInChild(const std::string& path);
 
 /// The reading process: detaches from the program, reads `path` within the limits, writes the answer to the open file

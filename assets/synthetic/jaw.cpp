@@ -48,7 +48,7 @@ std::string_view winterClass(double angle_deg) {
 std::string titleOf(const JawParameters& p) {
   std::ostringstream title;
   title << "built-in patient, " << (p.right_side ? "right" : "left") << ", " << winterClass(p.winter_angle_deg) << ' '
-        << std::lround(p.winter_angle_deg) << " deg";
+        << std::lround(p.winter_angle_deg) << "°";
   return title.str();
 }
 

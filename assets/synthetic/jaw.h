@@ -12,7 +12,7 @@
 namespace assets {
 
 /// Part of the cache name; to be incremented with any change of the generated jaw, gingiva or face.
-inline constexpr int kSyntheticPatientRevision = 16;
+inline constexpr int kSyntheticPatientRevision = 17;
 
 /// Between the incisal edges with the mouth open. Healthy adults reach 35 to 50 mm (Gray's Anatomy); less than 35 mm is
 /// trismus (Dijkstra 2006, Int. J. Oral Maxillofac. Surg. 35:337). The least is our own choice: the scripted handpiece

@@ -47,6 +47,9 @@ void SoftHold::place(const SoftTissueField& field, const Tool& tool, const ToolP
   outline_ = outlineOf(tool);
   held_ = X_PT;
   placed_ = true;
+  account_.open();
+  last_X_PT_ = X_PT;
+  last_force_N_ = last_torque_Nmm_ = {};
   for (std::size_t n = 0; n < outline_.count; ++n)
     buried_mm_[n] = std::max(0.0, outline_.balls[n].radius_mm - field.at(centre_P(held_, n)).distance_mm);
 }
@@ -138,6 +141,8 @@ SoftHold::State SoftHold::update(const SoftTissueField* field, const Tool& tool,
   if (is_near && isFree(*field, X_PT)) {
     held_ = X_PT;
     buried_mm_.fill(0.0);
+    settle(X_PT, {}, 0.0);
+    account_.open();
     return {X_PT, {}, 0.0};
   }
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -154,26 +159,51 @@ SoftHold::State SoftHold::update(const SoftTissueField* field, const Tool& tool,
     held_.rotation = glm::normalize(rotationBy(kMaxTurn_rad / angle * tilt) * X_PT.rotation);
 
   State state{held_, touched(*field, most, turning), 0.0};
+  push(state, X_PT, velocity_P_mm_per_s, most);
+  return state;
+}
+
+/// What is felt of the held pose.
+void SoftHold::push(State& state, const ToolPose& X_PT, const Vector<Patient>& velocity_P_mm_per_s,
+                    const Contact& most) noexcept {
   const glm::dvec3 u = held_.translation_mm - X_PT.translation_mm;
   const glm::dvec3 t = turnBetween_rad(X_PT.rotation, held_.rotation);
   constexpr double kL = SoftHoldLaw::kLever_mm, kMax_N = SoftHoldLaw::kMaxForce_N;
   const double distance_mm = std::sqrt(glm::dot(u, u) + kL * kL * glm::dot(t, t));
-  if (!(distance_mm > 1e-9)) return state;
+  if (!(distance_mm > 1e-9)) return settle(X_PT, state.touch, 0.0);
 
   // The hand has pushed the ball in as far as the tissue has moved it out.
   if (most.push_mm > 0.0) {
     const glm::dvec3 arm = centre_P(held_, most.ball) - held_.translation_mm;
     state.touch.depth_mm = std::max(0.0, glm::dot(most.normal_P, u + glm::cross(t, arm)));
   }
-  const double spring_N = kMax_N * (1.0 - std::exp(-SoftHoldLaw::kStiffness_N_per_mm * distance_mm / kMax_N));
+  const glm::dvec3 force_P = u / distance_mm, torque_P_mm = kL * kL / distance_mm * t;  // of 1 N
+  const double along_mm = glm::dot(force_P, X_PT.translation_mm - last_X_PT_.translation_mm) +
+                          glm::dot(torque_P_mm, turnBetween_rad(last_X_PT_.rotation, X_PT.rotation));
+  const double spring_N = account_.force_N(account_.covered_mm(distance_mm, lastWork_Nmm(X_PT), along_mm));
   const double leaving_mm_per_s = glm::dot(velocity_P_mm_per_s.xyz, u) / distance_mm;
   const double full = std::min(1.0, distance_mm / 0.5);  // the damping begins without a step
   const double force_N = std::clamp(spring_N - full * SoftHoldLaw::kDamping_Ns_per_mm * leaving_mm_per_s, 0.0, kMax_N);
-  state.touch.force_P_N.xyz = force_N / distance_mm * u;
-  state.touch.torque_P_Nmm.xyz = force_N * kL * kL / distance_mm * t;
+  state.touch.force_P_N.xyz = force_N * force_P;
+  state.touch.torque_P_Nmm.xyz = force_N * torque_P_mm;
   state.touch.turn_P = held_.rotation * glm::conjugate(X_PT.rotation);
   state.max_stored_Nmm = std::min(0.5 * SoftHoldLaw::kStiffness_N_per_mm * distance_mm, kMax_N) * distance_mm;
-  return state;
+  settle(X_PT, state.touch, distance_mm);
+}
+
+/// On the hand, by the wrench of the last tick on the way to this pose.
+double SoftHold::lastWork_Nmm(const ToolPose& X_PT) const noexcept {
+  return glm::dot(last_force_N_.xyz, X_PT.translation_mm - last_X_PT_.translation_mm) +
+         glm::dot(last_torque_Nmm_.xyz, turnBetween_rad(last_X_PT_.rotation, X_PT.rotation));
+}
+
+/// Books the work of this tick by the midpoint rule.
+void SoftHold::settle(const ToolPose& X_PT, const SoftTouch& touch, double deflection_mm) noexcept {
+  double work_Nmm = lastWork_Nmm(X_PT);
+  last_force_N_ = touch.force_P_N, last_torque_Nmm_ = touch.torque_P_Nmm;
+  work_Nmm += lastWork_Nmm(X_PT);
+  account_.close(0.5 * work_Nmm, deflection_mm);
+  last_X_PT_ = X_PT;
 }
 
 }  // namespace haptics

@@ -3,6 +3,8 @@
 // starts from. It slides along the tissue without friction and gives way by shifting and by tilting about the bur:
 //   D = hypot(|u|, L |t|)   u: shift of T's origin, t: rotation vector, from the hand to the held pose; L = 40 mm
 //   F = f u / D,  M = f L^2 t / D,  f = F_max (1 - exp(-k D / F_max)) - b v, never below 0: it does not pull
+// The held pose depends on the way of the hand, so f has an account of its own (spring_account.h) and never gives back
+// more than the hand has put in.
 // Zero and exactly the hand's pose outside. k = 0.25 N/mm, F_max = 0.8 N: our choice for a device of 3 N. A lip or
 // cheek of 8 mm thickness and E = 10 to 40 kPa under a rod of 1 to 4 mm gives k = 2 E a / (1 - nu^2) (flat punch,
 // Sneddon 1965) of 0.03 to 0.4 N/mm; gingiva is stiffer, and lies on bone that is felt as such.
@@ -16,6 +18,7 @@
 
 #include "assets/soft_tissue_field.h"
 #include "haptics/contact/soft_touch.h"
+#include "haptics/servo/spring_account.h"
 #include "haptics/tool/instrument_outline.h"
 
 namespace haptics {
@@ -54,6 +57,10 @@ class SoftHold {
   void moveTowards(const ToolPose& X_PT) noexcept;
   Contact pushOut(const assets::SoftTissueField& field, bool turning) noexcept;
   SoftTouch touched(const assets::SoftTissueField& field, const Contact& most, bool turning) noexcept;
+  void push(State& state, const ToolPose& X_PT, const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s,
+            const Contact& most) noexcept;
+  double lastWork_Nmm(const ToolPose& X_PT) const noexcept;
+  void settle(const ToolPose& X_PT, const SoftTouch& touch, double deflection_mm) noexcept;
   glm::dvec3 centre_P(const ToolPose& X_PT, std::size_t ball) const noexcept {
     return X_PT.translation_mm + X_PT.rotation * glm::dvec3(0.0, 0.0, outline_.balls[ball].z_mm);
   }
@@ -63,6 +70,9 @@ class SoftHold {
   std::array<double, InstrumentOutline::kMaxBalls> buried_mm_{};  ///< a ball may be this deep inside
   ToolPose held_;
   bool placed_ = false;
+  SpringAccount account_{SoftHoldLaw::kStiffness_N_per_mm, SoftHoldLaw::kMaxForce_N};
+  ToolPose last_X_PT_;  ///< the hand's, and what was felt there
+  calibration::Vector<calibration::Patient> last_force_N_, last_torque_Nmm_;
 };
 
 }  // namespace haptics

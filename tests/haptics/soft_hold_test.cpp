@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "haptics/servo/servo.h"
 #include "tests/haptics/allocation_count.h"
@@ -197,6 +198,75 @@ TEST(SoftHold, HandGetsNoEnergyFromPressingAlongAnyPathOfAFlatWall) {
     });
     EXPECT_GT(least_Nmm, -0.1) << seed;
   }
+}
+
+/// Closed paths of the hand: a few random poses around the lip, in a loop that is passed some times and left again.
+template <class Visit>
+void goRound(std::uint32_t seed, double mm_per_tick, Visit&& visit) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> beside(-22.0, 22.0), height(-8.0, 20.0), turn(-0.35, 0.35);
+  std::vector<ToolPose> corners{poseAt({0.0, 0.0, 0.0})};
+  for (int n = 0; n < 4; ++n)
+    corners.push_back({glm::normalize(glm::dquat(1.0, turn(random), turn(random), turn(random))),
+                       {beside(random), beside(random), height(random)}});
+  const auto go = [&](const ToolPose& from, const ToolPose& to) {
+    const int ticks = 1 + static_cast<int>(glm::distance(from.translation_mm, to.translation_mm) / mm_per_tick);
+    for (int n = 1; n <= ticks; ++n) {
+      const double part = n / double(ticks);
+      visit(ToolPose{glm::slerp(from.rotation, to.rotation, part),
+                     glm::mix(from.translation_mm, to.translation_mm, part)});
+    }
+  };
+  for (int round = 0; round < 5; ++round) {
+    for (std::size_t n = 1; n < corners.size(); ++n) go(corners[n - 1], corners[n]);
+    go(corners.back(), round < 4 ? corners[1] : corners[0]);
+  }
+}
+
+/// What the hand has put in so far, by the midpoint rule.
+class HandsWork {
+ public:
+  void add(const ToolPose& hand, const SoftTouch& felt) {
+    const glm::dquat by = hand.rotation * glm::conjugate(last_.rotation);
+    const glm::dvec3 turn = 2.0 * glm::dvec3(by.x, by.y, by.z) * (by.w < 0.0 ? -1.0 : 1.0);
+    work_Nmm_ -= glm::dot(0.5 * (felt.force_P_N.xyz + last_N_), hand.translation_mm - last_.translation_mm) +
+                 glm::dot(0.5 * (felt.torque_P_Nmm.xyz + last_Nmm_), turn);
+    least_Nmm_ = std::min(least_Nmm_, work_Nmm_);
+    last_ = hand, last_N_ = felt.force_P_N.xyz, last_Nmm_ = felt.torque_P_Nmm.xyz;
+  }
+  double work_Nmm() const { return work_Nmm_; }
+  double least_Nmm() const { return least_Nmm_; }
+
+ private:
+  ToolPose last_;
+  glm::dvec3 last_N_{0.0}, last_Nmm_{0.0};
+  double work_Nmm_ = 0.0, least_Nmm_ = 0.0;
+};
+
+/// The end of the instrument slips past the lip and comes back another way: the held pose is not a function of the
+/// hand's, and a spring without an account would give back what nobody put in.
+TEST(SoftHold, GivesNoMoreThanWasPutInOnAnyClosedPath) {
+  double most_put_in_Nmm = 0.0;
+  for (const double mm_per_tick : {0.02, 0.1, 0.3})
+    for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+      SoftHold hold;
+      HandsWork hands;
+      double most_N = 0.0;
+      int touches = 0;
+      bool touched = false;
+      goRound(seed, mm_per_tick, [&](const ToolPose& hand) {
+        const SoftHold::State state = hold.update(&lipRing(), roundBur(), hand, {}, false);
+        hands.add(hand, state.touch);
+        most_N = std::max(most_N, glm::length(state.touch.force_P_N.xyz));
+        touches += !touched && state.touch.touches() ? 1 : 0;
+        touched = state.touch.touches();
+      });
+      // Of each touch the tolerance, and one tick of the last force.
+      const double most_given_Nmm = touches * (SpringAccount::kTolerance_Nmm + 0.5 * most_N * mm_per_tick);
+      EXPECT_GE(hands.least_Nmm(), -most_given_Nmm) << seed << " " << mm_per_tick;
+      most_put_in_Nmm = std::max(most_put_in_Nmm, hands.work_Nmm());
+    }
+  EXPECT_GT(most_put_in_Nmm, 1.0) << "the paths meet the lip";
 }
 
 /// Every tick of a servo with soft tissue under a wandering hand.

@@ -38,6 +38,38 @@ TEST(StartPose, IsFiveMillimetresBeforeTheBoneOnTheLineThroughTheGoal) {
   }
 }
 
+/// The second molar is a ball that stands nearer to the viewer than the flat bone, 4 mm beside the cut.
+TEST(StartPose, LiesBesideTheLineWhereAnotherToothWouldBeNearest) {
+  const render::Frame frame = turnedPatient();
+  const auto X_PW = frame.rig.X_WP.inverse();
+  const auto inP = [&](const glm::dvec3& p_W_mm) { return (X_PW * calibration::Point<calibration::World>{p_W_mm}).mm; };
+  const glm::dvec3 molar_W_mm{4.0, 0.0, 2.0};
+  const double molar_mm = 4.0;
+  const GapOf gap_of = [&](const render::Frame& moved) -> std::optional<render::BoneGap> {
+    const glm::dvec3 at = (moved.rig.X_WP * Point<Patient>{moved.X_PT.translation_mm}).mm;
+    const double flat_mm = at.z - moved.bur_radius_mm, ball_mm = glm::distance(at, molar_W_mm) - molar_mm - 1.5;
+    if (std::min(flat_mm, ball_mm) > render::kMaxGap_mm) return {};
+    if (flat_mm < ball_mm) return render::BoneGap{std::max(flat_mm, 0.0), {inP({at.x, at.y, 0.0})}};
+    return render::BoneGap{std::max(ball_mm, 0.0), {inP(molar_W_mm + molar_mm * glm::normalize(at - molar_W_mm))}};
+  };
+  assets::PlannedCut cut;
+  cut.surface_P_mm = inP({0.0, 0.0, 0.0});
+  for (const double x_mm : {-6.0, -4.0, -2.0, 0.0})
+    cut.strokes_P_mm.push_back({inP({x_mm, -2.0, 0.0}), inP({x_mm, 2.0, 0.0})});
+  const auto nearestAt = [&](const glm::dvec3& start_W_mm) {
+    render::Frame moved = frame;
+    moved.X_PT.translation_mm = inP(start_W_mm);
+    return gap_of(moved).value();
+  };
+  const glm::dvec3 straight = startBeforeBone(frame, cut.surface_P_mm, gap_of).value();
+  EXPECT_LT(glm::distance(nearestAt(straight).nearest_P.mm, inP(molar_W_mm)), molar_mm + 1e-6) << "the molar";
+  const glm::dvec3 beside = startBeforePlan(frame, cut, gap_of).value();
+  const render::BoneGap gap = nearestAt(beside);
+  EXPECT_NEAR(gap.mm, kStartGap_mm, 1e-9);
+  EXPECT_GT(glm::distance(gap.nearest_P.mm, inP(molar_W_mm)), molar_mm + 0.1) << "the cut";
+  EXPECT_LE(glm::length(glm::dvec2(beside)), 8.0 + 1e-9);
+}
+
 TEST(StartPose, IsNotKnownWhereNoBoneIsNear) { EXPECT_FALSE(startBeforeBone(turnedPatient(), {}, boneAt(-1000.0))); }
 
 }  // namespace

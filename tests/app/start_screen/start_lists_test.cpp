@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "app/case/case.h"
 #include "app/commands/rehearse_options.h"
 #include "app/text/command_line.h"
@@ -94,7 +96,10 @@ TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
       if (list == 2 && choice > 0) {
         EXPECT_TRUE(options.rig.isGiven());
       }
-      if (list == 4 && choice == 1) {
+      if (list == 4) {
+        EXPECT_EQ(options.opening_mm.value_or(37.0), (std::array{37.0, 50.0, 30.0, 25.0}.at(choice)));
+      }
+      if (list == 5 && choice == 1) {
         EXPECT_EQ(options.continued, "/data/0.molar");
       }
     }
@@ -108,7 +113,7 @@ TEST(StartLists, AUnitThatIsNotReadyTellsItsNextStep) {
 }
 
 TEST(StartLists, SessionsThatCannotBeGoneOnWithAreLeftOut) {
-  const StartList list = someLists()[4];
+  const StartList list = someLists()[5];
   ASSERT_EQ(list.choices.size(), 1 + kSessionsOffered);
   EXPECT_EQ(list.choices[1].arguments[1], "/data/0.molar");
   EXPECT_EQ(list.choices[2].arguments[1], "/data/3.molar");

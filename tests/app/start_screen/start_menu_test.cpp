@@ -20,6 +20,7 @@ StartMenu smallMenu() {
       {"Hand", {choice("Mouse", {"--device", "mouse"}), choice("Touch", {"--device", "openhaptics"})}, 0},
       {"Calibration", {choice("Usual", {})}, 0},
       {"Patient", {choice("Seated", {}), choice("Behind", {"--position", "behind"})}, 0},
+      {"Mouth opens", {choice("37 mm", {}), choice("25 mm", {"--opening", "25"})}, 0},
       {"Go on with", {choice("A new rehearsal", {}), choice("Monday", {"--continue", "monday.molar"})}, 0},
   };
   lists[1].choices[1].why_not = "install its driver";
@@ -35,7 +36,7 @@ TEST(StartMenu, EnterStartsWhatIsChosenAsArgumentsOfRehearse) {
   EXPECT_EQ(menu.arguments(), Words({"rehearse", "--case", "deep", "--device", "mouse"}));
   EXPECT_EQ(press(menu, Key::up), Answer::none);
   EXPECT_EQ(press(menu, Key::left), Answer::none) << "to the last list, around the corner";
-  EXPECT_EQ(press(menu, Key::left), Answer::none);
+  press(menu, Key::left), press(menu, Key::left);
   EXPECT_EQ(press(menu, Key::down), Answer::none);
   EXPECT_EQ(press(menu, Key::enter), Answer::start);
   EXPECT_EQ(menu.arguments(), Words({"rehearse", "--case", "shallow", "--device", "mouse", "--position", "behind"}));
@@ -54,7 +55,7 @@ TEST(StartMenu, TabGoesRoundAllListsAndBack) {
 
 TEST(StartMenu, ASessionToGoOnWithBringsItsOwnCase) {
   StartMenu menu = smallMenu();
-  menu.choose(4, 1);
+  menu.choose(5, 1);
   EXPECT_TRUE(menu.isOverruled(0));
   EXPECT_EQ(menu.arguments(), Words({"rehearse", "--device", "mouse", "--continue", "monday.molar"}));
   press(menu, Key::tab);
@@ -67,16 +68,36 @@ TEST(StartMenu, ASessionToGoOnWithBringsItsOwnCase) {
 TEST(StartMenu, ASessionOfAnImportedPatientGoesOnWithThatPatient) {
   StartLists lists = smallMenu().lists();
   lists[0].choices.push_back({.words = "mine", .beside = "", .about = "", .arguments = {"/mine"}, .is_imported = true});
-  lists[4].choices[1].is_imported = true;
+  lists[5].choices[1].is_imported = true;
   StartMenu menu(lists);
-  menu.choose(4, 1);
+  menu.choose(5, 1);
   EXPECT_FALSE(menu.isOverruled(0));
   EXPECT_EQ(press(menu, Key::enter), Answer::none) << "a built-in case is chosen";
   EXPECT_TRUE(menu.isTrouble());
   menu.choose(0, 2);
-  EXPECT_EQ(menu.lists()[4].chosen, 1u);
+  EXPECT_EQ(menu.lists()[5].chosen, 1u);
   EXPECT_EQ(press(menu, Key::enter), Answer::start);
   EXPECT_EQ(menu.arguments(), Words({"rehearse", "/mine", "--device", "mouse", "--continue", "monday.molar"}));
+}
+
+/// A scan's mouth is as it was scanned, and a session's as it was.
+TEST(StartMenu, TheMouthOpensOfABuiltInPatientThatIsNewAlone) {
+  StartLists lists = smallMenu().lists();
+  lists[0].choices.push_back({.words = "mine", .beside = "", .about = "", .arguments = {"/mine"}, .is_imported = true});
+  StartMenu menu(lists);
+  menu.choose(4, 1);
+  EXPECT_EQ(menu.arguments(), Words({"rehearse", "--case", "deep", "--device", "mouse", "--opening", "25"}));
+  menu.choose(0, 2);
+  EXPECT_TRUE(menu.isOverruled(4));
+  EXPECT_EQ(menu.arguments(), Words({"rehearse", "/mine", "--device", "mouse"}));
+  menu.choose(4, 0);
+  EXPECT_EQ(menu.lists()[0].chosen, 2u) << "pointing at it does not change the patient";
+  EXPECT_NE(menu.focus(), 4u);
+  menu.choose(0, 0), menu.choose(5, 1);
+  EXPECT_TRUE(menu.isOverruled(4));
+  menu.choose(4, 1);
+  EXPECT_EQ(menu.arguments(), Words({"rehearse", "--case", "shallow", "--device", "mouse", "--opening", "25"}))
+      << "whoever points at it means a new rehearsal";
 }
 
 TEST(StartMenu, TheWheelMovesTheChoiceOfTheListUnderIt) {
@@ -86,10 +107,10 @@ TEST(StartMenu, TheWheelMovesTheChoiceOfTheListUnderIt) {
   EXPECT_EQ(menu.lists()[3].chosen, 1u);
   menu.scroll(3, 5), menu.scroll(7, 1);
   EXPECT_EQ(menu.lists()[3].chosen, 1u) << "the last one";
-  menu.scroll(4, 1);
+  menu.scroll(5, 1);
   menu.scroll(0, -1);
   EXPECT_EQ(menu.lists()[0].chosen, 1u) << "overruled by the session";
-  EXPECT_EQ(menu.lists()[4].chosen, 1u);
+  EXPECT_EQ(menu.lists()[5].chosen, 1u);
 }
 
 TEST(StartMenu, SaysWhyAChoiceCannotBeStarted) {
@@ -116,12 +137,12 @@ TEST(StartMenu, AfterARehearsalTheChoicesAreAsBefore) {
   StartMenu former = smallMenu();
   former.choose(0, 0);
   former.choose(3, 1);
-  former.choose(4, 1);
+  former.choose(5, 1);
   StartMenu menu = smallMenu();
   menu.chooseAsIn(former.chosenWords());
   EXPECT_EQ(menu.lists()[0].chosen, 0u);
   EXPECT_EQ(menu.lists()[3].chosen, 1u);
-  EXPECT_EQ(menu.lists()[4].chosen, 0u) << "a session is gone on with once";
+  EXPECT_EQ(menu.lists()[5].chosen, 0u) << "a session is gone on with once";
 }
 
 /// Whatever is pressed and clicked: one choice in each list, never a list that does not count under the keys.
@@ -131,7 +152,7 @@ TEST(StartMenu, StaysWithinItsListsWhateverIsPressed) {
   constexpr Key kKeys[] = {Key::tab, Key::left, Key::right, Key::up, Key::down, Key::home, Key::end, Key::space};
   for (int n = 0; n < 5000; ++n) {
     if (random() % 4 == 0)
-      menu.choose(random() % 7, random() % 4);
+      menu.choose(random() % 8, random() % 4);
     else
       press(menu, kKeys[random() % std::size(kKeys)], random() % 2 == 0);
     ASSERT_LT(menu.focus(), kStartLists);

@@ -49,7 +49,7 @@ TEST(StartPage, AClickMeansTheChoiceUnderItInWindowsOfEveryShape) {
 
 TEST(StartPage, TheChoiceOfALongListIsAlwaysShown) {
   StartMenu menu = menuOf(40);
-  constexpr std::size_t kSessions = 4;
+  constexpr std::size_t kSessions = 5;
   for (std::size_t n = 0; n < menu.lists()[kSessions].choices.size(); ++n) {
     menu.choose(kSessions, n);
     const std::vector<StartPlace> places = startPlaces(menu);

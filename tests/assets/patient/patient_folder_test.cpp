@@ -72,7 +72,8 @@ TEST(PatientFolder, TakesOverTheVolumeItWasJustWrittenWith) {
   const on_disk::Folder folder;
   const Patient saved = somebody();
   assets::savePatient(saved, folder.at("p"), false);
-  const Patient whole = assets::loadPatient(folder.at("p")), rest = assets::loadPatient(folder.at("p"), saved.ct);
+  const Patient whole = assets::loadPatient(folder.at("p")),
+                rest = assets::loadPatient(folder.at("p"), [&] { return saved.ct; });
   EXPECT_EQ(rest.ct.grid, whole.ct.grid);
   EXPECT_EQ(rest.ct.hounsfield, whole.ct.hounsfield);
   EXPECT_EQ(rest.ct.label, whole.ct.label);
