@@ -26,7 +26,7 @@ CtVolume smallVolume(bool numbered = true) {
   return volume;
 }
 
-std::string refusalOf(const std::string& path) {
+std::string refusalToRead(const std::string& path) {
   return tests::refusalOf<LoadError>([&] { readPlainVolume(path); });
 }
 
@@ -47,19 +47,19 @@ TEST(PlainVolume, RoundTripsWithAndWithoutToothNumbers) {
 TEST(PlainVolume, RefusesAnyChangedOrMissingByte) {
   const tests::ScratchFolder folder;
   const std::string path = folder.file("v");
-  EXPECT_THAT(refusalOf(path), HasSubstr("no such file"));
+  EXPECT_THAT(refusalToRead(path), HasSubstr("no such file"));
   writePlainVolume(smallVolume(), path);
   const std::string good = on_disk::read(path);
   for (std::size_t at = 0; at < good.size(); ++at) {
     std::string bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 0x10);
     on_disk::write(path, bad);
-    EXPECT_NE(refusalOf(path), "accepted") << at;
+    EXPECT_NE(refusalToRead(path), "accepted") << at;
     on_disk::write(path, good.substr(0, at));
-    EXPECT_NE(refusalOf(path), "accepted") << at;
+    EXPECT_NE(refusalToRead(path), "accepted") << at;
   }
   on_disk::write(path, good + "x");
-  EXPECT_NE(refusalOf(path), "accepted");
+  EXPECT_NE(refusalToRead(path), "accepted");
 }
 
 /// With a hash that fits, so that the values themselves are judged.
@@ -70,7 +70,7 @@ TEST(PlainVolume, RefusesValuesOutOfRange) {
     CtVolume volume = smallVolume();
     change(volume);
     writePlainVolume(volume, path);
-    return refusalOf(path);
+    return refusalToRead(path);
   };
   EXPECT_EQ(refusal([](CtVolume&) {}), "accepted");
   EXPECT_THAT(refusal([](CtVolume& v) { v.label[5] = kTissueCount; }), HasSubstr("out of range"));
