@@ -66,11 +66,14 @@ std::string readSmallFile(const std::string& path, std::size_t max_bytes, const 
   if (!std::filesystem::is_regular_file(path, error))
     throw LoadError(path + ": there is no such regular file; " + if_missing);
   std::ifstream file(path, std::ios::binary);
-  std::string text(max_bytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad() || !(file || file.eof()) || file.gcount() < 0)
+  std::string text;
+  std::array<char, 16 * 1024> block;
+  while (text.size() <= max_bytes && file) {
+    file.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad() || !(text.size() > max_bytes || file.eof()))
     throw LoadError(path + ": it cannot be read, check its permissions");
-  text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > max_bytes)
     throw LoadError(path + ": it is larger than " + std::to_string(max_bytes / 1024) + " kB, check the file");
   return text;

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
 #include <span>
@@ -14,10 +15,15 @@ namespace assets {
 
 namespace {
 
+/// At least a byte.
+std::size_t sizeFor(const RegularFile& file) {
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(file.size(), 1, kBlockBytes / 4));
+}
+
 class DecompressedSource : public ByteSource {
  public:
   DecompressedSource(const RegularFile& file, std::uint64_t from_byte)
-      : file_bytes_(file, from_byte), path_(file.path()), block_(kBlockBytes / 4) {
+      : file_bytes_(file, from_byte), path_(file.path()), block_(sizeFor(file)) {
     constexpr int kGzipOrZlib = 15 + 32;  // zlib.h: largest window, format by the first bytes
     if (inflateInit2(&stream_, kGzipOrZlib) != Z_OK) throw std::bad_alloc();
   }

@@ -2,6 +2,7 @@
 // for anything else. One thread a source; 256 KB of memory; about 40 MB/s.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -17,7 +18,9 @@ namespace assets {
 /// The characters of a file one by one.
 class CharacterReader {
  public:
-  CharacterReader(const RegularFile& file, std::uint64_t from_byte) : raw_(file, from_byte), block_(kBlockBytes / 4) {}
+  CharacterReader(const RegularFile& file, std::uint64_t from_byte)
+      : raw_(file, from_byte),
+        block_(static_cast<std::size_t>(std::clamp<std::uint64_t>(file.size(), 1, kBlockBytes / 4))) {}
 
   std::optional<char> next() {
     if (at_ == end_) {

@@ -100,7 +100,7 @@ void requireDataLength(const ImageHeader& header) {
 }
 
 void forEachVoxelBlock(const ImageHeader& header, const std::function<void(std::span<const char>)>& take) {
-  std::vector<char> block(kBlockBytes);
+  std::vector<char> block(static_cast<std::size_t>(std::min<std::uint64_t>(bytesInEachFile(header), kBlockBytes)));
   for (const VoxelFile& each : header.files) {
     const RegularFile file(each.path);
     const auto source = sourceOf(header, file, each.from_byte);
