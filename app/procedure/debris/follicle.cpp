@@ -118,8 +118,7 @@ void Follicle::scrape(const haptics::Tick& tick, double tip_radius_mm) {
   const glm::dvec3 moved = here - *before;
   const double way_mm = glm::length(moved - glm::dot(moved, normal) * normal);
   for (FollicleBlob& blob : blobs_) {
-    if (blob.state != FollicleBlob::State::stuck ||
-        glm::distance(blob.at_P_mm, here) > tip_radius_mm + kScrapeReach_mm)
+    if (blob.state != FollicleBlob::State::stuck || glm::distance(blob.at_P_mm, here) > tip_radius_mm + kScrapeReach_mm)
       continue;
     blob.stuck -= way_mm / kScraped_mm;
     if (blob.stuck <= 0.0) blob.stuck = 0.0, blob.state = FollicleBlob::State::loose;
