@@ -117,12 +117,12 @@ CtVolume readPlainVolume(const std::string& path) {
   volume.grid = gridOf(head, path);
   const std::size_t voxels = volume.grid.voxelCount();
   if (file.size() != sizeof head + (head.has_teeth != 0 ? 5 : 4) * voxels) refuse(path, "it is cut short");
-  const auto readInto = [&](auto& values) {
+  const auto read_into = [&](auto& values) {
     values.resize(voxels);
     read(values.data(), voxels);
   };
-  readInto(volume.hounsfield), readInto(volume.label), readInto(volume.solid);
-  if (head.has_teeth != 0) readInto(volume.tooth);
+  read_into(volume.hounsfield), read_into(volume.label), read_into(volume.solid);
+  if (head.has_teeth != 0) read_into(volume.tooth);
   if (head.hash != hashOf(head, volume)) refuse(path, "it is damaged");
 
   std::array<bool, 256> is_tooth_number{};

@@ -61,12 +61,12 @@ OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
   const auto elevator = std::ranges::find_if(tray, [](const haptics::Tool& tool) {
     return tool.elevator == haptics::ElevatorKind::straight_301 || tool.elevator == haptics::ElevatorKind::straight_34s;
   });
-  const auto placeOf = [&](haptics::HandInstrument kind) -> std::optional<std::size_t> {
+  const auto place_of = [&](haptics::HandInstrument kind) -> std::optional<std::size_t> {
     const auto at = std::ranges::find(tray, kind, &haptics::Tool::hand_instrument);
     return at == tray.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - tray.begin()));
   };
-  found.cleaning = {placeOf(haptics::HandInstrument::suction), placeOf(haptics::HandInstrument::curette),
-                    placeOf(haptics::HandInstrument::bone_file), found.forceps};
+  found.cleaning = {place_of(haptics::HandInstrument::suction), place_of(haptics::HandInstrument::curette),
+                    place_of(haptics::HandInstrument::bone_file), found.forceps};
   if (elevator != tray.end()) found.elevator = static_cast<std::size_t>(elevator - tray.begin());
   return found;
 }
