@@ -69,9 +69,11 @@ struct Bead {
   double radius_mm = 0.3;
   BeadKind kind = BeadKind::mark;
   std::uint64_t number = 0;  ///< gives a chip its form
+  glm::dvec3 thin_P{0.0};    ///< unit: flat across it, a patch on a wall; 0: a ball
 };
 inline bool operator==(const Bead& a, const Bead& b) {
-  return a.at_P.mm == b.at_P.mm && a.radius_mm == b.radius_mm && a.kind == b.kind && a.number == b.number;
+  return a.at_P.mm == b.at_P.mm && a.radius_mm == b.radius_mm && a.kind == b.kind && a.number == b.number &&
+         a.thin_P == b.thin_P;
 }
 
 enum class Antialias { none, edges };

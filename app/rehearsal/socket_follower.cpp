@@ -9,7 +9,6 @@ namespace app {
 namespace {
 
 constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6, kStitch_mm = 0.45;  ///< radii
-constexpr double kFollicleShown = 0.75;  ///< of its radius: it lies flat on the wall
 constexpr double kBetweenEvents_s = 1.0;
 
 std::optional<SuctionTip> suctionOf(const haptics::Tick& tick, const haptics::Command& command) {
@@ -133,7 +132,7 @@ std::vector<render::Bead> SocketFollower::beads() const {
       beads.push_back({{chips[n].at_P_mm}, chips[n].radius_mm, render::BeadKind::chip, n});
   for (const FollicleBlob& blob : follicle_.blobs())
     if (blob.state != FollicleBlob::State::taken)
-      beads.push_back({{blob.at_P_mm}, kFollicleShown * blob.radius_mm, render::BeadKind::follicle});
+      beads.push_back({{blob.at_P_mm}, blob.radius_mm, render::BeadKind::follicle, 0, blob.outward_P});
   if (!watch_ || !watch_->newest()) return beads;
   if (isAnyOut())
     for (const StitchPlace& place : stitches_.places())

@@ -1,10 +1,11 @@
 #include "assets/patient/plain_volume.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 #include "assets/load_error.h"
@@ -21,49 +22,25 @@ constexpr std::size_t kMostVoxels = std::size_t{1} << 30;
 
 struct PlainHead {
   std::array<char, 8> mark = kPlainMark;
-  std::uint64_t hash = 0;  ///< of the rest of the head and of the values
+  std::uint64_t checksum = 0;  ///< CRC-32 of the rest of the head and of the values
   std::array<std::int32_t, 3> size{};
   std::int32_t has_teeth = 0;
   double spacing_mm = 0.0;
   std::array<double, 3> origin_P_mm{};
 };
 static_assert(sizeof(PlainHead) == 64 && std::endian::native == std::endian::little);
-constexpr std::size_t kUnhashed_bytes = 16;
+constexpr std::size_t kUnchecked_bytes = 16;
 
-/// Multiply and rotate, four lanes of 64 bits side by side.
-class PlainHash {
- public:
-  void add(std::span<const std::byte> bytes) {
-    lanes_[0] ^= bytes.size();
-    for (; bytes.size() >= sizeof lanes_; bytes = bytes.subspan(sizeof lanes_)) {
-      std::array<std::uint64_t, 4> words;
-      std::memcpy(words.data(), bytes.data(), sizeof words);
-      mix(words);
-    }
-    std::array<std::uint64_t, 4> rest{};
-    std::memcpy(rest.data(), bytes.data(), bytes.size());
-    mix(rest);
-  }
-  std::uint64_t value() const {
-    std::uint64_t all = 0;
-    for (const std::uint64_t lane : lanes_) all = std::rotl((all ^ lane) * kFactor, 29);
-    return all;
-  }
-
- private:
-  static constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15u;
-  void mix(const std::array<std::uint64_t, 4>& words) {
-    for (std::size_t n = 0; n < 4; ++n) lanes_[n] = std::rotl((lanes_[n] ^ words[n]) * kFactor, 29);
-  }
-  std::array<std::uint64_t, 4> lanes_{1, 2, 3, 4};
-};
-
-std::uint64_t hashOf(const PlainHead& head, const CtVolume& volume) {
-  PlainHash hash;
-  hash.add(std::as_bytes(std::span(&head, 1)).subspan(kUnhashed_bytes));
-  hash.add(std::as_bytes(std::span(volume.hounsfield)));
-  for (const auto* values : {&volume.label, &volume.solid, &volume.tooth}) hash.add(std::as_bytes(std::span(*values)));
-  return hash.value();
+std::uint64_t checksumOf(const PlainHead& head, const CtVolume& volume) {
+  uLong crc = ::crc32_z(0, nullptr, 0);
+  const auto add = [&](std::span<const std::byte> bytes) {
+    crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  };
+  add(std::as_bytes(std::span(&head, 1)).subspan(kUnchecked_bytes));
+  add(std::as_bytes(std::span(volume.hounsfield)));
+  for (const auto* values : {&volume.label, &volume.solid, &volume.tooth})
+    if (!values->empty()) add(std::as_bytes(std::span(*values)));
+  return crc;
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
@@ -91,7 +68,7 @@ void writePlainVolume(const CtVolume& volume, const std::string& path) {
     head.size[static_cast<std::size_t>(axis)] = volume.grid.size[axis];
     head.origin_P_mm[static_cast<std::size_t>(axis)] = volume.grid.origin_P_mm[axis];
   }
-  head.hash = hashOf(head, volume);
+  head.checksum = checksumOf(head, volume);
   std::string bytes;
   bytes.reserve(sizeof head + 5 * volume.grid.voxelCount());
   const auto add = [&](const auto& values) {
@@ -123,7 +100,7 @@ CtVolume readPlainVolume(const std::string& path) {
   };
   read_into(volume.hounsfield), read_into(volume.label), read_into(volume.solid);
   if (head.has_teeth != 0) read_into(volume.tooth);
-  if (head.hash != hashOf(head, volume)) refuse(path, "it is damaged");
+  if (head.checksum != checksumOf(head, volume)) refuse(path, "it is damaged");
 
   std::array<bool, 256> is_tooth_number{};
   for (int fdi = 0; fdi < 256; ++fdi) is_tooth_number[static_cast<std::size_t>(fdi)] = fdi == 0 || isToothNumber(fdi);

@@ -1,7 +1,7 @@
 // A volume as it lies in memory, for a cache: read in a tenth of the time that OpenVDB takes (volume.vdb, which is for
-// people's own folders and other programs). Little endian: 8 bytes "MOLARPLV", hash of all that follows, size, whether
-// teeth are numbered, spacing, origin, then Hounsfield, labels, solid and teeth. The hash finds accidents, not forgery;
-// values are judged. Any thread; about 5 ms a million voxels, 5 bytes each on the disk.
+// people's own folders and other programs). Little endian: 8 bytes "MOLARPLV", CRC-32 of all that follows, size,
+// whether teeth are numbered, spacing, origin, then Hounsfield, labels, solid and teeth. The checksum finds accidents,
+// not forgery; values are judged. Any thread; about 10 ms a million voxels, 5 bytes each on the disk.
 #pragma once
 
 #include <string>

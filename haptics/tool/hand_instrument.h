@@ -1,6 +1,7 @@
 // Hand instruments that neither turn, nor grip, nor lever: scalpel, periosteal elevator, curette, bone file, suction
-// tip. They meet bone and tooth with a ball at the tip and a round shank behind it, and take nothing away by
-// themselves: what each does to gum, follicle, chips or edges is the procedure's. Part of a Tool; any thread.
+// tip. They meet bone and tooth with a ball at the tip and a round shank behind it. A file that is pressed and drawn
+// takes bone (servo/filing); what the others do to gum, follicle and chips is the procedure's. Part of a Tool; any
+// thread.
 #pragma once
 
 #include <array>

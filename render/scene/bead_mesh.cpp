@@ -28,14 +28,25 @@ void addTriangle(assets::MeshPart& part, const std::array<glm::dvec3, 3>& p, con
   }
 }
 
+constexpr double kPatchWide = 1.6, kPatchThin = 0.4;  // of the radius: together about the ball's volume
+
+/// A point of the unit ball, by `across` and `along` the thin direction.
+glm::dvec3 stretched(const Bead& bead, const glm::dvec3& p, double across, double along) {
+  const glm::dvec3 part = glm::dot(p, bead.thin_P) * bead.thin_P;
+  return across * (p - part) + along * part;
+}
+
 /// Every side of an icosahedron in four.
 void addBall(assets::MeshPart& part, const Bead& bead) {
+  const bool is_patch = bead.thin_P != glm::dvec3(0.0);
+  const double wide = is_patch ? kPatchWide : 1.0, thin = is_patch ? kPatchThin : 1.0;
   const auto add = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const std::array<glm::dvec3, 3> normal{glm::normalize(a), glm::normalize(b), glm::normalize(c)};
-    addTriangle(part,
-                {bead.at_P.mm + bead.radius_mm * normal[0], bead.at_P.mm + bead.radius_mm * normal[1],
-                 bead.at_P.mm + bead.radius_mm * normal[2]},
-                normal);
+    std::array<glm::dvec3, 3> point{glm::normalize(a), glm::normalize(b), glm::normalize(c)}, normal{};
+    for (std::size_t n = 0; n < 3; ++n) {
+      normal[n] = glm::normalize(stretched(bead, point[n], 1.0 / wide, 1.0 / thin));
+      point[n] = bead.at_P.mm + bead.radius_mm * stretched(bead, point[n], wide, thin);
+    }
+    addTriangle(part, point, normal);
   };
   for (const auto& side : kBallSides) {
     const auto corner = [&](std::size_t n) { return kBallCorners[static_cast<std::size_t>(side[n])]; };
@@ -73,7 +84,7 @@ const std::array<Look, kKinds>& looks() {
   static const std::array<Look, kKinds> kLooks{
       {{kMarksPart, {.base_colour = {0.95F, 0.72F, 0.04F, 1.0F}}},
        {kChipsPart, {.base_colour = {0.74F, 0.62F, 0.44F, 1.0F}}},
-       {kFolliclePart, {.base_colour = {0.42F, 0.09F, 0.08F, 1.0F}, .roughness = 0.3F}},
+       {kFolliclePart, {.base_colour = {0.46F, 0.16F, 0.13F, 1.0F}, .roughness = 0.3F}},
        {kStitchesPart, {.base_colour = {0.02F, 0.03F, 0.12F, 1.0F}}}}};
   return kLooks;
 }

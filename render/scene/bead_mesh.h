@@ -9,7 +9,8 @@
 
 namespace render {
 
-/// A part for each kind that occurs, named and shaded as in models.h; chips are splinters, all others balls.
+/// A part for each kind that occurs, named and shaded as in models.h; chips are splinters, all others balls, or patches
+/// of about their volume.
 assets::MeshModel beadMesh(std::span<const Bead> beads);
 
 }  // namespace render

@@ -21,13 +21,21 @@ struct Reach {
 
 /// The top of what is solid in a column of the scan, without the tooth that stands beside it.
 std::optional<double> topOf_mm(const assets::CtVolume& ct, const ArchFrame& frame, const glm::dvec3& at_P_mm, int fdi) {
+  // The box around the column, through the whole scan.
+  const glm::dvec3 half_mm =
+      glm::length(glm::dvec3(ct.grid.size)) * ct.grid.spacing_mm * glm::abs(frame.up_P) + kColumnRadius_mm;
+  const auto voxel_at = [&](const glm::dvec3& p) {
+    return glm::clamp(glm::ivec3(glm::floor(ct.grid.indexFromPoint(p))), glm::ivec3(0), ct.grid.size);
+  };
   std::optional<double> top_mm;
-  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (ct.solid[v] < assets::kHalfSolid || ct.tooth[v] == fdi) return;
-    const glm::dvec3 p = ct.grid.centre_P_mm(ijk), off = p - at_P_mm;
-    if (glm::length(off - glm::dot(off, frame.up_P) * frame.up_P) > kColumnRadius_mm) return;
-    top_mm = std::max(top_mm.value_or(-std::numeric_limits<double>::infinity()), glm::dot(p, frame.up_P));
-  });
+  assets::forVoxels(
+      voxel_at(at_P_mm - half_mm), voxel_at(at_P_mm + half_mm + 2.0 * ct.grid.spacing_mm), [&](glm::ivec3 ijk) {
+        const std::size_t v = ct.grid.index(ijk);
+        if (ct.solid[v] < assets::kHalfSolid || ct.tooth[v] == fdi) return;
+        const glm::dvec3 p = ct.grid.centre_P_mm(ijk), off = p - at_P_mm;
+        if (glm::length(off - glm::dot(off, frame.up_P) * frame.up_P) > kColumnRadius_mm) return;
+        top_mm = std::max(top_mm.value_or(-std::numeric_limits<double>::infinity()), glm::dot(p, frame.up_P));
+      });
   return top_mm;
 }
 

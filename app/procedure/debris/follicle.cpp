@@ -15,12 +15,16 @@ namespace {
 
 using assets::Tissue;
 
-constexpr double kFromEnamel_mm = 2.0, kOffRoot_mm = 0.5, kCell_mm = 2.0, kCellStep_mm = 0.25;
+constexpr double kFromEnamel_mm = 2.0, kBeside_mm = 3.0, kOffRoot_mm = 0.5, kCell_mm = 2.0, kCellStep_mm = 0.25;
 constexpr double kLeastBlob_mm3 = 1.0;
 constexpr double kFollicleStep_s = 0.01;
 
-/// Middles of the voxels: a flood from the enamel through what is labelled ligament.
-std::vector<glm::dvec3> follicleVoxels(const assets::Patient& patient) {
+struct AroundCrown {
+  std::vector<glm::dvec3> follicle_P_mm, enamel_P_mm;  ///< middles of voxels
+};
+
+/// A flood from the enamel through what is labelled ligament.
+AroundCrown aroundCrown(const assets::Patient& patient) {
   const assets::CtVolume& ct = patient.ct;
   const assets::VolumeGrid& grid = ct.grid;
   struct Reached {
@@ -43,7 +47,8 @@ std::vector<glm::dvec3> follicleVoxels(const assets::Patient& patient) {
     });
     return found;
   };
-  std::vector<glm::dvec3> found;
+  AroundCrown found;
+  for (const Reached& one : front) found.enamel_P_mm.push_back(grid.centre_P_mm(one.ijk));
   for (std::size_t n = 0; n < front.size(); ++n) {
     const Reached from = front[n];
     for (int axis = 0; axis < 3; ++axis)
@@ -56,7 +61,7 @@ std::vector<glm::dvec3> follicleVoxels(const assets::Patient& patient) {
             std::exchange(seen[v], std::uint8_t{1}) != 0)
           continue;
         front.push_back({at, from.enamel});
-        if (!is_at_root(at)) found.push_back(grid.centre_P_mm(at));
+        if (!is_at_root(at)) found.follicle_P_mm.push_back(grid.centre_P_mm(at));
       }
   }
   return found;
@@ -99,13 +104,20 @@ std::vector<FollicleBlob> gathered(const std::vector<glm::dvec3>& voxels_P_mm, d
 
 std::vector<FollicleBlob> follicleOf(const assets::Patient& patient) {
   if (!patient.site || patient.ct.label.empty()) return {};
-  const std::vector<glm::dvec3> voxels = follicleVoxels(patient);
+  const AroundCrown around = aroundCrown(patient);
   double cell_mm = kCell_mm;
   std::vector<FollicleBlob> blobs;
   do {
-    blobs = gathered(voxels, patient.ct.grid.voxelVolume_mm3(), cell_mm);
+    blobs = gathered(around.follicle_P_mm, patient.ct.grid.voxelVolume_mm3(), cell_mm);
     cell_mm += kCellStep_mm;
   } while (blobs.size() > kMostBlobs);
+  for (FollicleBlob& blob : blobs) {
+    // Away from the enamel beside it.
+    glm::dvec3 outward(0.0);
+    for (const glm::dvec3& p : around.enamel_P_mm)
+      if (glm::distance(p, blob.at_P_mm) < kBeside_mm) outward += blob.at_P_mm - p;
+    if (glm::length(outward) > 0.0) blob.outward_P = glm::normalize(outward);
+  }
   return blobs;
 }
 

@@ -1,9 +1,9 @@
-// The follicle around the crown, as blobs of some 4 mm3 that stick to the socket: label ligament within 2 mm of the
-// enamel and farther than 0.5 mm from the root, gathered in cells. A curette that is pressed with more than 0.5 N and
-// drawn along the wall scrapes the blobs off that its tip comes near; suction or forceps take the loose ones, a turning
-// bur tears them to nothing. Soft tissue does not grow again: an undo brings none back. A function of ticks and tools
-// alone. Frame P, mm. Main thread; a microsecond a tick while a curette works. Rules: reference/extraction 9; the law
-// has no friction, so the pull along the wall is told by pressure and motion. Our defaults are named below.
+// The follicle around the crown, as blobs of some 4 mm3 that stick to the socket: label ligament within some 2 mm of
+// the enamel and farther than 0.5 mm from the root, gathered in cells. A curette that is pressed with more than 0.5 N
+// and drawn along the wall scrapes the blobs off that its tip comes near; suction or forceps take the loose ones, a
+// turning bur tears them to nothing. Soft tissue does not grow again: an undo brings none back. A function of ticks and
+// tools alone. Frame P, mm. Main thread; a microsecond a tick while a curette works. Rules: reference/extraction 9; the
+// law has no friction, so the pull along the wall is told by pressure and motion. Our defaults are named below.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,9 @@ inline constexpr std::size_t kMostBlobs = 40;
 struct FollicleBlob {
   enum class State : std::uint8_t { stuck, loose, taken };
   glm::dvec3 at_P_mm{0.0};
-  double volume_mm3 = 0.0, radius_mm = 0.0;
-  double stuck = 1.0;  ///< share
+  double volume_mm3 = 0.0, radius_mm = 0.0;  ///< of a ball of that volume
+  glm::dvec3 outward_P{0.0};                 ///< unit, away from the crown; 0: none
+  double stuck = 1.0;                        ///< share
   State state = State::stuck;
 };
 

@@ -75,9 +75,9 @@ class OperationPlanner {
   /// section and clearing. `with_elevator`: what no bur may cut is twisted apart.
   OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator = false);
 
-  /// `first_voxel`: of the pieces' grid in the jaw's. Every call is a step: it counts what was tried.
   /// Unit, out of the socket.
   const glm::dvec3& out_P() const { return up_.direction_P; }
+  /// `first_voxel`: of the pieces' grid in the jaw's. Every call is a step: it counts what was tried.
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
 
  private:

@@ -62,7 +62,7 @@ TEST(PlainVolume, RefusesAnyChangedOrMissingByte) {
   EXPECT_NE(refusalToRead(path), "accepted");
 }
 
-/// With a hash that fits, so that the values themselves are judged.
+/// With a checksum that fits, so that the values themselves are judged.
 TEST(PlainVolume, RefusesValuesOutOfRange) {
   const tests::ScratchFolder folder;
   const std::string path = folder.file("v");

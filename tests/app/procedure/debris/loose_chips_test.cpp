@@ -103,29 +103,34 @@ TEST(LooseChips, SuctionDoesNotReachThroughBone) {
   EXPECT_EQ(wall.chip().state, LooseChip::State::loose);
 }
 
+/// Where a chip broke off, full and empty, as undo and redo leave it.
+struct BreakingPlace {
+  Slope& floor;
+  std::size_t at = floor.bodies.jaw().field().offsetOf(floor.chip().chip.voxel), block = at / haptics::kBlockVoxels;
+  haptics::BlockState empty = floor.bodies.jaw().stateOf(block), full = empty;
+  std::vector<glm::ivec3> brick{floor.chip().chip.voxel / 8};
+
+  explicit BreakingPlace(Slope& of) : floor(of) { full.solid[at % haptics::kBlockVoxels] = 255; }
+
+  void become(const haptics::BlockState& state, double restored_mm3, int undone_strokes) {
+    floor.bodies.bones()[0].restoreBlock(block, state);
+    floor.tick.restored_total_mm3 = restored_mm3;
+    floor.tick.undone_strokes = static_cast<std::uint8_t>(undone_strokes);
+    floor.chips.followBone(brick, floor.tick);
+  }
+};
+
 TEST(LooseChips, GoBackIntoTheBoneWithAnUndoAndComeLooseWithTheRedo) {
   Slope floor;
   // In the air, as after its removal.
   floor.add({0.0, 0.0, 4.0});
   floor.run(1.0);
-  const haptics::SolidField field = floor.bodies.jaw().field();
-  const std::size_t at = field.offsetOf(floor.chip().chip.voxel), block = at / haptics::kBlockVoxels;
-  const haptics::BlockState empty = floor.bodies.jaw().stateOf(block);
-  haptics::BlockState solid = empty;
-  solid.solid[at % haptics::kBlockVoxels] = 255;
-  const std::vector<glm::ivec3> brick{floor.chip().chip.voxel / 8};
-
-  floor.bodies.bones()[0].restoreBlock(block, solid);
-  floor.tick.restored_total_mm3 = 0.2;
-  floor.tick.undone_strokes = 1;
-  floor.chips.followBone(brick, floor.tick);
+  BreakingPlace place(floor);
+  place.become(place.full, 0.2, 1);
   EXPECT_EQ(floor.chip().state, LooseChip::State::in_bone);
   EXPECT_TRUE(floor.chips.left().empty());
 
-  floor.bodies.bones()[0].restoreBlock(block, empty);
-  floor.tick.restored_total_mm3 = 0.0;
-  floor.tick.undone_strokes = 0;
-  floor.chips.followBone(brick, floor.tick);
+  place.become(place.empty, 0.0, 0);
   EXPECT_EQ(floor.chip().state, LooseChip::State::loose);
   EXPECT_NEAR(floor.chip().at_P_mm.z, 4.0, 1e-9);
 }
@@ -133,20 +138,10 @@ TEST(LooseChips, GoBackIntoTheBoneWithAnUndoAndComeLooseWithTheRedo) {
 TEST(LooseChips, WhatABurCutsAfterAnUndoIsNoChip) {
   Slope floor;
   floor.add({0.0, 0.0, 4.0});
-  const haptics::SolidField field = floor.bodies.jaw().field();
-  const std::size_t at = field.offsetOf(floor.chip().chip.voxel), block = at / haptics::kBlockVoxels;
-  const haptics::BlockState empty = floor.bodies.jaw().stateOf(block);
-  haptics::BlockState solid = empty;
-  solid.solid[at % haptics::kBlockVoxels] = 255;
-  const std::vector<glm::ivec3> brick{floor.chip().chip.voxel / 8};
-  floor.bodies.bones()[0].restoreBlock(block, solid);
-  floor.tick.restored_total_mm3 = 0.2;
-  floor.tick.undone_strokes = 1;
-  floor.chips.followBone(brick, floor.tick);
+  BreakingPlace place(floor);
+  place.become(place.full, 0.2, 1);
   // Cut anew: nothing is left to redo, and what was restored stays restored.
-  floor.bodies.bones()[0].restoreBlock(block, empty);
-  floor.tick.undone_strokes = 0;
-  floor.chips.followBone(brick, floor.tick);
+  place.become(place.empty, 0.2, 0);
   EXPECT_TRUE(floor.chips.chips().empty());
 }
 

@@ -133,6 +133,38 @@ TEST(StepTracker, MeetsEachRuleByItsFactAlone) {
       when, [](Rehearsed&) {}, "take the forceps", [](Rehearsed& run) { run.facts.in_hand = StepInstrument::forceps; });
 }
 
+TEST(StepTracker, MeetsTheRulesOfASocketOnceItWasLookedAt) {
+  const auto socket = [](auto change) {
+    return [change](Rehearsed& run) {
+      SocketFacts facts{2.0, 0.8, 12.0, false, 0};
+      change(facts);
+      run.facts.socket = facts;
+    };
+  };
+  DoneWhen when;
+  when.chips_mm3 = 0.5;
+  expectRule(
+      when, [](Rehearsed&) {}, "chips not looked at", socket([](SocketFacts& facts) { facts.chips_mm3 = 0.5; }));
+  expectRule(when, socket([](SocketFacts&) {}), "chips 2.0 of 0.5 mm³ at most",
+             socket([](SocketFacts& facts) { facts.chips_mm3 = 0.4; }));
+  when = {};
+  when.follicle_left = 0.1;
+  expectRule(when, socket([](SocketFacts&) {}), "follicle 80.0 of 10.0 % at most",
+             socket([](SocketFacts& facts) { facts.follicle_left = 0.1; }));
+  when = {};
+  when.edges_mm = 6.0;
+  expectRule(when, socket([](SocketFacts&) {}), "sharp edges 12.0 of 6.0 mm at most",
+             socket([](SocketFacts& facts) { facts.edges_mm = 5.9; }));
+  when = {};
+  when.socket_clean = true;
+  expectRule(
+      when, [](Rehearsed&) {}, "the socket is not clean", socket([](SocketFacts& facts) { facts.is_clean = true; }));
+  when = {};
+  when.stitches = 2;
+  expectRule(when, socket([](SocketFacts& facts) { facts.stitches = 1; }), "1 of 2 stitches",
+             socket([](SocketFacts& facts) { facts.stitches = 2; }));
+}
+
 TEST(StepTracker, AskesForAllThatARuleSays) {
   DoneWhen when;
   when.crown_bared = 0.7;
