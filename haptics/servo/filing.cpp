@@ -1,11 +1,23 @@
 #include "haptics/servo/filing.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "assets/tissue.h"
 
 namespace haptics {
+namespace {
+
+/// Of the tissues: bone, and what bears no label of a tooth.
+constexpr auto kIsFiled = [] {
+  std::array<bool, assets::kTissueCount> is_filed{};
+  for (std::size_t tissue = 0; tissue < is_filed.size(); ++tissue)
+    is_filed[tissue] = !assets::isTooth(static_cast<std::uint8_t>(tissue));
+  return is_filed;
+}();
+
+}  // namespace
 
 CarveResult Filing::file(Bodies& bodies, StrokeHistory& strokes, const Engagement& engaged, bool allowed, double dt_s,
                          std::uint64_t tick) noexcept {
@@ -22,10 +34,9 @@ CarveResult Filing::file(Bodies& bodies, StrokeHistory& strokes, const Engagemen
   const double rate_mm3_per_s = kFiling_mm3_per_s * std::min(1.0, pressing_N / kFilingForce_N) *
                                 std::min(1.0, speed_mm_per_s / kFilingSpeed_mm_per_s);
   ErosionStep step;
-  for (std::size_t tissue = 0; tissue < step.loss.size(); ++tissue) {
-    const auto label = static_cast<std::uint8_t>(tissue);
-    if (!assets::isTooth(label)) step.loss[tissue] = std::min(1.0, rate_mm3_per_s * dt_s / overlap_mm3);
-  }
+  const double loss = std::min(1.0, rate_mm3_per_s * dt_s / overlap_mm3);
+  for (std::size_t tissue = 0; tissue < step.loss.size(); ++tissue)
+    if (kIsFiled[tissue]) step.loss[tissue] = loss;
   if (step.isZero()) return {};
   return carveTool(bodies, engaged.head, engaged.X_PT, step, tick, 1, &strokes);
 }

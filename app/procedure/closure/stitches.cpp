@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kBehind_mm[] = {2.0, 6.0};  ///< the second molar
 constexpr double kGum_mm = 1.5;              ///< over the bone
+constexpr double kBite_mm = 2.5;             ///< of the papilla's stitch from the tooth, into the flap
 constexpr double kColumnRadius_mm = 0.8;
 
 struct Reach {
@@ -63,7 +64,7 @@ std::vector<glm::dvec3> stitchPlaces_P_mm(const assets::Patient& patient) {
   for (const double behind_mm : kBehind_mm)
     wanted.push_back(middle + (along.high + behind_mm - glm::dot(middle, frame.distal_P)) * frame.distal_P);
   wanted.push_back(middle + (along.low - glm::dot(middle, frame.distal_P)) * frame.distal_P +
-                   (across.high - glm::dot(middle, frame.buccal_P)) * frame.buccal_P);
+                   (across.high + kBite_mm - glm::dot(middle, frame.buccal_P)) * frame.buccal_P);
   std::vector<glm::dvec3> places;
   for (const glm::dvec3& at : wanted)
     if (const auto top_mm = topOf_mm(ct, frame, at, second_fdi))

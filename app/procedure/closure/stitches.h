@@ -14,7 +14,8 @@ namespace app {
 inline constexpr double kStitchReach_mm = 3.0, kStitchHold_s = 0.3;
 
 /// Along the incision of a flap for a lower third molar: two behind the second molar on the crest, one at the papilla
-/// before it (reference/product 3.1: one behind the second molar may do). Empty without a second molar.
+/// before it, a bite to the cheek (reference/product 3.1: one behind the second molar may do). Empty without a second
+/// molar.
 std::vector<glm::dvec3> stitchPlaces_P_mm(const assets::Patient& patient);
 
 struct StitchPlace {

@@ -7,7 +7,8 @@
 namespace app {
 namespace {
 
-constexpr double kOverSite_mm = 16.0, kBetween_mm = 5.0;  ///< above a place, from one to the next
+// Above a place, from one to the next: in the socket, and across the crown of the tooth before it.
+constexpr double kOverSite_mm = 16.0, kBetween_mm = 5.0, kOverCrown_mm = 14.0;
 constexpr double kTravels_mm_per_s = 60.0, kNears_mm_per_s = 25.0, kDraws_mm_per_s = 20.0;
 constexpr double kSucks_s = 0.35, kConfirms_s = 0.5;
 constexpr double kOffPlace_mm = 0.6;                   ///< the opening over what it takes
@@ -36,11 +37,13 @@ class Worker {
 
  private:
   HandPose at(const glm::dvec3& p) const { return {R_PT_, p}; }
-  void approach(const glm::dvec3& p) {
-    keys_.moveTo(at(p + kBetween_mm * step_.out_P), kTravels_mm_per_s);
+  void approach(const glm::dvec3& p, double above_mm = kBetween_mm) {
+    keys_.moveTo(at(p + above_mm * step_.out_P), kTravels_mm_per_s);
     keys_.moveTo(at(p), kNears_mm_per_s);
   }
-  void leave(const glm::dvec3& p) { keys_.moveTo(at(p + kBetween_mm * step_.out_P), kTravels_mm_per_s); }
+  void leave(const glm::dvec3& p, double above_mm = kBetween_mm) {
+    keys_.moveTo(at(p + above_mm * step_.out_P), kTravels_mm_per_s);
+  }
 
   void suck(const glm::dvec3& p) {
     const glm::dvec3 here = p + tool_.head.radius_mm * (R_PT_ * glm::dvec3(0, 0, 1)) + kOffPlace_mm * step_.out_P;
@@ -80,11 +83,11 @@ class Worker {
     }
   }
   void confirm(const glm::dvec3& p) {
-    approach(p);
+    approach(p, kOverCrown_mm);
     keys_.press(true);
     keys_.hold(kConfirms_s);
     keys_.press(false);
-    leave(p);
+    leave(p, kOverCrown_mm);
   }
 
   LedKeys& keys_;
