@@ -124,9 +124,17 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.set_aside = led.set_aside;
   tick.torn_share = led.torn_share;
   tick.torn_total_Nmm = sites_.tornTotal_Nmm();
+  // A device without torque feels what tears as pulses.
+  calibration::Vector<calibration::Patient> vibration_P_N = proxy.head.vibration_P_N;
+  const double torn_Nmm = led.holds ? tick.torn_total_Nmm - torn_before_Nmm_ : 0.0;
+  torn_before_Nmm_ = tick.torn_total_Nmm;
+  if (!(command.safety.peak_torque_Nmm > 0.0))
+    vibration_P_N.xyz +=
+        pulses_.update(torn_Nmm, broke_, at_proxy_X_PT_.rotation * glm::dvec3(0.0, 0.0, 1.0), tick.dt_s).xyz;
+  broke_ = false;
   const SafetyLayer::Request law{
       {tick.law_force_P_N + tick.soft.force_P_N, tick.law_torque_P_Nmm + tick.soft.torque_P_Nmm},
-      proxy.head.vibration_P_N,
+      vibration_P_N,
       {},
       proxy.maxStored_Nmm() + soft.max_stored_Nmm + led.max_stored_Nmm,
       proxy.touches() || led.leads};
@@ -165,6 +173,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   if (const std::size_t broken = breaks_.broken().piece; broken != 0) {
     undo_.endLuxation(bodies_, sites_);
     luxation_.drop();
+    broke_ = true;
     split_.breakOff(bodies_, broken - 1, breaks_.planOf(broken - 1), undo_.strokes());
   }
 

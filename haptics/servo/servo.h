@@ -15,6 +15,7 @@
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
+#include "haptics/servo/tear_pulses.h"
 #include "haptics/servo/tick.h"
 #include "haptics/servo/tooth_break.h"
 #include "haptics/servo/tooth_split.h"
@@ -49,6 +50,9 @@ class Servo {
   ChipRemoval chips_;
   PieceSites sites_;
   Luxation luxation_;
+  TearPulses pulses_;
+  double torn_before_Nmm_ = 0.0;
+  bool broke_ = false;  ///< a bridge, in the last tick
   calibration::Pose<calibration::Patient, calibration::Tool> at_proxy_X_PT_;
   bool was_embedded_ = false, was_led_ = false;
   Tool tool_before_;          ///< of the last tick

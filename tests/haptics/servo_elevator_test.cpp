@@ -81,6 +81,27 @@ TEST(ServoElevator, TwistsLoosenATooth) {
   EXPECT_EQ(mouth.tick.strokes, 1);
 }
 
+TEST(ServoElevator, WhatTearsIsFeltAsPulsesWhereTheDeviceHasNoTorque) {
+  double farthest_N[2] = {}, torn_Nmm[2] = {};
+  for (const bool turns : {false, true}) {
+    Levered mouth;
+    mouth.command.safety.peak_torque_Nmm = turns ? 100.0 : 0.0;
+    mouth.makeReady();
+    mouth.insert();
+    for (int n = 0; n < 2000; ++n) {
+      mouth.hand.X_PT.rotation = mouth.along * twisted(0.9 * std::sin(0.01 * n));
+      mouth.step();
+      const double off_N = glm::distance(mouth.tick.commanded_force_P_N.xyz, mouth.tick.law_force_P_N.xyz);
+      // After the fade of taking hold.
+      if (n > 100) farthest_N[turns] = std::max(farthest_N[turns], off_N);
+    }
+    torn_Nmm[turns] = mouth.tick.torn_total_Nmm;
+  }
+  EXPECT_GT(torn_Nmm[0], 10.0);
+  EXPECT_EQ(torn_Nmm[0], torn_Nmm[1]) << "the model is the same";
+  EXPECT_GT(farthest_N[0], farthest_N[1] + 0.15);
+}
+
 TEST(ServoElevator, AWorkIsAStrokeThatIsUndoneOnceTheBladeIsOff) {
   Levered mouth;
   mouth.makeReady();
