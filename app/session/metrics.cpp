@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/field_clarity.h"
+#include "app/session/measures/hand_work.h"
+#include "app/session/measures/original_surface.h"
 #include "app/session/replay.h"
 #include "app/session/session_error.h"
 #include "app/text/clock_text.h"
@@ -116,11 +118,15 @@ SessionMetrics metricsOf(const std::string& path) {
   auto next = commands.begin();
   std::optional<haptics::Tick> before;
   FieldClarity field;
+  HandWork work;
+  const StoredStart start = session.start();
+  const OriginalSurface surface(start.grid, start.solid);
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& tick : block.ticks) {
       for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
       field.step(tick, in_force.irrigating);
       addTick(metrics, tick, before, in_force.irrigating, field.cover().clarity());
+      work.add(workSample(tick, in_force, &surface));
       for (; ruler != events.end() && ruler->tick <= tick.index; ++ruler)
         metrics.measured.push_back({tick.t_s, *measuredMm(ruler->text), ruler->text});
       soft_touches.add(tick);
@@ -138,6 +144,8 @@ SessionMetrics metricsOf(const std::string& path) {
     metrics.removed_mm3_by_label = removedByReplay(session);
   }
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
+  work.finish();
+  metrics.measures = work.values();
   metrics.soft_touches = soft_touches.counts();
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);
@@ -153,7 +161,17 @@ double endOfWork_s(const SessionMetrics& metrics) {
 }
 
 /// Units as people write them.
-std::string unitText(std::string_view unit) { return unit == "mm3" ? "mm³" : std::string(unit); }
+std::string unitText(std::string_view unit) {
+  std::string text(unit);
+  if (const std::size_t at = text.find("mm3"); at != std::string::npos) text.replace(at, 3, "mm³");
+  return text == "deg" ? "°" : text;
+}
+
+/// A line for people: what, value and unit, or why there is none.
+std::string measureLine(const MeasureValue& measure) {
+  if (!measure.value) return fmt::format("  {:<75} not told: {}\n", measure.name, measure.why);
+  return fmt::format("  {:<75} {:>9.2f} {}\n", measure.name, *measure.value + 0.0, unitText(measure.unit));
+}
 
 }  // namespace
 
@@ -202,6 +220,8 @@ std::string metricsText(const SessionMetrics& metrics) {
   for (const Measure& measure : kMeasures)
     words +=
         fmt::format("  {:<55} {:>9.2f} {}\n", measure.meaning, metrics.*measure.value + 0.0, unitText(measure.unit));
+  words += "\nThe hand's work:\n";
+  for (const MeasureValue& measure : metrics.measures) words += measureLine(measure);
   if (metrics.removed_mm3_by_label)
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label)
       words += fmt::format("  {:<55} {:>9.2f} mm³\n", "removed " + tissue, removed_mm3);
@@ -307,6 +327,22 @@ nlohmann::ordered_json procedureJson(const ProcedureRun& run) {
   return json;
 }
 
+/// With "why" where there is no value.
+nlohmann::ordered_json measuresJson(const std::vector<MeasureValue>& measures) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MeasureValue& measure : measures) {
+    nlohmann::ordered_json entry = {
+        {"id", measure.id}, {"name", measure.name}, {"value", nullptr}, {"unit", measure.unit}};
+    if (measure.value)
+      entry["value"] = *measure.value;
+    else
+      entry["why"] = measure.why;
+    if (measure.t_s) entry["t_s"] = *measure.t_s;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 nlohmann::ordered_json predictionJson(const Prediction& p, double end_s) {
   nlohmann::ordered_json json = {{"difficulty", nullptr}, {"minutes", nullptr},
                                  {"computed", nullptr},   {"index", nullptr},
@@ -342,6 +378,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
     json["continues"] = {{"session", metrics.former->file}, {"duration_s", metrics.former->duration_s}};
   for (const Measure& measure : kMeasures) json[measure.key] = metrics.*measure.value;
   json["removed_mm3_by_label"] = by_label;
+  json["measures"] = measuresJson(metrics.measures);
   json["touched"] = nullptr;
   if (metrics.touched) {
     json["touched"] = nlohmann::ordered_json::array();

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/session/measures/measure_value.h"
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
 #include "app/session/session_text.h"
@@ -53,6 +54,7 @@ struct SessionMetrics {
   std::optional<SocketRecord> socket;              ///< none: no piece of a tooth was out at the end
   std::optional<ProcedureRun> procedure;           ///< none: no procedure was followed
   std::optional<Prediction> prediction;            ///< none: nothing was predicted
+  std::vector<MeasureValue> measures;              ///< by their ids, see measures/
   SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 };
@@ -97,7 +99,7 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
 /// Throws SessionError if the file is missing, not a session, or damaged.
 SessionMetrics metricsOf(const std::string& path);
 
-/// The table of kMeasures for --help and the manual.
+/// The table of kMeasures for --help and the manual, and where the others are.
 std::string measuresHelp();
 
 /// For people: a summary in a few short lines, then kMeasures with units, then the volume by tissue.

@@ -1,0 +1,18 @@
+// A measure of a rehearsal as told to people and programs: by the ids of reference/product 4 (M2.path, S10.dry …).
+// Plain values; any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace app {
+
+struct MeasureValue {
+  std::string_view id, name, unit;  ///< unit empty: a pure number
+  std::optional<double> value;      ///< none: the recording cannot tell, see `why`
+  std::string_view why;             ///< words, where there is no value
+  std::optional<double> t_s;        ///< the moment it is of
+};
+
+}  // namespace app
