@@ -57,6 +57,9 @@ struct SessionMetrics {
   std::vector<MeasureValue> measures;              ///< by their ids, see measures/
   SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
+
+  /// The end of the procedure's last step, or of the recording.
+  double endOfWork_s() const { return (procedure ? procedure->end_s() : std::nullopt).value_or(duration_s); }
 };
 
 struct Measure {
