@@ -30,6 +30,7 @@ struct Layers {
   bool ghost_tool = false;   ///< the tool at the hand, while the drawn tool is held by the surface
   bool slices = false;       ///< CT slices through the bur
   bool gap_ring = true;      ///< a ring on the bone at Frame::gap, coloured by it
+  bool obstacles = true;     ///< Frame::obstacles
 };
 
 /// Larger gaps are not reported.
@@ -76,6 +77,13 @@ inline bool operator==(const Bead& a, const Bead& b) {
          a.thin_P == b.thin_P;
 }
 
+/// Bone that has to go before a piece of tooth comes out: voxels, drawn translucent and seen through what covers them.
+struct Obstacles {
+  double voxel_mm = 0.0;               ///< edge
+  std::vector<glm::vec3> middle_P_mm;  ///< of each
+  bool operator==(const Obstacles&) const = default;
+};
+
 enum class Antialias { none, edges };
 
 /// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
@@ -116,6 +124,7 @@ struct Frame {
   SurgicalField field;
   SoftMarks marks;
   std::vector<Bead> beads;
+  Obstacles obstacles;
 };
 
 }  // namespace render

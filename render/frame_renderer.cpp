@@ -10,6 +10,7 @@
 #include "render/gpu/window_image.h"
 #include "render/scene/bead_mesh.h"
 #include "render/scene/guide_tube.h"
+#include "render/scene/obstacle_mesh.h"
 #include "render/scene_renderer.h"
 #include "render/volume/clearance_legend.h"
 
@@ -188,6 +189,12 @@ void FrameRenderer::updateBeads(const Frame& frame) {
   scene_->setModel(Model::beads, beadMesh(beads_));
 }
 
+void FrameRenderer::updateObstacles(const Frame& frame) {
+  if (frame.obstacles == obstacles_) return;
+  obstacles_ = frame.obstacles;
+  scene_->setModel(Model::obstacles, obstacleMesh(obstacles_));
+}
+
 void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   scene_->drawEye(frame, eye, px);
   drawn(eye) = {frame, px};
@@ -197,6 +204,7 @@ void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
 void FrameRenderer::prepare(const Frame& frame) {
   updateRuler(frame);
   updateBeads(frame);
+  updateObstacles(frame);
   std::vector<PlacedFields> placed;
   bool any_changed = false;
   for (std::size_t n = 0; n < kMostPieces; ++n) {

@@ -109,6 +109,7 @@ class FrameRenderer {
   void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
   void updateRuler(const Frame& frame);
   void updateBeads(const Frame& frame);
+  void updateObstacles(const Frame& frame);
   void prepare(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
   void compose(const Frame& frame);
@@ -131,6 +132,7 @@ class FrameRenderer {
   bool has_canal_ = false;
   std::optional<RulerLine> ruler_;  ///< whose meshes the back-end has
   std::vector<Bead> beads_;         ///< alike
+  Obstacles obstacles_;             ///< alike
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;

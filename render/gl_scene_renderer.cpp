@@ -144,7 +144,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
   constexpr std::array kInside{Model::gingiva, Model::mandibular_canal, Model::ruler,  Model::beads,
                                pieceModel(0),  pieceModel(1),           pieceModel(2), pieceModel(3)};
   static_assert(kMostPieces == 4);
-  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::ghost};
+  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::obstacles, Model::ghost};
   bool any_transparent = false;
   for (std::size_t m = 0; m < kModels; ++m)
     any_transparent = any_transparent || MeshPass::hasTransparent(models_[m], placements[m].opacity);

@@ -35,7 +35,8 @@ enum class Control : std::uint8_t {
   slice_up,
   slice_down,
   ruler,
-  step
+  step,
+  way
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -61,7 +62,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 22> kControls = {{
+inline constexpr std::array<ControlMeaning, 23> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -84,6 +85,7 @@ inline constexpr std::array<ControlMeaning, 22> kControls = {{
     {Control::slice_down, "slice-down", "PgDn", "the same down", ControlValue::none, false},
     {Control::ruler, "ruler", "M", "ruler: first point, second point, away", ControlValue::none, false},
     {Control::step, "step", "N", "go on to the procedure's next step", ControlValue::none, false},
+    {Control::way, "way", "W", "what keeps the tooth or piece in", ControlValue::none, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

@@ -26,7 +26,7 @@ namespace {
 
 using Requests = std::vector<ControlRequest>;
 
-constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 182;
+constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 202;
 constexpr double kPanoramicShare = 0.3;  ///< of the window's height
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
@@ -49,6 +49,15 @@ void textIn(FontAt at, const ImVec4& colour, const std::string& text) {
   ImGui::PushFont(font(at));
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+/// A long line of words, in as many as it needs.
+void wrappedIn(FontAt at, const ImVec4& colour, const std::string& text) {
+  ImGui::PushFont(font(at));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
   ImGui::PopFont();
 }
@@ -114,6 +123,7 @@ void drawTool(const RehearsalStatus& s) {
   row("Depth in the surface", fmt::format("{:.2f} mm", s.tick.depth_mm));
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
   if (!s.ruler.empty()) textIn(text_font, kAccent, s.ruler);
+  if (!s.way.empty()) wrappedIn(text_font, kAccent, s.way);
   const auto& removed_mm3 = s.tick.removed_total_mm3;
   row("Removed", fixedText(std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0), 1) + " mm³");
   const std::string dry = s.dry_s >= 1.0 ? ", " + clockText(s.dry_s) + " dry" : "";
@@ -301,8 +311,8 @@ ImageArea largestIn(glm::ivec2 corner_px, glm::ivec2 box_px, glm::ivec2 shape_px
 
 void stylePanel() {
   ImFontAtlas* const fonts = ImGui::GetIO().Fonts;
-  // Latin-1, dashes, and the dot of a recording.
-  static constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2013, 0x2014, 0x25cf, 0x25cf, 0};
+  // Latin-1, dashes, three dots, and the dot of a recording.
+  static constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2013, 0x2014, 0x2026, 0x2026, 0x25cf, 0x25cf, 0};
   if (std::filesystem::exists(kFont) && std::filesystem::exists(kBoldFont)) {
     fonts->AddFontFromFileTTF(kFont, kText_px, nullptr, kGlyphs);
     fonts->AddFontFromFileTTF(kFont, kSmall_px, nullptr, kGlyphs);

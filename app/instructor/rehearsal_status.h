@@ -43,6 +43,7 @@ struct RehearsalStatus {
   std::string said;                     ///< to the surgeon, last
   std::optional<double> gap_mm;  ///< from the bur to tooth or bone as drawn; none: farther than render::kMaxGap_mm
   std::string ruler;             ///< between two touches; empty: none
+  std::string way;               ///< what keeps the tooth in; empty: not known
   RecordingState recording = RecordingState::none;
   std::string recording_path;
   std::string to_surgeon, to_instructor;  ///< messages of a procedure; a question to the surgeon

@@ -22,7 +22,7 @@ struct PictureLayer {
   bool render::Layers::*on;
 };
 
-inline constexpr std::array<PictureLayer, 7> kPictureLayers = {{
+inline constexpr std::array<PictureLayer, 8> kPictureLayers = {{
     {"gum", "Gum", &render::Layers::gingiva},
     {"canal", "Mandibular canal", &render::Layers::mandibular_canal},
     {"clearance", "Clearance bands", &render::Layers::clearance},
@@ -30,6 +30,7 @@ inline constexpr std::array<PictureLayer, 7> kPictureLayers = {{
     {"ghost", "Ghost tool", &render::Layers::ghost_tool},
     {"slices", "CT slices", &render::Layers::slices},
     {"ring", "Ring of the gap", &render::Layers::gap_ring},
+    {"obstacles", "Bone in the way", &render::Layers::obstacles},
 }};
 
 class PictureOption {

@@ -112,6 +112,9 @@ std::string keyOf(const AroundTooth& around, const Scene& scene, std::size_t v) 
   return std::string(assets::properties(label).key);
 }
 
+/// Another tooth, or a piece of this one.
+bool isNumbered(const std::string& key) { return key.starts_with("tooth_") || key.starts_with("piece_"); }
+
 std::string nounOf(const std::string& key) {
   if (key.starts_with("tooth_")) return "tooth " + key.substr(6);
   if (key.starts_with("piece_")) return "piece " + key.substr(6);
@@ -135,12 +138,14 @@ std::string_view sideOf(const ArchFrame& arch, const glm::dvec3& from_middle_mm)
 void nameWhatIsInTheWay(const AroundTooth& around, const Scene& scene, const WayUp& up, const glm::dvec3& middle_P_mm,
                         PieceWay& piece) {
   std::map<std::string, InTheWay> found;
+  piece.voxel_mm = scene.grid.spacing_mm;
   for (const std::size_t v : piece.way.in_the_way) {
     const glm::dvec3 p_mm = scene.grid.centre_P_mm(assets::elementAt(scene.grid.size, v));
     piece.blockers_P_mm.push_back(p_mm);
     const std::string key = keyOf(around, scene, v);
+    if (!isNumbered(key)) piece.bone_P_mm.push_back(p_mm);
     std::string words = nounOf(key);
-    const bool has_side = key.find('_') == std::string::npos && up.arch;
+    const bool has_side = !isNumbered(key) && up.arch;
     if (has_side) words = fmt::format("{} {}", sideOf(*up.arch, p_mm - middle_P_mm), words);
     piece.in_the_way_mm3_by_label[key] += scene.grid.voxelVolume_mm3();
     InTheWay& one = found[words];
@@ -156,11 +161,11 @@ void nameWhatIsInTheWay(const AroundTooth& around, const Scene& scene, const Way
                            [](const InTheWay& a, const InTheWay& b) { return a.volume_mm3 > b.volume_mm3; });
 }
 
+}  // namespace
+
 bool canCome(const haptics::WayOut& way) {
   return way.answer == haptics::WayOutAnswer::free || way.answer == haptics::WayOutAnswer::grazes;
 }
-
-}  // namespace
 
 WayUp wayUp(const assets::Patient& patient) {
   const ArchFrame arch = archFrame(patient);
@@ -168,7 +173,7 @@ WayUp wayUp(const assets::Patient& patient) {
 }
 
 std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Components& tooth, std::size_t pieces,
-                              const WayUp& up) {
+                              const WayUp& up, const std::stop_token& stop) {
   assert(pieces <= tooth.pieces().size() && around.solid.size() == around.grid.voxelCount());
   const Scenes scenes(around, tooth, pieces);
   const auto ask = [&](std::size_t piece, const std::vector<std::size_t>& out) {
@@ -176,8 +181,9 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
     for (std::size_t n = 0; n < pieces; ++n)
       if (n != piece && std::ranges::find(out, n) == out.end()) others.push_back(n);
     const Scene scene = scenes.of(piece, others, up.direction_P);
-    PieceWay answer{piece, out, {}, {}, {}, {}};
-    answer.way = haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece}, {up.direction_P, kExit_mm});
+    PieceWay answer{piece, out, {}, {}, {}, {}, 0.0, {}};
+    answer.way =
+        haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece}, {up.direction_P, kExit_mm}, stop);
     nameWhatIsInTheWay(around, scene, up, tooth.pieces()[piece].centroid_mm, answer);
     return answer;
   };
@@ -185,10 +191,10 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
   std::vector<PieceWay> answers;
   std::vector<std::size_t> out;
   std::vector<PieceWay> held;
-  for (bool has_come = true; has_come && out.size() < pieces;) {
+  for (bool has_come = true; has_come && out.size() < pieces && !stop.stop_requested();) {
     has_come = false;
     held.clear();
-    for (std::size_t piece = 0; piece < pieces && !has_come; ++piece) {
+    for (std::size_t piece = 0; piece < pieces && !has_come && !stop.stop_requested(); ++piece) {
       if (std::ranges::find(out, piece) != out.end()) continue;
       PieceWay answer = ask(piece, out);
       has_come = canCome(answer.way);

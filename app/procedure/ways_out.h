@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -42,12 +43,17 @@ struct PieceWay {
   haptics::WayOut way;
   std::vector<InTheWay> in_the_way;                       ///< the most first
   std::vector<glm::dvec3> blockers_P_mm;                  ///< middles of the voxels in the way
+  std::vector<glm::dvec3> bone_P_mm;                      ///< of these, those that are neither tooth nor piece
+  double voxel_mm = 0.0;                                  ///< their edge
   std::map<std::string, double> in_the_way_mm3_by_label;  ///< by key of the tissue, "tooth_47" or "piece_1"
 };
 
+bool canCome(const haptics::WayOut& way);
+
 /// In the order in which they come out; those that cannot come last, by number. `pieces`: how many of the components.
+/// Of a search that was stopped, whatever was found.
 std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Components& tooth, std::size_t pieces,
-                              const WayUp& up);
+                              const WayUp& up, const std::stop_token& stop = {});
 
 /// "piece 0: free", "piece 1, once piece 0 is out: distobuccal bone 3.1 mm³, tooth 47 0.4 mm³ in the way".
 std::string wordsOf(const PieceWay& piece);

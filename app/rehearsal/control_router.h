@@ -39,6 +39,8 @@ class ControlRouter {
   std::optional<PredictionAnswer> takePrediction() { return prediction_.takeAnswer(); }
   /// How often the next step of the procedure was asked for since the last call.
   int takeSteps() { return std::exchange(steps_, 0); }
+  /// Whether it was asked since the last call what keeps the tooth in.
+  bool takeWay() { return std::exchange(asks_way_, false); }
   /// Of the tool of a mouse, W.
   const glm::dvec3& handPosition_W_mm() const { return input_.X_WT().translation_mm; }
   /// Of a mouse, before it is started: the hand is there at once, and touches nothing on a way there.
@@ -75,6 +77,7 @@ class ControlRouter {
   EndQuestion end_question_;
   PredictionQuestion prediction_;
   int steps_ = 0;
+  bool asks_way_ = false;
   DeskView desk_view_;
   glm::dvec2 pointer_px_{0.0};
   ControlScript script_;

@@ -40,6 +40,7 @@ class HeadUp {
     std::string ruler;          ///< rulerText()
     bool pieces_ready = false;  ///< for forceps and elevators
     std::string socket;         ///< SocketFollower::line()
+    std::string way;            ///< WayFollower::line()
   };
   HeadUpContent content(const Values& values, Time now);
 

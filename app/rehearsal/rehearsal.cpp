@@ -25,6 +25,7 @@
 #include "app/rehearsal/step_follower.h"
 #include "app/rehearsal/tooth_follower.h"
 #include "app/rehearsal/touches.h"
+#include "app/rehearsal/way_follower.h"
 #include "app/session/soft_touches.h"
 #include "assets/scan/tooth_division.h"
 
@@ -77,6 +78,7 @@ class Rehearsal {
     tooth_.emplace(station().bodies(), wholeTooth(plan_));
     sites_.emplace(station().bodies());
     socket_.emplace(plan_, station().bodies(), event_log_);
+    ways_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (equipment_.led() != nullptr)
       demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
@@ -123,7 +125,7 @@ class Rehearsal {
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
     return {newest_,    active_command_.inForce(), frame_.layers, head_up_, router_.question(),
-            frame_.gap, rulerText(frame_.ruler)};
+            frame_.gap, rulerText(frame_.ruler),   ways_->line()};
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -262,6 +264,7 @@ class Rehearsal {
     frame_.beads = socket_->beads();
     if (const auto line = socket_->news()) head_up_.say(*line);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
+    followWays(changed);
     if (station().isApplied(newest_)) makePiecesReady();
     const haptics::Bodies& bodies = station().bodies();
     jaw_stress_.follow(newest_, [&] { return bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size); });
@@ -270,6 +273,14 @@ class Rehearsal {
       head_up_.say(*line);
       event_log_.note("tooth", *line);
     }
+  }
+
+  /// The shown operation looks for its own ways.
+  void followWays(std::span<const glm::ivec3> changed) {
+    if (router_.takeWay()) ways_->ask();
+    ways_->follow(changed, newest_, !demonstration_, !pace_.isRealTime());
+    frame_.obstacles = ways_->obstacles();
+    if (const auto line = ways_->news()) head_up_.say(*line);
   }
 
   /// And the bridge to break, while forceps or an elevator are in the hand.
@@ -312,7 +323,8 @@ class Rehearsal {
             task(),
             rulerText(frame_.ruler),
             sites_->isReady(),
-            socket_->line()};
+            socket_->line(),
+            ways_->line()};
   }
 
   std::string task() const {
@@ -347,6 +359,7 @@ class Rehearsal {
     figures.tooth = tooth_->ending();
     figures.luxation = luxation_.summary();
     figures.socket = socket_->newest();
+    figures.way = ways_->words();
     if (jaw_stress_.most_N_per_mm2() > 0.0)
       figures.luxation += fmt::format("{}jaw stressed to {:.0f} MPa (model)", figures.luxation.empty() ? "" : ", ",
                                       jaw_stress_.most_N_per_mm2());
@@ -377,6 +390,7 @@ class Rehearsal {
   std::optional<ToothFollower> tooth_;
   std::optional<SiteDesk> sites_;
   std::optional<SocketFollower> socket_;
+  std::optional<WayFollower> ways_;
   JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
   std::optional<StepFollower> steps_;

@@ -75,6 +75,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("tooth", f.tooth);
   line("luxation", f.luxation);
+  if (!f.way.empty()) line("way out", f.way);
   if (f.socket) line("socket", socketInWords(*f.socket));
   if (f.procedure) {
     const double end_s = f.procedure->end_s().value_or(f.last.tick.t_s + f.last.tick.dt_s);

@@ -28,6 +28,7 @@ struct RehearsalFigures {
   WorkTimes times;
   std::string tooth;                      ///< what it has come apart into, tooth_follower.h; empty: whole
   std::string luxation;                   ///< LuxationLog::summary()
+  std::string way;                        ///< what keeps it in, as looked at last; empty: nobody looked, or it is out
   std::optional<SocketRecord> socket;     ///< none: no piece is out
   std::optional<ProcedureRun> procedure;  ///< step by step
   Prediction prediction;                  ///< nothing said without a procedure

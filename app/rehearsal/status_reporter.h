@@ -33,6 +33,7 @@ class StatusReporter {
     std::string question;  ///< to the surgeon
     const std::optional<render::BoneGap>& gap;
     std::string ruler;  ///< rulerText()
+    std::string way;    ///< WayFollower::line()
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

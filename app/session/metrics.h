@@ -18,6 +18,7 @@
 #include "app/session/soft_touches.h"
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"
+#include "app/session/way_event.h"
 
 namespace app {
 
@@ -52,6 +53,8 @@ struct SessionMetrics {
   std::vector<BridgeBreak> bridge_breaks;          ///< undone ones too
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
   std::optional<SocketRecord> socket;              ///< none: no piece of a tooth was out at the end
+  std::size_t ways_looked_at = 0;                  ///< how often it was looked what keeps the tooth in
+  std::optional<WayRecord> way;                    ///< the last of these
   std::optional<ProcedureRun> procedure;           ///< none: no procedure was followed
   std::optional<Prediction> prediction;            ///< none: nothing was predicted
   std::vector<MeasureValue> measures;              ///< by their ids, see measures/

@@ -46,6 +46,27 @@ nlohmann::ordered_json placesJson(const std::vector<Place>& places, const char* 
   return list;
 }
 
+/// The answers as `molar pieces --json` names them.
+nlohmann::ordered_json wayJson(const WayRecord& way, std::size_t looks) {
+  constexpr std::array kAnswers = {"free", "grazes", "blocked", "not-found"};
+  nlohmann::ordered_json pieces = nlohmann::ordered_json::array();
+  for (const WayOfPiece& piece : way.pieces) {
+    nlohmann::ordered_json kept_by = nlohmann::ordered_json::array();
+    for (const Keeper& one : piece.kept_by)
+      kept_by.push_back({{"what", one.what},
+                         {"volume_mm3", one.volume_mm3},
+                         {"centre_P_mm", {one.centre_P_mm.x, one.centre_P_mm.y, one.centre_P_mm.z}}});
+    pieces.push_back({{"piece", piece.piece},
+                      {"answer", kAnswers[static_cast<std::size_t>(piece.answer)]},
+                      {"waits", piece.waits},
+                      {"lift", piece.lift},
+                      {"kept_by_mm3", piece.kept_by_mm3},
+                      {"kept_by", kept_by},
+                      {"poses", piece.poses}});
+  }
+  return {{"looks", looks}, {"asked", way.was_asked}, {"words", wayInWords(way)}, {"pieces", pieces}};
+}
+
 /// Where something is, and how much in all.
 nlohmann::ordered_json socketJson(const SocketRecord& socket) {
   const std::vector<Place> canal = socket.canal.amount > 0.0 ? std::vector{socket.canal} : std::vector<Place>();
@@ -159,6 +180,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
                                      {"area_mm2", broke.area_mm2},
                                      {"complete", broke.is_complete}});
   json["socket"] = metrics.socket ? socketJson(*metrics.socket) : nlohmann::ordered_json();
+  json["way_out"] = metrics.way ? wayJson(*metrics.way, metrics.ways_looked_at) : nlohmann::ordered_json();
   json["procedure"] = metrics.procedure ? procedureJson(*metrics.procedure) : nlohmann::ordered_json();
   json["prediction"] = nullptr;
   if (metrics.prediction) json["prediction"] = predictionJson(*metrics.prediction, metrics.endOfWork_s());

@@ -75,6 +75,7 @@ std::string metricsText(const SessionMetrics& metrics) {
   if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, metrics.endOfWork_s()) + "\n";
   if (metrics.socket && !socketInWords(*metrics.socket).empty())
     words += "socket: " + socketInWords(*metrics.socket) + "\n";
+  if (metrics.way) words += "last looked what keeps the tooth in: " + wayInWords(*metrics.way) + "\n";
   if (metrics.procedure) {
     words += "procedure: " + procedureInWords(*metrics.procedure) + "\n";
     for (const std::string& step : stepsInWords(*metrics.procedure)) words += "  " + step + "\n";

@@ -167,7 +167,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     });
   }
 
-  // Towards the middle: warnings, the task, the socket, then what was just said.
+  // Towards the middle: warnings, the task, the socket, what keeps the tooth in, then what was just said.
   const auto stacked = [&](const std::string& words, double height, const Ink& ink, const Ink& ground) {
     if (words.empty()) return;
     const double limit = 0.94 * free;
@@ -191,6 +191,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
             c.warnings[n].danger ? kRedPlate : kAmberPlate);
   stacked(c.task, 1.15 * text, kWhite, kPlate);
   stacked(c.site, text, kWhite, kPlate);
+  stacked(c.way, text, kWhite, kPlate);
   stacked(c.said, text, kWhite, kPlate);
 
   if (!c.keys.empty()) {

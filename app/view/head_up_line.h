@@ -39,6 +39,7 @@ struct HeadUpContent {
   std::string said;                                       ///< just now; empty: nothing
   std::string task;                                       ///< of an experiment; empty: none
   std::string site;                                       ///< state of the socket; empty: none
+  std::string way;                                        ///< what keeps the tooth in; empty: not known
   std::vector<HeadUpWarning> warnings;                    ///< the most important first; two are shown
   std::vector<std::pair<std::string, std::string>> keys;  ///< key and meaning; empty: no sheet
 };

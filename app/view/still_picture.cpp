@@ -24,10 +24,10 @@ bool isSameView(const calibration::Rig& a, const calibration::Rig& b) {
 
 bool areSameLayers(const render::Layers& a, const render::Layers& b) {
   // A new layer does not compile until it is compared.
-  [[maybe_unused]] const auto& [face, gingiva, canal, clearance, cut, ghost, slices, ring] = a;
+  [[maybe_unused]] const auto& [face, gingiva, canal, clearance, cut, ghost, slices, ring, obstacles] = a;
   return a.face_opacity == b.face_opacity && a.gingiva == b.gingiva && a.mandibular_canal == b.mandibular_canal &&
          a.clearance == b.clearance && a.planned_cut == b.planned_cut && a.ghost_tool == b.ghost_tool &&
-         a.slices == b.slices && a.gap_ring == b.gap_ring;
+         a.slices == b.slices && a.gap_ring == b.gap_ring && a.obstacles == b.obstacles;
 }
 
 // Water drains and blood wells up for seconds after the last motion; less than this is not seen.
@@ -56,7 +56,7 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
                                 length, shaft, angle, gap, ruler, slices, tool, shades, handpiece, X_PO, second, pieces,
-                                window, site, field, marks, beads] = a;
+                                window, site, field, marks, beads, obstacles] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
       a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
     return false;
@@ -64,7 +64,8 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
       a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
     return false;
   if (a.slices_beside_bur_P_mm != b.slices_beside_bur_P_mm || a.face_window_mm != b.face_window_mm ||
-      a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.beads != b.beads || a.site_P.mm != b.site_P.mm)
+      a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.beads != b.beads ||
+      a.obstacles != b.obstacles || a.site_P.mm != b.site_P.mm)
     return false;
   if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
   if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;

@@ -125,13 +125,14 @@ class Search {
   std::size_t poses() const { return poses_; }
 
   /// From where it lies to the goal; empty: not within so many poses.
-  std::vector<Placement> way(const WayBound& rest, double graze_price, std::size_t most_poses) {
+  std::vector<Placement> way(const WayBound& rest, double graze_price, std::size_t most_poses,
+                             const std::stop_token& stop) {
     rest_ = &rest;
     nodes_.clear();
     best_.clear();
     open_ = {};
     add({piece_.middle_mm, {1.0, 0.0, 0.0, 0.0}}, kNone, 0.0);
-    for (std::size_t expanded = 0; expanded < most_poses && !open_.empty();) {
+    for (std::size_t expanded = 0; expanded < most_poses && !open_.empty() && !stop.stop_requested();) {
       const std::size_t from = open_.top().second;
       open_.pop();
       const Node node = nodes_[from];
@@ -314,19 +315,21 @@ std::vector<Placement> straightWay(const SearchedPiece& piece, const Surrounding
 
 }  // namespace
 
-WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const WayOutGoal& goal) {
+WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const WayOutGoal& goal,
+                  const std::stop_token& stop) {
   assert(obstacles.solid.size() == obstacles.grid.voxelCount() && volume.solid.size() == volume.grid.voxelCount());
   const std::optional<SearchedPiece> piece = searchedPiece(volume);
-  if (!piece) return {};
+  if (!piece || stop.stop_requested()) return {};
   const Surroundings around{obstacles, {obstacles.grid, obstacles.solid, std::max(1.5, piece->ball_mm + 0.5)}};
   WayOut best;
   const auto keep = [&](const std::vector<Placement>& way) {
-    if (way.empty()) return;
+    if (way.empty() || stop.stop_requested()) return;
     WayOut found = wayOutAlong(way, *piece, around);
     if (best.answer == WayOutAnswer::not_found || found.in_the_way.size() < best.in_the_way.size())
       best = std::move(found);
   };
   keep(straightWay(*piece, around, goal));
+  if (stop.stop_requested()) return {};
   if (best.answer == WayOutAnswer::free) return best;
 
   const auto bound = [&](double per_mm) {
@@ -344,7 +347,8 @@ WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const
   for (const Attempt& attempt :
        {Attempt{patient, 0.0}, Attempt{eager, 1.0}, Attempt{eager, 4.0}, Attempt{patient, 1.0}, Attempt{patient, 4.0}})
     if (best.answer != WayOutAnswer::free && search.poses() < kPosesInAll)
-      keep(search.way(attempt.rest, attempt.graze_price, kPoses));
+      keep(search.way(attempt.rest, attempt.graze_price, kPoses, stop));
+  if (stop.stop_requested()) return {};
   best.poses = search.poses();
   return best;
 }

@@ -12,8 +12,10 @@ namespace render {
 namespace {
 
 bool isOverlay(Model model) {
-  return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::ghost;
+  return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::ghost ||
+         model == Model::obstacles;
 }
+bool isSeenFromOutside(Model model) { return finishOf(model) == Finish::guide || finishOf(model) == Finish::obstacle; }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
 bool isMoving(Model model) { return isInHand(model) || model >= Model::beads; }
 
@@ -113,10 +115,10 @@ RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, M
     const MeshBodyPart& kept = body.parts.emplace_back(keptPart(*part, body.model));
     std::ranges::copy(kept.triangles, index);
 
-    const MeshTrait trait = kept.is_cut                             ? MeshTrait::cuttable
-                            : kept.finish == Finish::gingiva        ? MeshTrait::torn
-                            : finishOf(body.model) == Finish::guide ? MeshTrait::outside_only
-                                                                    : MeshTrait::plain;
+    const MeshTrait trait = kept.is_cut                      ? MeshTrait::cuttable
+                            : kept.finish == Finish::gingiva ? MeshTrait::torn
+                            : isSeenFromOutside(body.model)  ? MeshTrait::outside_only
+                                                             : MeshTrait::plain;
     rtcSetGeometryUserData(triangles, reinterpret_cast<void*>(trait));
     rtcCommitGeometry(triangles);
     rtcAttachGeometry(scene, triangles);
@@ -165,7 +167,7 @@ void MeshBodies::place(const Placements& placements, const FaceWindow& window, c
   soft_ = soft;
   placements_ = placements;
   has_ = {};
-  const bool guided = hasGuides() || opacityOf(Model::ghost) > 0.0f;
+  const bool guided = hasGuides() || opacityOf(Model::ghost) > 0.0f || opacityOf(Model::obstacles) > 0.0f;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];
     if (body.scene == nullptr) continue;

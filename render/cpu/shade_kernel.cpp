@@ -175,7 +175,8 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     shown = select(gingiva | piece, underRing(scene, shown, p_P), shown);
     // Guides are unlit: they are not part of the patient and are visible inside the bone.
     const Float facing = absolute(dot(normal, direction));
-    put(light, i, select(finish == FINISH_GUIDE, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));
+    const Mask unlit = (finish == FINISH_GUIDE) | (finish == FINISH_OBSTACLE);
+    put(light, i, select(unlit, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));
   }
 }
 

@@ -3,7 +3,8 @@
 namespace render {
 namespace {
 
-constexpr float kMandibularCanalOverlay = 0.45f, kRulerOverlay = 0.5f;  // opacity where seen through bone
+constexpr float kMandibularCanalOverlay = 0.45f, kRulerOverlay = 0.5f,
+                kObstacles = 0.6f;  // opacity where seen through bone
 
 // The ghost tool fades in as the hand moves 0.1 to 0.5 mm away from the tool held by the bone.
 float ghostOpacity(const Frame& frame) {
@@ -27,7 +28,8 @@ Placements placementsIn(const Frame& frame) {
                           {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)},
                           {.opacity = shown(frame.ruler.has_value())},
                           {.opacity = frame.ruler ? kRulerOverlay : 0.0f},
-                          {.opacity = shown(!frame.beads.empty())}}}};
+                          {.opacity = shown(!frame.beads.empty())},
+                          {.opacity = layers.obstacles && !frame.obstacles.middle_P_mm.empty() ? kObstacles : 0.0f}}}};
   for (std::size_t n = 0; n < kMostPieces; ++n)
     placements[static_cast<std::size_t>(pieceModel(n))] = {
         .P_from_mesh = frame.pieces[n] ? frame.pieces[n]->matrix() : glm::dmat4(1.0),

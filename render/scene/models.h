@@ -12,7 +12,7 @@
 namespace render {
 
 /// `mandibular_canal`, `ruler`: where they are visible; their overlays: seen through bone and gingiva. `ghost`: the
-/// instrument at the hand, seen through them too.
+/// instrument at the hand, seen through them too, as `obstacles` are.
 enum class Model {
   face,
   gingiva,
@@ -24,6 +24,7 @@ enum class Model {
   ruler,
   ruler_overlay,
   beads,
+  obstacles,
   first_piece
 };
 inline constexpr std::size_t kModels = static_cast<std::size_t>(Model::first_piece) + kMostPieces;
@@ -40,13 +41,14 @@ enum class Finish {
   instrument = FINISH_INSTRUMENT,
   guide = FINISH_GUIDE,
   tooth = FINISH_TOOTH,
-  piece = FINISH_PIECE
+  piece = FINISH_PIECE,
+  obstacle = FINISH_OBSTACLE
 };
 
 constexpr Finish finishOf(Model model) {
   constexpr std::array kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
                                Finish::guide, Finish::guide,   Finish::instrument, Finish::guide,
-                               Finish::guide, Finish::tooth};
+                               Finish::guide, Finish::tooth,   Finish::obstacle};
   if (model >= Model::first_piece) return Finish::piece;
   return kFinish[static_cast<std::size_t>(model)];
 }

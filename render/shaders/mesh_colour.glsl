@@ -28,7 +28,8 @@ vec4 meshColour() {
   if (!gl_FrontFacing) normal = -normal;
   vec4 base = part.base_colour * vertex_tint;
   int finish = int(part.finish.z);
-  if (finish == FINISH_GUIDE && !gl_FrontFacing) discard;
+  bool is_unlit = finish == FINISH_GUIDE || finish == FINISH_OBSTACLE;
+  if (is_unlit && !gl_FrontFacing) discard;
 
   // The rim of the window is drawn as a cut edge, darker and redder.
   float rim = 1.0;
@@ -67,7 +68,7 @@ vec4 meshColour() {
     s.wrap = kEnamel.z;
   }
   if (is_soft) s = marked(s, p_P, from_cut);
-  if (finish == FINISH_GUIDE) {
+  if (is_unlit) {
     // Unlit: it is not part of the patient and is visible inside the bone.
     float facing = abs(dot(normal, to_eye));
     return vec4(base.rgb * mix(GUIDE_DARKEST, 1.0, facing), base.a);

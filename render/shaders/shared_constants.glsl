@@ -42,6 +42,7 @@
 #define FINISH_GUIDE 3
 #define FINISH_TOOTH 4
 #define FINISH_PIECE 5
+#define FINISH_OBSTACLE 6
 #define PART_CUT_BY_WINDOW 1     // bits: traits of a mesh part
 #define PART_VEIL 2              // of the faded face only the nearest surface is drawn
 

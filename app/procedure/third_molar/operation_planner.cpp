@@ -76,60 +76,7 @@ glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, c
   return most > -1e9 ? best_P_mm : highest_P_mm;
 }
 
-/// Pieces that touch, as along a break, stay pieces: a voxel's gap between them.
-void partBodies(const BodiesCopy& bodies, const assets::VolumeGrid& grid, std::vector<std::uint8_t>& solid) {
-  const auto holder = [&](std::size_t v) {
-    std::size_t most = 0;
-    for (std::size_t n = 1; n < bodies.piece.size(); ++n) {
-      const auto here = [&](std::size_t piece) { return bodies.piece[piece].empty() ? 0 : bodies.piece[piece][v]; };
-      if (here(n) > here(most)) most = n;
-    }
-    return most;
-  };
-  std::vector<std::size_t> between;
-  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (!isSolid(solid[v])) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      glm::ivec3 next = ijk;
-      if (++next[axis] >= grid.size[axis]) continue;
-      const std::size_t beside = grid.index(next);
-      if (isSolid(solid[beside]) && holder(beside) != holder(v)) between.push_back(v);
-    }
-  });
-  for (const std::size_t v : between) solid[v] = 0;
-}
-
-/// The nearest voxel counts.
-std::vector<std::uint8_t> whereItLies(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& at_rest,
-                                      const haptics::PiecePose& X_PQ) {
-  std::vector<std::uint8_t> moved(at_rest.size(), 0);
-  const auto X_QP = X_PQ.inverse();
-  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    const calibration::Point<calibration::Patient> p_P{grid.centre_P_mm(ijk)};
-    const glm::ivec3 from(glm::round(grid.indexFromPoint((X_QP * p_P).mm)));
-    if (grid.contains(from)) moved[v] = at_rest[grid.index(from)];
-  });
-  return moved;
-}
-
 }  // namespace
-
-BodiesCopy copyOf(const haptics::Bodies& bodies, const haptics::Tick& newest) {
-  BodiesCopy copy;
-  copy.jaw = bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size);
-  copy.X_PQ = newest.X_PQ;
-  for (std::size_t n = 0; n < newest.pieces; ++n) {
-    const haptics::CarvedBone& piece = bodies.bones()[n + 1];
-    if (haptics::Bodies::isAside(newest.X_PQ[n])) {
-      copy.is_any_out = true;
-      continue;
-    }
-    copy.piece[n] = piece.copyBox(glm::ivec3(0), piece.grid().size);
-    if (!haptics::Bodies::isRest(newest.X_PQ[n]))
-      copy.piece[n] = whereItLies(piece.grid(), copy.piece[n], newest.X_PQ[n]);
-  }
-  return copy;
-}
 
 OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator)
     : bur_radius_mm_(bur_radius_mm), with_elevator_(with_elevator), up_(wayUp(patient)) {
@@ -179,17 +126,15 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
 OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                                      glm::ivec3 first_voxel) {
   // All that is left, as one volume; the tooth apart.
-  std::vector<std::uint8_t> tooth_solid(piece_grid.voxelCount(), 0);
+  const std::vector<std::uint8_t> tooth_solid = piecesOf(bodies, piece_grid);
   now_.ct.solid = bodies.jaw;
   assets::forVoxels(piece_grid, [&](glm::ivec3 ijk, std::size_t v) {
     int sum = 0;
     for (const auto& piece : bodies.piece) sum += piece.empty() ? 0 : piece[v];
-    tooth_solid[v] = static_cast<std::uint8_t>(std::min(sum, 255));
     if (sum == 0 || !now_.ct.grid.contains(ijk + first_voxel)) return;
     std::uint8_t& here = now_.ct.solid[now_.ct.grid.index(ijk + first_voxel)];
     here = static_cast<std::uint8_t>(std::min(here + sum, 255));
   });
-  partBodies(bodies, piece_grid, tooth_solid);
   const haptics::Components tooth(piece_grid, tooth_solid);
   const auto pieces = static_cast<std::size_t>(std::ranges::count_if(
       tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastPiece_mm3; }));

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/procedure/bodies_copy.h"
 #include "app/procedure/ways_out.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
@@ -17,17 +18,6 @@
 #include "haptics/servo/tick.h"
 
 namespace app {
-
-/// Bytes of the bodies, in the order of their grids.
-struct BodiesCopy {
-  std::vector<std::uint8_t> jaw;
-  /// On the tooth's grid, where each piece lies; empty: not there, or set aside.
-  std::array<std::vector<std::uint8_t>, haptics::kMaxPieces> piece;
-  std::array<haptics::PiecePose, haptics::kMaxPieces> X_PQ{};
-  bool is_any_out = false;  ///< a piece was set aside
-};
-/// As a reading thread sees them while nothing changes; poses and number of pieces are the newest tick's. Some 30 ms.
-BodiesCopy copyOf(const haptics::Bodies& bodies, const haptics::Tick& newest);
 
 /// A cut with the direction of the bur's shaft.
 struct CutStep {

@@ -186,6 +186,38 @@ TEST_F(ExtractionCommand, ASectionedToothIsTakenOutInTwoPiecesAndReplaysBitForBi
   EXPECT_EQ(verified.out.rfind("verified: ", 0), 0u) << verified.out;
 }
 
+TEST_F(ExtractionCommand, WhatKeepsTheToothInIsToldAndRecorded) {
+  Hand hand;
+  // Both halves are free to go up once they are apart: found by itself, a second after the last cut; then it is asked.
+  hand.section();
+  hand.be(1.5, {0.0, 0.0, 9.0}, false);
+  Hand silent = hand;
+  hand.be(0.1, {0.0, 0.0, 9.0}, false, 0.0, "", "way");
+  for (Hand* const one : {&hand, &silent}) one->be(0.4, {0.0, 0.0, 15.0}, false, 0.0, "", "end");
+  const std::string session = at("s.molar");
+  const ProgramOutput said = rehearse(hand, session);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("  way out          the "), std::string::npos) << said.out;
+  const nlohmann::json way = metrics(session).at("way_out");
+  EXPECT_EQ(way.at("looks"), 2);
+  EXPECT_EQ(way.at("asked"), true);
+  ASSERT_EQ(way.at("pieces").size(), 2u);
+  for (const nlohmann::json& piece : way.at("pieces")) EXPECT_NE(piece.at("answer"), "blocked") << way;
+  EXPECT_EQ(way.at("pieces")[0].at("waits"), false);
+  EXPECT_EQ(way.at("pieces")[1].at("waits"), true);
+  EXPECT_EQ(molar("replay " + session + " --verify").status, 0);
+
+  // Once more: the answers are the same bytes.
+  const std::string again = at("again.molar"), own = at("own.molar");
+  ASSERT_EQ(rehearse(hand, again).status, 0);
+  EXPECT_EQ(metrics(again).at("way_out"), way);
+  // Assessed, nothing is told.
+  ASSERT_EQ(
+      rehearse(silent, own, " --procedure third-molar --guidance assessed --predict difficulty=easy,minutes=2").status,
+      0);
+  EXPECT_TRUE(metrics(own).at("way_out").is_null());
+}
+
 TEST_F(ExtractionCommand, AnElevatorTwistedInTheSlotLoosensAPiece) {
   Hand hand;
   hand.section();

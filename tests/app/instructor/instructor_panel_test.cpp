@@ -149,6 +149,7 @@ TEST_F(InstructorPanel, ShowsEveryFigure) {
   status_.dry_s = 8.0;
   status_.command.irrigating = false;
   status_.said = "irrigation off: the bur cuts dry";
+  status_.way = "overlying bone holds the mesial half: 29.6 mm³, 51.9 in all; the distal half after it";
   status_.device = "scripted hand";
   status_.display = "mono";
   status_.quality = "third resolution";
@@ -208,6 +209,7 @@ TEST_F(InstructorPanel, ShowsEveryFigure) {
                             "active",
                             "41 % of their heat",
                             "none",
+                            "51.9 in all; the distal half after it",
                             "Face 30 %"})
     EXPECT_NE(seen.find(withoutBlanks(shown)), std::string::npos) << shown << "\n" << seen;
   EXPECT_NE(seen.find(withoutBlanks(assets::kTissues[2].name)), std::string::npos);
