@@ -15,6 +15,7 @@ void addInspect(CommandLine& molar);
 void addPlan(CommandLine& molar);
 void addFeel(CommandLine& molar);
 void addCarve(CommandLine& molar);
+void addClearance(CommandLine& molar);
 void addSee(CommandLine& molar);
 void addDisplay(CommandLine& molar);
 void addCalibrate(CommandLine& molar);
@@ -32,9 +33,9 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse,      addStart,   addImport,   addInspect,   addPlan,    addFeel,
-                                   addCarve,         addSee,     addDisplay,  addCalibrate, addDevices, addDoctor,
-                                   addReplay,        addMetrics, addSessions, addExport,    addPieces,  addLaws,
-                                   addPsychophysics, addHelp,    addManual,   addCompletion};
+inline constexpr auto kCommands = {addRehearse, addStart,         addImport,  addInspect,  addPlan,      addClearance,
+                                   addFeel,     addCarve,         addSee,     addDisplay,  addCalibrate, addDevices,
+                                   addDoctor,   addReplay,        addMetrics, addSessions, addExport,    addPieces,
+                                   addLaws,     addPsychophysics, addHelp,    addManual,   addCompletion};
 
 }  // namespace app
