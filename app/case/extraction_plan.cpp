@@ -158,18 +158,19 @@ const PlanItem& itemOf(const ExtractionPlan& plan, std::string_view key) {
   return *found;
 }
 
+std::string valueText(const PlanItem& item) {
+  if (const auto* words = std::get_if<std::string>(&item.value)) return *words;
+  const auto* figure = std::get_if<double>(&item.value);
+  if (figure == nullptr) return "not known";
+  const bool is_measured = item.unit == "mm" || item.unit == "deg";
+  std::string text = fmt::format("{:.{}f} {}", *figure, is_measured ? 1 : 0, item.unit == "deg" ? "°" : item.unit);
+  if (text.back() == ' ') text.pop_back();
+  return text;
+}
+
 std::string planTable(const ExtractionPlan& plan) {
   std::string text;
-  for (const PlanItem& item : plan) {
-    std::string value = "not known";
-    if (const auto* words = std::get_if<std::string>(&item.value)) value = *words;
-    if (const auto* figure = std::get_if<double>(&item.value)) {
-      const bool whole = item.unit != "mm" && item.unit != "deg";
-      value = whole ? fmt::format("{:.0f} {}", *figure, item.unit)
-                    : fmt::format("{:.1f} {}", *figure, item.unit == "deg" ? "°" : item.unit);
-    }
-    text += fmt::format("{:<24} {:<28} {}\n", item.name, value, item.how);
-  }
+  for (const PlanItem& item : plan) text += fmt::format("{:<24} {:<28} {}\n", item.name, valueText(item), item.how);
   return text;
 }
 

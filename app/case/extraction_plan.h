@@ -30,6 +30,8 @@ ExtractionPlan extractionPlan(const assets::Patient& patient, const std::string&
 /// The item of that key, which must exist.
 const PlanItem& itemOf(const ExtractionPlan& plan, std::string_view key);
 
+/// For people: "45.2 °", "not known".
+std::string valueText(const PlanItem& item);
 /// For people, one line an item.
 std::string planTable(const ExtractionPlan& plan);
 

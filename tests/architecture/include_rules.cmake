@@ -4,7 +4,7 @@
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
 #   app: text < { case | report | session } < { view | device } < station < options < controls < instructor
 #     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
-#     | start_screen }.
+#     | start_screen | review }.
 #   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -52,7 +52,7 @@ foreach(room procedure evaluation)
   set(app/${room} ${seen} app/${room}/)
 endforeach()
 set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
-foreach(room pattern doctor calibrate psychophysics start_screen)
+foreach(room pattern doctor calibrate psychophysics start_screen review)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
 set(app/commands ${floors} app/)

@@ -6,6 +6,7 @@
 
 #include "app/calibrate/report/report_views.h"
 #include "app/report/drawing.h"
+#include "app/report/html_page.h"
 #include "app/report/markup.h"
 #include "calibration/fit/expected_error_map.h"
 #include "calibration/record/drift_review.h"
@@ -20,30 +21,6 @@ using calibration::RigRecord;
 using calibration::Verdict;
 
 constexpr std::size_t kMaxAlarms = 10;
-
-constexpr const char* kStyle = R"(
-body { font: 15px/1.45 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; background: #fff;
-       max-width: 800px; margin: 24px auto; padding: 0 16px; }
-h1 { font-size: 24px; margin: 0 0 4px; }
-h2 { font-size: 17px; margin: 28px 0 6px; border-bottom: 1px solid #ccc; padding-bottom: 3px; }
-.verdict { display: flex; align-items: center; gap: 16px; border: 2px solid #222; border-radius: 6px;
-           padding: 12px 16px; margin: 14px 0; }
-.verdict svg { flex: none; }
-.verdict b { font-size: 20px; }
-.quiet { color: #666; }
-table { border-collapse: collapse; width: 100%; font-size: 14px; }
-th { text-align: left; font-weight: normal; color: #666; }
-th, td { padding: 3px 10px 3px 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
-td:nth-child(2) { white-space: normal; }
-code { font-size: 11px; overflow-wrap: anywhere; }
-.green { color: #00704f; } .amber { color: #9a5b00; } .red { color: #b03a00; font-weight: bold; }
-figure { margin: 8px 0; break-inside: avoid; }
-figure svg { max-width: 100%; height: auto; display: block; }
-figcaption { font-size: 13px; color: #444; }
-ul { margin: 6px 0; padding-left: 20px; }
-h2, tr { break-after: avoid; break-inside: avoid; }
-@media print { body { margin: 0; max-width: none; font-size: 12px; } @page { margin: 16mm; } }
-)";
 
 /// A shape of its own for each verdict.
 std::string symbolOf(const std::optional<Verdict>& verdict) {
@@ -81,14 +58,6 @@ std::string worstOf(const RigRecord& record) {
   return sentence(worst);
 }
 
-std::string figure(const std::string& drawing, const std::string& caption) {
-  return "<figure>\n" + drawing + "<figcaption>" + caption + "</figcaption>\n</figure>\n";
-}
-
-std::string section(const char* title, const std::string& content) {
-  return std::string("<section>\n<h2>") + title + "</h2>\n" + content + "</section>\n";
-}
-
 /// The error of one touch, from the residual of the fit (reference/calibration 4.1).
 double touchError_mm(const calibration::RigProcedure& procedure, double used) {
   const double parameters = procedure.model == ArmModel::rigid ? 6.0 : procedure.model == ArmModel::full ? 28.0 : 15.0;
@@ -97,35 +66,36 @@ double touchError_mm(const calibration::RigProcedure& procedure, double used) {
   return freedom > 0.3 ? procedure.fre_rms_mm / std::sqrt(freedom) : procedure.cv_rms_mm;
 }
 
-std::string mapSection(const RigRecord& record) {
+void addMap(HtmlPage& page, const RigRecord& record) {
   std::vector<calibration::Point<calibration::World>> touches_W;
   for (const Residual& one : record.residuals)
     if (one.used) touches_W.push_back(one.target_W);
-  if (touches_W.size() < 4 || !record.procedure) return "";
+  if (touches_W.size() < 4 || !record.procedure) return;
   const double fle_mm = touchError_mm(*record.procedure, static_cast<double>(touches_W.size()));
-  if (!(fle_mm > 0.0)) return "";
+  if (!(fle_mm > 0.0)) return;
   const calibration::ExpectedErrorMap expected(touches_W, fle_mm);
-  return section("Where more touches would help",
-                 figure(errorMapView([&](const auto& position_W) { return expected.at_mm(position_W); }, touches_W),
-                        "Expected error over the plane through the site (z = 0), from the positions of the touches and "
-                        "a random error of " +
-                            fixedText(fle_mm, 2) +
-                            " mm per touch (Fitzpatrick 1998). Random errors only: errors that the model of the arm "
-                            "cannot express are in the figures above."));
+  page.section(
+      "Where more touches would help",
+      figureMarkup(errorMapView([&](const auto& position_W) { return expected.at_mm(position_W); }, touches_W),
+                   "Expected error over the plane through the site (z = 0), from the positions of the touches and "
+                   "a random error of " +
+                       fixedText(fle_mm, 2) +
+                       " mm per touch (Fitzpatrick 1998). Random errors only: errors that the model of the arm "
+                       "cannot express are in the figures above."));
 }
 
-std::string historySection(const std::vector<DriftEntry>& history) {
+void addHistory(HtmlPage& page, const std::vector<DriftEntry>& history) {
   const calibration::DriftReview review = calibration::reviewOf(history);
   std::string content = "<p>" + escaped(review.sentence) + "</p>\n";
-  if (history.empty()) return section("History", content);
+  if (history.empty()) return page.section("History", content);
   std::string drawings;
   for (const calibration::DriftQuantity quantity : calibration::kDriftQuantities)
     drawings += historyView(history, review, quantity);
-  content +=
-      figure(drawings,
-             "Errors before any correction: dots are checks, squares re-zeros, black dots calibrations with their "
-             "held-out error. Green: mean; dashed: 3 \u03c3; dotted: 2 \u03c3, of at most the first twenty checks "
-             "since the calibration. Ringed: alarms by the Western Electric rules.");
+  content += figureMarkup(
+      drawings,
+      "Errors before any correction: dots are checks, squares re-zeros, black dots calibrations with their "
+      "held-out error. Green: mean; dashed: 3 \u03c3; dotted: 2 \u03c3, of at most the first twenty checks "
+      "since the calibration. Ringed: alarms by the Western Electric rules.");
   if (!review.alarms.empty()) {
     content += "<p>Alarms since the last calibration" +
                std::string(review.alarms.size() > kMaxAlarms ? ", the newest ten" : "") + ":</p>\n<ul>\n";
@@ -134,7 +104,7 @@ std::string historySection(const std::vector<DriftEntry>& history) {
       content += "<li>" + escaped(review.alarms[i].sentence) + "</li>\n";
     content += "</ul>\n";
   }
-  return section("History", content);
+  page.section("History", content);
 }
 
 std::string subtitle(const RigRecord& record) {
@@ -167,27 +137,24 @@ std::string verdictBox(const RigRecord& record) {
 
 std::string reportHtml(const RigRecord& record, const std::vector<DriftEntry>& history, const std::string& now_utc) {
   const std::string name = record.provenance.rig_id.empty() ? "a rig" : record.provenance.rig_id;
-  const std::string title = "Calibration of " + escaped(name);
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title +
-                     "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
-  page += "<h1>" + title + "</h1>\n<p class=\"quiet\">" + subtitle(record) + "</p>\n" + verdictBox(record);
-  page += section("Accuracy", figuresTable(record));
+  HtmlPage page("Calibration of " + name, subtitle(record));
+  page.add(verdictBox(record));
+  page.section("Accuracy", figuresTable(record));
   const std::vector<Residual> none;
   const std::vector<Residual>& held_out = record.verification ? record.verification->residuals : none;
   if (!record.residuals.empty() || !held_out.empty())
-    page +=
-        section("Where the error is",
-                figure(residualViews(record.residuals, held_out),
-                       "Each arrow points from the touched target to the tip as computed by the arm. Parallel arrows "
-                       "mean a shift, arrows around a centre a rotation, unordered arrows random error."));
-  page += mapSection(record);
-  page += historySection(history);
-  page += section("Touches set aside", outliersTable(record));
-  page += section("Origin", originTable(record, now_utc));
-  page +=
-      "<p class=\"quiet\">Frame W: origin in the middle of the virtual screen, x to the right, y up, z towards the "
-      "viewer. A training device, not a clinical one.</p>\n";
-  return page + "</body>\n</html>\n";
+    page.section(
+        "Where the error is",
+        figureMarkup(residualViews(record.residuals, held_out),
+                     "Each arrow points from the touched target to the tip as computed by the arm. Parallel arrows "
+                     "mean a shift, arrows around a centre a rotation, unordered arrows random error."));
+  addMap(page, record);
+  addHistory(page, history);
+  page.section("Touches set aside", outliersTable(record));
+  page.section("Origin", originTable(record, now_utc));
+  return page.text(
+      "Frame W: origin in the middle of the virtual screen, x to the right, y up, z towards the viewer. A training "
+      "device, not a clinical one.");
 }
 
 }  // namespace app

@@ -1,0 +1,69 @@
+#include "app/report/html_page.h"
+
+#include "app/report/markup.h"
+
+namespace app {
+namespace {
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.45 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; background: #fff;
+       max-width: 800px; margin: 24px auto; padding: 0 16px; }
+h1 { font-size: 24px; margin: 0 0 4px; }
+h2 { font-size: 17px; margin: 28px 0 6px; border-bottom: 1px solid #ccc; padding-bottom: 3px; }
+.verdict { display: flex; align-items: center; gap: 16px; border: 2px solid #222; border-radius: 6px;
+           padding: 12px 16px; margin: 14px 0; }
+.verdict svg { flex: none; }
+.verdict b { font-size: 20px; }
+.quiet { color: #666; }
+table { border-collapse: collapse; width: 100%; font-size: 14px; }
+th { text-align: left; font-weight: normal; color: #666; }
+th, td { padding: 3px 10px 3px 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
+td:nth-child(2) { white-space: normal; }
+.figure { text-align: right; font-variant-numeric: tabular-nums; }
+code { font-size: 11px; overflow-wrap: anywhere; }
+.green { color: #00704f; } .amber { color: #9a5b00; } .red { color: #b03a00; font-weight: bold; }
+figure { margin: 8px 0; break-inside: avoid; }
+figure svg { max-width: 100%; height: auto; display: block; }
+figcaption { font-size: 13px; color: #444; }
+ul { margin: 6px 0; padding-left: 20px; }
+h2, tr { break-after: avoid; break-inside: avoid; }
+@media print { body { margin: 0; max-width: none; font-size: 12px; } @page { margin: 16mm; } }
+)";
+
+}  // namespace
+
+HtmlPage::HtmlPage(std::string_view title_words, const std::string& below_markup) : title_(escaped(title_words)) {
+  body_ = "<h1>" + title_ + "</h1>\n<p class=\"quiet\">" + below_markup + "</p>\n";
+}
+
+void HtmlPage::section(std::string_view title_words, const std::string& content_markup) {
+  if (content_markup.empty()) return;
+  body_ += "<section>\n<h2>" + escaped(title_words) + "</h2>\n" + content_markup + "</section>\n";
+}
+
+std::string HtmlPage::text(std::string_view note_words) const {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title_ +
+         "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body_ + "<p class=\"quiet\">" +
+         escaped(note_words) + "</p>\n</body>\n</html>\n";
+}
+
+std::string figureMarkup(const std::string& drawing, const std::string& caption_markup) {
+  return "<figure>\n" + drawing + "<figcaption>" + caption_markup + "</figcaption>\n</figure>\n";
+}
+
+std::string tableMarkup(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
+  std::string table = "<table>\n";
+  if (!heads.empty()) {
+    table += "<tr>";
+    for (const std::string& head : heads) table += "<th>" + escaped(head) + "</th>";
+    table += "</tr>\n";
+  }
+  for (const std::vector<std::string>& row : rows) {
+    table += "<tr>";
+    for (const std::string& cell : row) table += "<td>" + escaped(cell) + "</td>";
+    table += "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+}  // namespace app

@@ -1,0 +1,150 @@
+#include "app/review/review_figures.h"
+
+#include <algorithm>
+
+#include "app/report/axes.h"
+#include "app/report/drawing.h"
+#include "app/text/clock_text.h"
+
+namespace app {
+namespace {
+
+constexpr double kWidth = 800.0, kLeft = 110.0, kRight = 12.0;
+
+/// Minutes and seconds below a drawing of this height.
+Axis timeAxis(double duration_s) {
+  Axis axis{0.0, std::max(1.0, duration_s), {}, "time, min:s"};
+  const AxisTicks ticks = axisTicks(0.0, axis.to, 8, false);
+  // Whole minutes where the session is long enough for them.
+  const double step_s = duration_s > 240.0 ? std::max(60.0, 60.0 * std::round(ticks.step / 60.0)) : ticks.step;
+  for (double t_s = 0.0; t_s <= axis.to; t_s += step_s) axis.marks.push_back({t_s, clockText(t_s)});
+  return axis;
+}
+
+/// A row of bars, with its name to the left.
+void drawSpans(const Drawing& drawing, const Axes& axes, const std::vector<TimeSpan>& spans, const std::string& name,
+               double top, bool with_words) {
+  constexpr double kHeight = 18.0;
+  drawing.text(name, {kLeft - 8.0, top + 0.5 * kHeight}, kNumberLine, paper::kInk, Align::right);
+  bool odd = false;
+  for (const TimeSpan& span : spans) {
+    const double from = axes.at({span.from_s, 0.0}).x, to = std::max(from + 1.0, axes.at({span.to_s, 0.0}).x);
+    const Ink ink = !with_words ? paper::kBlue : odd ? inkOf(0xdde6ee) : inkOf(0xc5d6e4);
+    drawing.box({from, top}, {to - from, kHeight}, ink);
+    odd = !odd;
+    if (with_words && drawing.textWidth(span.what, kNumberLine) < to - from - 6.0)
+      drawing.text(span.what, {from + 4.0, top + 0.5 * kHeight}, kNumberLine, paper::kInk, Align::left);
+  }
+}
+
+Axes rowAxes(const Axis& time, double top, double height, const std::vector<double>& values, const char* label) {
+  Axes axes;
+  axes.corner = {kLeft, top};
+  axes.size = {kWidth - kLeft - kRight, height};
+  axes.x = time;
+  axes.x.label.clear();
+  axes.y = axisOf(axisTicks(0.0, values.empty() ? 1.0 : *std::ranges::max_element(values), 3, true), label);
+  return axes;
+}
+
+std::vector<glm::dvec2> stepsOf(const Axes& axes, const std::vector<double>& values, double bin_s) {
+  std::vector<glm::dvec2> points;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    points.push_back(axes.at({(static_cast<double>(n) + 0.5) * bin_s, std::min(values[n], axes.y.to)}));
+  return points;
+}
+
+std::vector<TimeSpan> stepsAsSpans(const ProcedureRun& run) {
+  std::vector<TimeSpan> spans;
+  for (const StepRecord& step : run.steps)
+    if (step.begin_s && step.duration_s > 0.0)
+      spans.push_back({*step.begin_s, *step.begin_s + step.duration_s, step.title});
+  return spans;
+}
+
+}  // namespace
+
+std::string timelineFigure(const SessionCourse& course, const std::optional<ProcedureRun>& procedure) {
+  const Axis time = timeAxis(course.duration_s);
+  const double steps = procedure ? 26.0 : 0.0;
+  Drawing drawing({kWidth, 372.0 + steps});
+  Axes force =
+      rowAxes(time, 96.0 + steps, 90.0, course.most_force_N, "force of the model, N, largest in half a second");
+  drawSpans(drawing, force, course.tools, "in the hand", 6.0, true);
+  drawSpans(drawing, force, course.drilling, "drilling in bone", 32.0, false);
+  if (procedure) drawSpans(drawing, force, stepsAsSpans(*procedure), "step", 58.0, true);
+  force.draw(drawing);
+  drawing.path(stepsOf(force, course.most_force_N, SessionCourse::kBin_s), 1.2, paper::kOrange);
+
+  std::vector<double> rate = course.removed_mm3;
+  for (double& value : rate) value /= SessionCourse::kBin_s;
+  Axes removed = rowAxes(time, 236.0 + steps, 70.0, rate, "bone and tooth removed, mm³/s");
+  removed.x.label = time.label;
+  removed.draw(drawing);
+  drawing.path(stepsOf(removed, rate, SessionCourse::kBin_s), 1.2, paper::kBlue);
+
+  // What happened, numbered, over both plots.
+  int number = 0;
+  double last_x = -1e9;
+  for (const TimeMark& mark : course.marks) {
+    const double x = force.at({mark.t_s, 0.0}).x;
+    drawing.line({x, force.corner.y}, {x, removed.foot().y}, 0.8, paper::kQuiet, {3.0, 3.0});
+    ++number;
+    if (x - last_x < 18.0) continue;
+    drawing.text(std::to_string(number), {x + 3.0, force.corner.y + 8.0}, kNumberLine, paper::kInk, Align::left, true);
+    last_x = x;
+  }
+  return drawing.markup("Timeline of the rehearsal");
+}
+
+std::string forceFigure(const SessionCourse& course) {
+  const auto last =
+      std::ranges::find_if(course.force_s.rbegin(), course.force_s.rend(), [](double s) { return s > 0.0; });
+  if (last == course.force_s.rend()) return "";
+  const auto bins = static_cast<std::size_t>(course.force_s.rend() - last);
+  Axes axes;
+  axes.corner = {60.0, Axes::kAbove};
+  axes.size = {380.0, 150.0};
+  axes.x =
+      axisOf(axisTicks(0.0, SessionCourse::kForceBin_N * static_cast<double>(bins), 6, true), "force of the model, N");
+  axes.y = axisOf(axisTicks(0.0, *std::ranges::max_element(course.force_s), 4, true), "time drilling in bone, s");
+  Drawing drawing({470.0, Axes::kAbove + 150.0 + Axes::kBelow});
+  axes.draw(drawing);
+  for (std::size_t n = 0; n < bins; ++n) {
+    const double from_N = SessionCourse::kForceBin_N * static_cast<double>(n);
+    const glm::dvec2 top = axes.at({from_N, course.force_s[n]}),
+                     foot = axes.at({from_N + SessionCourse::kForceBin_N, 0.0});
+    if (course.force_s[n] > 0.0)
+      drawing.box(top + glm::dvec2(1.0, 0.0), foot - top - glm::dvec2(2.0, 0.0), paper::kBlue);
+  }
+  return drawing.markup("Histogram of the force while drilling in bone");
+}
+
+std::string picturesFigure(const std::vector<BonePicture>& pictures) {
+  if (pictures.empty()) return "";
+  constexpr double kColumn = 400.0, kWords = 20.0;
+  const render::Image& first = pictures.front().image;
+  const double height = (kColumn - 8.0) * first.h / first.w;
+  const double rows = std::ceil(static_cast<double>(pictures.size()) / 2.0);
+  Drawing drawing({2.0 * kColumn, rows * (height + kWords + 4.0)});
+  for (std::size_t n = 0; n < pictures.size(); ++n) {
+    const glm::dvec2 corner{static_cast<double>(n % 2) * kColumn, static_cast<double>(n / 2) * (height + kWords + 4.0)};
+    drawing.image(pictures[n].image, corner, {kColumn - 8.0, height});
+    drawing.text(pictures[n].from, corner + glm::dvec2(0.0, height + 0.5 * kWords), kLabelLine, paper::kInk,
+                 Align::left);
+  }
+  return drawing.markup("The site as it was left");
+}
+
+std::string answerSymbol(std::optional<bool> is_error) {
+  Drawing drawing({44.0, 44.0});
+  if (!is_error)
+    drawing.outline({4.0, 4.0}, {36.0, 36.0}, 3.0, paper::kQuiet, {6.0, 4.0});
+  else if (!*is_error)
+    drawing.disc({22.0, 22.0}, 19.0, paper::kGreen);
+  else
+    drawing.box({4.0, 4.0}, {36.0, 36.0}, paper::kOrange);
+  return drawing.markup("");
+}
+
+}  // namespace app

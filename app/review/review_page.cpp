@@ -1,0 +1,202 @@
+#include "app/review/review_page.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "app/report/html_page.h"
+#include "app/report/markup.h"
+#include "app/review/review_figures.h"
+#include "app/text/clock_text.h"
+#include "assets/tissue.h"
+
+namespace app {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string unitWords(std::string_view unit) {
+  std::string text(unit);
+  if (const std::size_t at = text.find("mm3"); at != std::string::npos) text.replace(at, 3, "mm³");
+  return text == "deg" ? "°" : text;
+}
+
+std::string valueWords(const MeasureValue& measure) {
+  if (!measure.value) return "not told: " + std::string(measure.why);
+  std::string words = fixedText(*measure.value, 2);
+  if (!measure.unit.empty()) words += " " + unitWords(measure.unit);
+  if (measure.t_s) words += " at " + clockText(*measure.t_s);
+  return words;
+}
+
+std::string itemWords(const PlanItem& item) { return item.isKnown() ? valueText(item) : "not known: " + item.how; }
+
+/// Bone or tooth of this key in files, for people; empty: neither, the rim of what is soft.
+std::string_view hardTissueName(const std::string& key) {
+  const auto named = std::ranges::find(assets::kTissues, key, &assets::TissueProperties::key);
+  return named == assets::kTissues.end() || !(named->hard || named->tooth) ? "" : named->name;
+}
+
+std::string caseSection(const SessionReview& review) {
+  Rows rows{{"Patient", review.metrics.patient_title}};
+  if (review.plan)
+    for (const PlanItem& item : *review.plan) rows.push_back({std::string(item.name), itemWords(item)});
+  else
+    rows.push_back({"Plan", "not told: " + review.why_no_plan});
+  if (review.metrics.prediction)
+    rows.push_back({"Predicted", predictionInWords(*review.metrics.prediction, review.metrics.endOfWork_s())});
+  return tableMarkup({}, rows);
+}
+
+std::string answer(std::optional<bool> is_error, const std::string& question, const std::string& words) {
+  const char* said = !is_error ? "Not known" : *is_error ? "Yes" : "No";
+  return "<div class=\"verdict\">\n" + answerSymbol(is_error) + "<div><b>" + said + "</b>: " + escaped(question) +
+         (words.empty() ? "" : "<br><span class=\"quiet\">" + escaped(words) + "</span>") + "</div>\n</div>\n";
+}
+
+/// The neighbour's name in touches, of either side.
+constexpr std::string_view kSecondMolar = "second molar";
+
+std::string errorsSection(const SessionReview& review) {
+  const std::optional<SocketRecord>& socket = review.metrics.socket;
+  const bool is_out = socket && socket->is_out;
+  const std::string not_out = "no piece of the tooth was out at the end";
+  std::string content;
+  content +=
+      is_out ? answer(!socket->lingual.empty(), "Lingual plate broken through",
+                      socket->lingual.empty() ? "" : fmt::format("{} mm² open", fixedText(sumOf(socket->lingual), 1)))
+             : answer({}, "Lingual plate broken through", not_out);
+  std::optional<bool> molar;
+  std::string molar_words = "touches were not counted when this was recorded";
+  if (review.metrics.touched) {
+    molar = false;
+    molar_words.clear();
+    for (const TouchCount& count : *review.metrics.touched)
+      if (count.what.ends_with(kSecondMolar)) {
+        molar = true;
+        molar_words = fmt::format("the bur was on it {}, {} s in all",
+                                  count.times == 1 ? "once" : fmt::format("{} times", count.times),
+                                  fixedText(count.contact_s, 1));
+      }
+  }
+  content += answer(molar, "Second molar touched by the bur", molar_words);
+  content += is_out
+                 ? answer(!socket->retained.empty(), "Tooth left in the socket",
+                          socket->retained.empty() ? "" : fmt::format("{} mm³", fixedText(sumOf(socket->retained), 1)))
+                 : answer({}, "Tooth left in the socket", not_out);
+  return content;
+}
+
+bool isSafety(const MeasureValue& measure) { return measure.id.starts_with("S"); }
+
+std::string nearSection(const SessionReview& review) {
+  const SessionMetrics& metrics = review.metrics;
+  Rows rows;
+  for (const MeasureValue& measure : metrics.measures)
+    if (isSafety(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
+  if (metrics.touched)
+    rows.push_back(
+        {"touched by the bur", metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)});
+  const std::string cut = softTouchesText(metrics.soft_touches.cut),
+                    pressed = softTouchesText(metrics.soft_touches.touched);
+  rows.push_back({"bur turned on soft tissue", cut.empty() ? "never" : cut});
+  rows.push_back({"soft tissue pressed", pressed.empty() ? "never" : pressed});
+  return tableMarkup({}, rows);
+}
+
+std::string removedSection(const SessionReview& review) {
+  Rows rows;
+  if (review.metrics.removed_mm3_by_label)
+    for (const auto& [tissue, removed_mm3] : *review.metrics.removed_mm3_by_label)
+      if (const std::string_view name = hardTissueName(tissue); !name.empty() && removed_mm3 >= 0.05)
+        rows.push_back({std::string(name), fixedText(removed_mm3, 1) + " mm³"});
+  if (const auto& plan = review.against_plan) {
+    rows.push_back({"bone planned to go", fixedText(plan->planned_mm3, 1) + " mm³"});
+    rows.push_back({"bone cut outside of the plan", fixedText(plan->over_mm3(), 1) + " mm³"});
+    rows.push_back({"bone of the plan that stands", fixedText(plan->under_mm3(), 1) + " mm³"});
+    if (const auto dice = plan->dice()) rows.push_back({"overlap with the plan (Dice)", fixedText(*dice, 2)});
+    if (plan->over_max_mm)
+      rows.push_back(
+          {"how far outside", fmt::format("mean {}, 95 % {}, most {} mm", fixedText(*plan->over_mean_mm, 1),
+                                          fixedText(*plan->over_p95_mm, 1), fixedText(*plan->over_max_mm, 1))});
+  } else {
+    rows.push_back({"against the plan", "not told: " + review.why_no_plan});
+  }
+  const std::string caption =
+      review.against_plan
+          ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
+            "the plan that stands. What sectioning and clearing took beyond the gutter is red, too."
+          : "The site as it was left.";
+  return tableMarkup({}, rows) + figureMarkup(picturesFigure(review.pictures), caption);
+}
+
+std::string handSection(const SessionReview& review, const SessionReview* other) {
+  // What is judged first: the painting index, with what it is made of.
+  std::vector<MeasureValue> measures = review.metrics.measures;
+  std::ranges::stable_partition(measures, [](const MeasureValue& measure) { return measure.id.starts_with("PI"); });
+  Rows rows;
+  for (const MeasureValue& measure : measures) {
+    if (isSafety(measure)) continue;
+    std::vector<std::string> row{std::string(measure.name), valueWords(measure)};
+    if (other != nullptr) {
+      const auto same = std::ranges::find(other->metrics.measures, measure.id, &MeasureValue::id);
+      row.push_back(same == other->metrics.measures.end() ? "" : valueWords(*same));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> heads;
+  if (other != nullptr) heads = {"Measure", "this rehearsal", "compared with"};
+  std::string content = tableMarkup(heads, rows);
+  if (const std::string force = forceFigure(review.course); !force.empty())
+    content += figureMarkup(force, "How long the bur drilled in bone or tooth with which force.");
+  return content;
+}
+
+std::string courseSection(const SessionReview& review) {
+  std::string content = figureMarkup(timelineFigure(review.course, review.metrics.procedure),
+                                     "Instruments, drilling, force and removal; the numbers are those of the list.");
+  if (!review.course.marks.empty()) {
+    content += "<ol>\n";
+    for (const TimeMark& mark : review.course.marks)
+      content += "<li>" + clockText(mark.t_s) + " " + escaped(mark.what) + "</li>\n";
+    content += "</ol>\n";
+  }
+  if (!review.metrics.procedure) return content;
+  content += "<p>" + escaped(procedureInWords(*review.metrics.procedure)) + "</p>\n<ul>\n";
+  for (const std::string& step : stepsInWords(*review.metrics.procedure)) content += "<li>" + escaped(step) + "</li>\n";
+  return content + "</ul>\n";
+}
+
+std::string conditionsSection(const SessionReview& review) {
+  const SessionMetrics& metrics = review.metrics;
+  Rows rows{{"Program", metrics.program_version}, {"Force law", review.law}};
+  rows.push_back({"Calibration", metrics.calibration ? calibrationText(*metrics.calibration) : "not recorded"});
+  rows.push_back({"Ticks of the force loop", fmt::format("{}, {} not recorded", metrics.ticks, metrics.lost)});
+  rows.push_back({"Force clamped or slew-limited", fixedText(metrics.limited_s, 2) + " s"});
+  rows.push_back({"Invalid pose, force or device fault", fixedText(metrics.faulty_s, 2) + " s"});
+  rows.push_back({"Recording", metrics.closed ? "closed in order" : "ended early; complete up to then"});
+  if (metrics.former)
+    rows.push_back({"Continues", fmt::format("an earlier rehearsal of {} before it; measures are of this part alone",
+                                             clockText(metrics.former->duration_s))});
+  return tableMarkup({}, rows);
+}
+
+}  // namespace
+
+std::string reviewHtml(const SessionReview& review, const SessionReview* other) {
+  std::string below = clockText(review.metrics.duration_s) + " min";
+  if (!review.started_utc.empty()) below = timeText(review.started_utc) + " \u00b7 " + below;
+  HtmlPage page("Rehearsal: " + review.metrics.patient_title, below);
+  page.section("The case", caseSection(review));
+  page.section("Errors", errorsSection(review));
+  page.section("How near, and on what", nearSection(review));
+  page.section("Bone and tooth removed", removedSection(review));
+  page.section("The hand's work", handSection(review, other));
+  page.section("The course", courseSection(review));
+  page.section("Conditions", conditionsSection(review));
+  return page.text(
+      "Measures as in molar metrics; no score is given, for there is no reference to score against. A training device, "
+      "not a clinical one.");
+}
+
+}  // namespace app

@@ -1,0 +1,117 @@
+#include "app/review/session_comparison.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "app/session/replay.h"
+#include "app/text/clock_text.h"
+#include "app/text/usage_error.h"
+#include "assets/tissue.h"
+
+namespace app {
+namespace {
+
+struct Row {
+  std::string key;
+  std::string_view name, unit;
+  std::optional<double> a, b;
+};
+
+std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id) {
+  const auto found = std::ranges::find(metrics.measures, id, &MeasureValue::id);
+  return found == metrics.measures.end() ? std::nullopt : found->value;
+}
+
+std::vector<Row> rowsOf(const SessionComparison& c) {
+  std::vector<Row> rows;
+  for (const Measure& measure : kMeasures)
+    rows.push_back({std::string(measure.key), measure.meaning, measure.unit, c.a.*measure.value, c.b.*measure.value});
+  for (const MeasureValue& measure : c.a.measures)
+    rows.push_back({std::string(measure.id), measure.name, measure.unit, measure.value, valueOf(c.b, measure.id)});
+  return rows;
+}
+
+/// Of a step in both.
+struct StepRow {
+  std::string title;
+  const StepRecord *a = nullptr, *b = nullptr;
+};
+
+std::vector<StepRow> stepsOf(const SessionComparison& c) {
+  std::vector<StepRow> rows;
+  if (!c.a.procedure || !c.b.procedure) return rows;
+  for (const StepRecord& step : c.a.procedure->steps) {
+    const auto same = std::ranges::find(c.b.procedure->steps, step.key, &StepRecord::key);
+    rows.push_back({step.title, &step, same == c.b.procedure->steps.end() ? nullptr : &*same});
+  }
+  return rows;
+}
+
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value + 0.0) : "-"; }
+
+nlohmann::ordered_json orNull(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+}  // namespace
+
+SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b) {
+  SessionComparison comparison{metricsOf(path_a), metricsOf(path_b), {}};
+  const BoneAtTime a = boneAtTime(path_a, {}), b = boneAtTime(path_b, {});
+  if (!(a.start.grid == b.start.grid) || a.start.label != b.start.label || a.start.solid != b.start.solid)
+    throw UsageError(path_b + ": begins with another bone than " + path_a + ", compare two rehearsals of one case");
+  comparison.bone = compareRemovals(a.start.grid, a.start.solid, a.solid, b.solid, [&](std::size_t v) {
+    const auto tissue = static_cast<assets::Tissue>(a.start.label[v]);
+    return tissue == assets::Tissue::cortical || tissue == assets::Tissue::trabecular;
+  });
+  return comparison;
+}
+
+std::string comparisonText(const SessionComparison& c) {
+  std::string words =
+      fmt::format("{}: {} min and {} min\n", c.a.patient_title, clockText(c.a.duration_s), clockText(c.b.duration_s));
+  words +=
+      fmt::format("bone removed: {:.1f} mm³ by both, {:.1f} mm³ by the first alone, {:.1f} mm³ by the second alone",
+                  c.bone.both_mm3, c.bone.onlyInA_mm3(), c.bone.onlyInB_mm3());
+  if (const auto dice = c.bone.dice()) words += fmt::format("; overlap (Dice) {:.2f}", *dice);
+  words += "\n\n";
+  for (const StepRow& step : stepsOf(c))
+    words += fmt::format("{:>10} {:>10}  {}\n", clockText(step.a->duration_s),
+                         step.b != nullptr ? clockText(step.b->duration_s) : "-", step.title);
+  if (!stepsOf(c).empty()) words += "\n";
+  words += fmt::format("{:>11} {:>11} {:>11}\n", "first", "second", "difference");
+  for (const Row& row : rowsOf(c)) {
+    const std::string difference = row.a && row.b ? fmt::format("{:+.2f}", *row.b - *row.a + 0.0) : "-";
+    words +=
+        fmt::format("{:>11} {:>11} {:>11} {:<8} {}\n", number(row.a), number(row.b), difference, row.unit, row.name);
+  }
+  return words;
+}
+
+std::string comparisonJson(const SessionComparison& c) {
+  nlohmann::ordered_json json = {{"patient", c.a.patient_title},
+                                 {"bone",
+                                  {{"first_mm3", c.bone.a_mm3},
+                                   {"second_mm3", c.bone.b_mm3},
+                                   {"both_mm3", c.bone.both_mm3},
+                                   {"only_first_mm3", c.bone.onlyInA_mm3()},
+                                   {"only_second_mm3", c.bone.onlyInB_mm3()},
+                                   {"dice", orNull(c.bone.dice())}}},
+                                 {"steps", nlohmann::ordered_json::array()},
+                                 {"measures", nlohmann::ordered_json::array()}};
+  for (const StepRow& step : stepsOf(c))
+    json["steps"].push_back({{"title", step.title},
+                             {"first_s", step.a->duration_s},
+                             {"second_s", step.b != nullptr ? nlohmann::ordered_json(step.b->duration_s) : nullptr}});
+  for (const Row& row : rowsOf(c)) {
+    nlohmann::ordered_json entry = {
+        {"id", row.key}, {"name", row.name}, {"unit", row.unit}, {"first", orNull(row.a)}, {"second", orNull(row.b)}};
+    entry["difference"] = row.a && row.b ? nlohmann::ordered_json(*row.b - *row.a) : nullptr;
+    json["measures"].push_back(std::move(entry));
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace app

@@ -1,0 +1,137 @@
+#include "app/review/session_trend.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "app/session/measures/painting.h"
+#include "app/session/session_error.h"
+#include "app/session/session_list.h"
+#include "app/text/clock_text.h"
+
+namespace app {
+namespace {
+
+struct Column {
+  std::string_view key, head;
+  std::optional<double> (*of)(const SessionMetrics& metrics);
+};
+
+std::optional<double> measured(const SessionMetrics& metrics, std::string_view id) {
+  const auto found = std::ranges::find(metrics.measures, id, &MeasureValue::id);
+  return found == metrics.measures.end() ? std::nullopt : found->value;
+}
+
+constexpr std::array kColumns{
+    Column{"minutes", "min", [](const SessionMetrics& m) { return std::optional(m.duration_s / 60.0); }},
+    Column{"removed_mm3", "mm³", [](const SessionMetrics& m) { return std::optional(m.removed_mm3); }},
+    Column{"rate_mm3_per_s", "mm³/s", [](const SessionMetrics& m) { return measured(m, "M3.rate"); }},
+    Column{"painting_index", "painting", [](const SessionMetrics& m) { return measured(m, "PI"); }},
+    Column{"smoothness", "SPARC", [](const SessionMetrics& m) { return measured(m, "M5.SPARC"); }},
+    Column{"dry_s", "dry s", [](const SessionMetrics& m) { return std::optional(m.dry_drilling_s); }},
+    Column{"max_force_N", "most N", [](const SessionMetrics& m) { return std::optional(m.max_force_N); }},
+};
+
+struct Spread {
+  double median = 0.0, low = 0.0, high = 0.0;
+};
+
+/// None: of fewer runs than kRunsForTrend.
+std::optional<Spread> spreadOf(const CaseTrend& one, const Column& column) {
+  std::vector<double> values;
+  for (const TrendRun& run : one.runs)
+    if (const auto value = column.of(run.metrics)) values.push_back(*value);
+  if (values.size() < kRunsForTrend) return {};
+  const auto [low, high] = std::ranges::minmax(values);
+  return Spread{*medianOf(values), low, high};
+}
+
+}  // namespace
+
+std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report) {
+  std::map<std::string, CaseTrend> by_title;
+  std::vector<SessionListing> listed = listSessions(folder);
+  std::ranges::reverse(listed);
+  for (const SessionListing& session : listed) {
+    const std::string file = std::filesystem::path(session.path).filename().string();
+    if (!session.isReadable()) {
+      report(file + ": " + session.remark + ", left out");
+      continue;
+    }
+    try {
+      CaseTrend& one = by_title[session.case_title];
+      one.title = session.case_title;
+      one.runs.push_back({file, session.unix_s, metricsOf(session.path)});
+    } catch (const SessionError& error) {
+      report(std::string(error.what()) + ", left out");
+    }
+  }
+  std::vector<CaseTrend> cases;
+  for (auto& [title, one] : by_title)
+    if (!one.runs.empty()) cases.push_back(std::move(one));
+  if (cases.empty())
+    throw SessionError(folder.string() + ": holds no session that can be measured, record one with molar rehearse");
+  return cases;
+}
+
+std::string trendText(const std::vector<CaseTrend>& cases) {
+  std::string words;
+  for (const CaseTrend& one : cases) {
+    words += (words.empty() ? "" : "\n") + one.title + "\n" + fmt::format("{:<18}", "");
+    for (const Column& column : kColumns) words += fmt::format("{:>10}", column.head);
+    words += "\n";
+    for (const TrendRun& run : one.runs) {
+      words += fmt::format("{:<18}", localDateTime(run.unix_s));
+      for (const Column& column : kColumns) {
+        const auto value = column.of(run.metrics);
+        words += value ? fmt::format("{:>10.2f}", *value + 0.0) : fmt::format("{:>10}", "-");
+      }
+      words += "\n";
+    }
+    if (one.runs.size() < kRunsForTrend) {
+      words += fmt::format("median and range from {} runs on\n", kRunsForTrend);
+      continue;
+    }
+    const auto line = [&](std::string_view name, double Spread::*part) {
+      words += fmt::format("{:<18}", name);
+      for (const Column& column : kColumns) {
+        const auto spread = spreadOf(one, column);
+        words += spread ? fmt::format("{:>10.2f}", (*spread).*part + 0.0) : fmt::format("{:>10}", "-");
+      }
+      words += "\n";
+    };
+    line("median", &Spread::median);
+    line("least", &Spread::low);
+    line("most", &Spread::high);
+  }
+  return words;
+}
+
+std::string trendJson(const std::vector<CaseTrend>& cases) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const CaseTrend& one : cases) {
+    nlohmann::ordered_json entry = {{"patient", one.title}, {"runs", nlohmann::ordered_json::array()}};
+    for (const TrendRun& run : one.runs) {
+      nlohmann::ordered_json values = {{"file", run.file}, {"unix_s", run.unix_s}};
+      for (const Column& column : kColumns) {
+        const auto value = column.of(run.metrics);
+        values[std::string(column.key)] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+      }
+      entry["runs"].push_back(std::move(values));
+    }
+    for (const Column& column : kColumns) {
+      const auto spread = spreadOf(one, column);
+      entry["spread"][std::string(column.key)] =
+          spread ? nlohmann::ordered_json{{"median", spread->median}, {"least", spread->low}, {"most", spread->high}}
+                 : nlohmann::ordered_json();
+    }
+    list.push_back(std::move(entry));
+  }
+  return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace app

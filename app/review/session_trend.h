@@ -1,0 +1,35 @@
+// The rehearsals of a folder over time, by case: a few measures of each, and from three runs of a case on their median
+// and range. No grade. For `molar trend`. Any thread; a second a session.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/session/metrics.h"
+#include "app/text/message.h"
+
+namespace app {
+
+struct TrendRun {
+  std::string file;  ///< without folder
+  std::int64_t unix_s = 0;
+  SessionMetrics metrics;
+};
+
+struct CaseTrend {
+  std::string title;           ///< of the case
+  std::vector<TrendRun> runs;  ///< oldest first
+};
+
+/// Runs below this have no median.
+inline constexpr std::size_t kRunsForTrend = 3;
+
+/// Complete or killed sessions; what cannot be read is told and left out. Throws SessionError where the folder holds
+/// none.
+std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report);
+
+std::string trendText(const std::vector<CaseTrend>& cases);
+std::string trendJson(const std::vector<CaseTrend>& cases);
+
+}  // namespace app

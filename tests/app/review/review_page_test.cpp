@@ -1,0 +1,89 @@
+#include "app/review/review_page.h"
+
+#include <gtest/gtest.h>
+
+#include "app/review/review_figures.h"
+
+namespace app {
+namespace {
+
+SessionReview someReview() {
+  SessionReview review;
+  review.metrics.patient_title = "built-in patient <right> & \"deep\"";
+  review.metrics.program_version = "0.1.0";
+  review.metrics.closed = true;
+  review.metrics.duration_s = 102.0;
+  review.metrics.removed_mm3_by_label = {{"cortical", 12.34}, {"unlabelled", 0.001}};
+  review.metrics.measures = {{"M2.path", "way of the bur's centre", "mm", 31.4, {}, {}},
+                             {"PI", "painting index", "", {}, "too few strokes in bone", {}},
+                             {"S10.dry", "time drilling in bone without irrigation", "s", 5.0, {}, {}}};
+  review.course.duration_s = 102.0;
+  review.course.most_force_N.assign(204, 0.5);
+  review.course.removed_mm3.assign(204, 1.0);
+  review.course.force_s[2] = 3.0;
+  review.course.tools = {{0.0, 102.0, "round 3.0 mm"}};
+  review.course.marks = {{12.0, "mandibular canal touched"}};
+  review.why_no_plan = "the patient's folder was not named";
+  render::Image image{4, 3, std::vector<std::uint8_t>(48, 200)};
+  review.pictures = {{"from above", image}, {"from the cheek", image}};
+  return review;
+}
+
+TEST(ReviewPage, IsOneFileWithoutScriptOrRequest) {
+  const std::string page = reviewHtml(someReview(), nullptr);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  for (std::size_t at = page.find("http"); at != std::string::npos; at = page.find("http", at + 1))
+    EXPECT_TRUE(page.compare(at, 19, "http://www.w3.org/1") == 0 || page.compare(at, 19, "http://www.w3.org/2") == 0)
+        << page.substr(at, 60) << " is more than the name of a language";
+  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_EQ(page.find("file:"), std::string::npos);
+}
+
+TEST(ReviewPage, WordsOfACaseAreEscaped) {
+  const std::string page = reviewHtml(someReview(), nullptr);
+  EXPECT_EQ(page.find("<right>"), std::string::npos);
+  EXPECT_NE(page.find("&lt;right&gt; &amp;"), std::string::npos);
+}
+
+TEST(ReviewPage, ErrorsAreYesNoOrNotKnown) {
+  SessionReview review = someReview();
+  EXPECT_NE(reviewHtml(review, nullptr).find("<b>Not known</b>: Lingual plate broken through"), std::string::npos);
+  EXPECT_NE(reviewHtml(review, nullptr).find("<b>Not known</b>: Second molar touched"), std::string::npos);
+  SocketRecord socket;
+  socket.lingual = {{2.5, glm::dvec3(0.0)}};
+  review.metrics.socket = socket;
+  review.metrics.touched = {{"lower right second molar", 2, 0.8}, {"lower right third molar", 5, 9.0}};
+  const std::string page = reviewHtml(review, nullptr);
+  EXPECT_NE(page.find("<b>Yes</b>: Lingual plate broken through<br><span class=\"quiet\">2.5 mm²"), std::string::npos);
+  EXPECT_NE(page.find("<b>Yes</b>: Second molar touched by the bur<br><span class=\"quiet\">the bur was on it 2 times"),
+            std::string::npos);
+  EXPECT_NE(page.find("<b>No</b>: Tooth left in the socket"), std::string::npos);
+  review.metrics.touched->erase(review.metrics.touched->begin());
+  EXPECT_NE(reviewHtml(review, nullptr).find("<b>No</b>: Second molar touched"), std::string::npos)
+      << "the third molar is not its neighbour";
+}
+
+TEST(ReviewPage, WhatIsNotKnownSaysWhy) {
+  const std::string page = reviewHtml(someReview(), nullptr);
+  EXPECT_NE(page.find("not told: too few strokes in bone"), std::string::npos);
+  EXPECT_NE(page.find("not told: the patient&#39;s folder was not named"), std::string::npos);
+}
+
+TEST(ReviewPage, AnotherRehearsalStandsBeside) {
+  SessionReview other = someReview();
+  other.metrics.measures[0].value = 77.7;
+  const std::string page = reviewHtml(someReview(), &other);
+  EXPECT_NE(page.find("<td>31.40 mm</td><td>77.70 mm</td>"), std::string::npos);
+}
+
+TEST(ReviewPage, ASessionOfOneTickIsDrawn) {
+  SessionReview review = someReview();
+  review.course = {};
+  review.pictures.clear();
+  EXPECT_NE(reviewHtml(review, nullptr).find("Timeline of the rehearsal"), std::string::npos);
+  EXPECT_EQ(forceFigure(review.course), "");
+  EXPECT_EQ(picturesFigure({}), "");
+}
+
+}  // namespace
+}  // namespace app
