@@ -15,6 +15,7 @@ namespace {
 
 /// Set by controls only, neither by file nor procedure.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
+  to.hands_off = from.hands_off;
   to.irrigating = from.irrigating;
   to.undo_serial = from.undo_serial;
   to.redo_serial = from.redo_serial;
@@ -228,6 +229,13 @@ void ActiveCommand::loosen(const haptics::ChipOrder& order) {
   command_.chips = order;
   command_.chips.serial = serial;
   workstation_->change(command_);
+}
+
+void ActiveCommand::takeHandsOff(bool off) {
+  if (command_.hands_off == off) return;
+  command_.hands_off = off;
+  workstation_->change(command_);
+  workstation_->note("ring", off ? "the ring of instruments is open: no force, nothing turns" : "the ring is closed");
 }
 
 void ActiveCommand::put(const haptics::Command& wanted) {

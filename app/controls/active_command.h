@@ -45,10 +45,14 @@ class ActiveCommand {
   void makeReady(const haptics::SiteOrder& order);
   /// Lets chips leave the volumes, alike.
   void loosen(const haptics::ChipOrder& order);
-  /// A procedure's command, unchecked and unreported; irrigation, undo, redo, split, bridge, site, chips and rearm stay
-  /// as they are.
+  /// A procedure's command, unchecked and unreported; irrigation, hands off, undo, redo, split, bridge, site, chips and
+  /// rearm stay as they are.
   void adopt(const haptics::Command& command);
 
+  /// The hand chooses and neither feels nor works: force fades to zero, nothing turns (haptics::Command::hands_off).
+  void takeHandsOff(bool off);
+  /// Which of the tray is in the hand.
+  std::size_t inHand() const { return in_hand_; }
   /// Tools to change between, in order.
   const std::vector<haptics::Tool>& tray() const { return tray_; }
 

@@ -36,7 +36,8 @@ enum class Control : std::uint8_t {
   slice_down,
   ruler,
   step,
-  way
+  way,
+  ring
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -62,7 +63,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 23> kControls = {{
+inline constexpr std::array<ControlMeaning, 24> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -86,6 +87,7 @@ inline constexpr std::array<ControlMeaning, 23> kControls = {{
     {Control::ruler, "ruler", "M", "ruler: first point, second point, away", ControlValue::none, false},
     {Control::step, "step", "N", "go on to the procedure's next step", ControlValue::none, false},
     {Control::way, "way", "W", "what keeps the tooth or piece in", ControlValue::none, false},
+    {Control::ring, "ring", "Shift+T", "ring of instruments; again takes", ControlValue::on_or_off, true},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

@@ -40,23 +40,24 @@ std::vector<std::string_view> cells(std::string_view row) {
 /// Positions of the optional columns.
 struct Columns {
   std::size_t count = kRequired;
-  std::optional<std::size_t> drill, tool, action;
+  std::optional<std::size_t> drill, tool, action, button;
 };
 
 Columns columnsOf(const std::string& path, std::string header) {
   if (header.starts_with("\xEF\xBB\xBF")) header.erase(0, 3);  // spreadsheets write a byte-order mark
   const std::vector<std::string_view> names = cells(header), required = cells(kHeader);
   const auto wrong = [&](const std::string& what) {
-    refuse(path, 1, what + ": the header is not " + std::string(kHeader) + "[,drill][,tool][,action]",
+    refuse(path, 1, what + ": the header is not " + std::string(kHeader) + "[,drill][,tool][,action][,button]",
            "add or correct it");
   };
   for (std::size_t i = 0; i < kRequired; ++i)
     if (i >= names.size() || names[i] != required[i]) wrong("column " + std::string(required[i]) + " is missing");
-  Columns columns{names.size(), {}, {}, {}};
+  Columns columns{names.size(), {}, {}, {}, {}};
   for (std::size_t i = kRequired; i < names.size(); ++i) {
     auto* const column = names[i] == "drill"    ? &columns.drill
                          : names[i] == "tool"   ? &columns.tool
                          : names[i] == "action" ? &columns.action
+                         : names[i] == "button" ? &columns.button
                                                 : nullptr;
     if (column == nullptr) wrong("there is no column \"" + std::string(names[i]) + "\"");
     if (column->has_value()) wrong("column " + std::string(names[i]) + " comes twice");
@@ -73,8 +74,13 @@ struct Row {
 
   double number(std::size_t column) const {
     if (const auto value = parseNumber<double>(cell[column])) return *value;
-    const std::string_view name = column < kRequired ? split(kHeader)[column] : "drill";
-    refuse(path, line, std::string(name) + " is not a finite number", "correct it");
+    refuse(path, line, std::string(split(kHeader)[column]) + " is not a finite number", "correct it");
+  }
+  bool isDown(std::size_t column, const std::string& name) const {
+    const auto value = parseNumber<double>(cell[column]);
+    if (!value) refuse(path, line, name + " is not a finite number", "correct it");
+    if (*value != 0.0 && *value != 1.0) refuse(path, line, name + " is not 0 or 1", "correct it");
+    return *value == 1.0;
   }
 };
 
@@ -90,11 +96,8 @@ TimedPose poseFrom(const Row& row, const Columns& columns) {
   pose.X_PT.rotation = glm::normalize(q);
   if (columns.tool) pose.tool = row.cell[*columns.tool];
   if (columns.action) pose.action = row.cell[*columns.action];
-  if (columns.drill) {
-    const double drill = row.number(*columns.drill);
-    if (drill != 0.0 && drill != 1.0) refuse(row.path, row.line, "drill is not 0 or 1", "correct it");
-    pose.drill = drill == 1.0;
-  }
+  if (columns.drill) pose.drill = row.isDown(*columns.drill, "drill");
+  if (columns.button) pose.button = row.isDown(*columns.button, "button");
   return pose;
 }
 
@@ -104,8 +107,8 @@ std::string lineOf(const std::string& path, const TimedPose& pose) { return loca
 
 void refuseControls(const std::vector<TimedPose>& poses, const std::string& path) {
   for (const TimedPose& pose : poses)
-    if (!pose.tool.empty() || !pose.action.empty())
-      refuse(path, pose.line, "it requests a tool or an action",
+    if (!pose.tool.empty() || !pose.action.empty() || pose.button)
+      refuse(path, pose.line, "it requests a tool or an action, or presses a button",
              "leave the column out; rehearse --device poses:FILE executes it");
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 /// After the last row's time, so that its tick happens too.
 constexpr double kLastTick_s = 1e-6;
+constexpr std::uint32_t kSecondButton = 2;
 
 void refuseUnlessARehearsal(const std::vector<TimedPose>& poses, const std::string& path) {
   if (poses.front().t_s < 0.0)
@@ -27,7 +28,8 @@ PoseSource openPoses(const std::string& path, const PoseSourceContext&) {
   std::vector<haptics::TimedHandlePose> handle_poses;
   for (const TimedPose& pose : poses) {
     // The device's frame is the patient's, handle and tool coincide.
-    handle_poses.push_back({pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill});
+    handle_poses.push_back(
+        {pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill, pose.button ? kSecondButton : 0u});
     if (!pose.tool.empty() || !pose.action.empty())
       source.requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
   }

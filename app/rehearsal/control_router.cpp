@@ -36,7 +36,54 @@ void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& fram
   readWindow(frame);
   executeScript(newest, frame);
   for (const ControlRequest& request : equipment_.takeRequests()) execute(request, frame);
+  followToolButton(newest, frame);
   executeKeys(frame, plan_.verbose);
+  ring_.moveTo(handOnScreen(frame));
+}
+
+/// A short press changes the tool, a long one opens the ring until it is let go.
+void ControlRouter::followToolButton(const haptics::Tick& newest, render::Frame& frame) {
+  const Workstation::ToolButton button = equipment_.toolButton();
+  const HeldPress::Seen seen = tool_press_.look(button.presses, button.held, newest.t_s);
+  for (std::uint32_t n = 0; n < seen.taps; ++n) execute({Control::tool}, frame);
+  if (seen.ended && ring_.isOpen()) execute({Control::ring, 0}, frame);
+  if (seen.began) execute({Control::ring, 1}, frame);
+}
+
+/// As the viewer sees it: of the pointer where a mouse moves the tool, else of the tool at the hand.
+glm::dvec2 ControlRouter::handOnScreen(const render::Frame& frame) {
+  if (equipment_.mouse() != nullptr && view_.window() != nullptr &&
+      view_.display().mode() == render::DisplayMode::mono) {
+    const glm::dvec2 window_px = glm::max(view_.window()->framebufferSize_px(), 1);
+    return pointer_px_ / window_px.y;
+  }
+  const glm::ivec2 seen_px = render::screenOrientation(frame.rig).viewerSize(frame.rig.screen.px);
+  return placeOnScreen(frame.rig, {frame.X_PT_at_hand.translation_mm}) / static_cast<double>(std::max(1, seen_px.y));
+}
+
+void ControlRouter::closeRing() {
+  ring_.cancel();
+  active_command_.takeHandsOff(false);
+}
+
+void ControlRouter::switchRing(bool open, const render::Frame& frame) {
+  if (open == ring_.isOpen()) return;
+  if (!open) {
+    ring_.moveTo(handOnScreen(frame));
+    const auto taken = ring_.take();
+    if (taken) active_command_.execute({Control::tool, static_cast<int>(*taken)});
+    return closeRing();
+  }
+  const std::size_t tools = active_command_.tray().size();
+  const haptics::Tick tick = equipment_.workstation().newestTick();
+  if (tick.dt_s == 0.0) return;  // no hand yet
+  if (equipment_.led() != nullptr) return head_up_.say("the shown hand chooses its instruments itself");
+  if (tools < 2) return head_up_.say("there is one tool only");
+  if (tools > kMostInRing) return head_up_.say("the tray holds too many tools for the ring: T changes them");
+  if (tick.gripped != 0) return head_up_.say("open the forceps first");
+  if (tick.lever.piece != 0) return head_up_.say("take the elevator off the tooth first");
+  ring_.open(tools, active_command_.inHand(), handOnScreen(frame));
+  active_command_.takeHandsOff(true);
 }
 
 /// A learner's left hand does not change physics.
@@ -64,6 +111,8 @@ void ControlRouter::readWindow(render::Frame& frame) {
     const double width_mm = glm::distance(screen.lower_left.mm, screen.lower_right.mm);
     const double mm_per_px = width_mm / std::max(1, window->framebufferSize_px().x);
     for (const render::WindowEvent& event : view_.display().takeEvents()) {
+      if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px_ = moved->to_px;
+      if (isTakenByRing(event, frame)) continue;
       if (isTakenByEndQuestion(event) || isTakenByPrediction(event) || isTakenByProcedure(event) ||
           scrollSlice(event, frame))
         continue;
@@ -97,7 +146,11 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (request.control == Control::stop) return stopMotors();
   if (head_up_.execute(request)) return;
   if (request.control == Control::end) return monitor_.endByUser();
-  if ((plan_.procedure && plan_.procedure->take(request)) || active_command_.execute(request, where)) return;
+  if (plan_.procedure && plan_.procedure->take(request)) return;
+  if (request.control == Control::tool && ring_.isOpen()) closeRing();
+  if (active_command_.execute(request, where)) return;
+  if (request.control == Control::ring)
+    switchRing(request.value == kNoValue ? !ring_.isOpen() : request.value != 0, frame);
   frame.layers = layersAfter(frame.layers, request);
   changeView(request, frame);
   if (request.control == Control::slice_up || request.control == Control::slice_down)
@@ -115,7 +168,6 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
 
 /// The wheel over a CT slice; in mono, where the pointer is on the picture that both eyes see.
 bool ControlRouter::scrollSlice(const render::WindowEvent& event, render::Frame& frame) {
-  if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px_ = moved->to_px;
   const auto* const wheel = std::get_if<render::WheelTurned>(&event);
   if (wheel == nullptr || view_.display().mode() != render::DisplayMode::mono) return false;
   const glm::dvec2 window_px = glm::max(view_.window()->framebufferSize_px(), 1);
@@ -152,7 +204,10 @@ bool ControlRouter::isTakenByEndQuestion(const render::WindowEvent& event) {
   const auto* key = std::get_if<render::KeyPressed>(&event);
   if (!key) return false;
   // What is open is closed first.
-  if (key->key == render::Key::escape && key->down && !end_question_.isOpen() && head_up_.closeKeys()) return true;
+  if (key->key == render::Key::escape && key->down && !end_question_.isOpen()) {
+    if (head_up_.closeKeys()) return true;
+    if (ring_.isOpen()) return closeRing(), true;
+  }
   if (plan_.procedure) return false;
   const EndQuestion::Answer answer = end_question_.take(*key);
   if (answer == EndQuestion::Answer::end) monitor_.endByUser();
@@ -206,6 +261,15 @@ void ControlRouter::markRuler(render::Frame& frame) {
     head_up_.say("first point marked: go to the second and press M again");
   else
     head_up_.say(rulerText(frame.ruler));
+}
+
+/// A click takes what the pointer has chosen, and moves nothing.
+bool ControlRouter::isTakenByRing(const render::WindowEvent& event, const render::Frame& frame) {
+  const auto* const pressed = std::get_if<render::ButtonPressed>(&event);
+  if (!ring_.isOpen() || pressed == nullptr || !pressed->down || pressed->button != render::MouseButton::left)
+    return false;
+  switchRing(false, frame);
+  return true;
 }
 
 bool ControlRouter::isTakenByProcedure(const render::WindowEvent& event) const {

@@ -12,7 +12,9 @@
 #include "app/controls/control_script.h"
 #include "app/controls/end_question.h"
 #include "app/controls/hand_input.h"
+#include "app/controls/held_press.h"
 #include "app/controls/prediction_question.h"
+#include "app/controls/tool_ring.h"
 #include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/event_log.h"
@@ -41,6 +43,8 @@ class ControlRouter {
   int takeSteps() { return std::exchange(steps_, 0); }
   /// Whether it was asked since the last call what keeps the tooth in.
   bool takeWay() { return std::exchange(asks_way_, false); }
+  /// The instruments to choose from, while they are shown.
+  const ToolRing& ring() const { return ring_; }
   /// Of the tool of a mouse, W.
   const glm::dvec3& handPosition_W_mm() const { return input_.X_WT().translation_mm; }
   /// Of a mouse, before it is started: the hand is there at once, and touches nothing on a way there.
@@ -64,7 +68,12 @@ class ControlRouter {
   void stopMotors();
   void takeSnapshot(const render::Frame& frame);
   void markRuler(render::Frame& frame);
+  void followToolButton(const haptics::Tick& newest, render::Frame& frame);
+  void switchRing(bool open, const render::Frame& frame);
+  void closeRing();
+  glm::dvec2 handOnScreen(const render::Frame& frame);
   bool isTakenByProcedure(const render::WindowEvent& event) const;
+  bool isTakenByRing(const render::WindowEvent& event, const render::Frame& frame);
 
   const RehearsalPlan& plan_;
   Equipment& equipment_;
@@ -78,6 +87,8 @@ class ControlRouter {
   PredictionQuestion prediction_;
   int steps_ = 0;
   bool asks_way_ = false;
+  ToolRing ring_;
+  HeldPress tool_press_;
   DeskView desk_view_;
   glm::dvec2 pointer_px_{0.0};
   ControlScript script_;

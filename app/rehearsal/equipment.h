@@ -39,8 +39,9 @@ class Equipment {
   Workstation& workstation() { return *workstation_; }
   void start();
 
-  /// From buttons and pedal, since the last call.
+  /// From buttons and pedal, since the last call; without the handle's change of tool.
   std::vector<ControlRequest> takeRequests();
+  Workstation::ToolButton toolButton() const { return workstation_->toolButton(); }
   StationHealth health();
 
  private:

@@ -52,7 +52,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
   content.drive = command.tool.luxates()            ? luxationText(tick, command.tool, values.pieces_ready)
                   : command.tool.isHandInstrument() ? meetsText(tick)
-                                                    : driveText(rpm, command.drill_enabled);
+                                                    : driveText(rpm, command.drill_enabled && !command.hands_off);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
   content.force_N = glm::length(tick.commanded_force_P_N.xyz);
@@ -68,6 +68,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.ruler = values.ruler;
   content.site = values.socket;
   content.way = values.way;
+  content.ring = values.ring;
   if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);
 
   if (!said_.line.empty() && !said_.until) {

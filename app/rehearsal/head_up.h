@@ -41,6 +41,7 @@ class HeadUp {
     bool pieces_ready = false;  ///< for forceps and elevators
     std::string socket;         ///< SocketFollower::line()
     std::string way;            ///< WayFollower::line()
+    HeadUpRing ring;
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -9,6 +9,7 @@
 #include "app/case/enamel_exposure.h"
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
+#include "app/options/bur_name.h"
 #include "app/procedure/jaw_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
@@ -324,7 +325,19 @@ class Rehearsal {
             rulerText(frame_.ruler),
             sites_->isReady(),
             socket_->line(),
-            ways_->line()};
+            ways_->line(),
+            ringShown()};
+  }
+
+  HeadUpRing ringShown() const {
+    const ToolRing& ring = router_.ring();
+    HeadUpRing shown;
+    if (!ring.isOpen()) return shown;
+    for (const haptics::Tool& tool : active_command_.tray()) shown.names.push_back(toolName(tool));
+    shown.in_hand = ring.inHand();
+    shown.chosen = ring.chosen();
+    shown.middle = ring.middle();
+    return shown;
   }
 
   std::string task() const {

@@ -31,7 +31,7 @@ std::optional<Ending> RunMonitor::ending(const haptics::Tick& newest, Time now, 
   return now - *ticked_at_ >= kLongestSilence ? std::optional(Ending::silent) : std::nullopt;
 }
 
-std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const haptics::Tick& newest) {
+std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const haptics::Tick& newest, bool hands_off) {
   std::vector<Notice> notices;
   for (const std::string& line : health.news) notices.push_back({"device", line});
   if (health.recording_trouble && !std::exchange(recording_ended_, true))
@@ -40,7 +40,10 @@ std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const h
     notices.push_back({"device", health.device_trouble});
   if (newest.dt_s <= 0.0) return notices;  // not a tick yet
   trips_ = health.trips;
-  for (const std::string& line : trip_reporter_.update(trips_, newest.state)) notices.push_back({"safety", line});
+  // That there is no force while the ring is open is no news.
+  const bool as_asked = hands_off && newest.state == haptics::SafetyState::ready;
+  const haptics::SafetyState state = as_asked ? haptics::SafetyState::active : newest.state;
+  for (const std::string& line : trip_reporter_.update(trips_, state)) notices.push_back({"safety", line});
   return notices;
 }
 

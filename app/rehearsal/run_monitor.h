@@ -41,8 +41,8 @@ class RunMonitor {
   std::optional<Ending> ending(const haptics::Tick& newest, Time now, bool interrupted, bool procedure_is_over,
                                bool awaits_tick = false);
 
-  /// News to report.
-  std::vector<Notice> takeNotices(const StationHealth& health, const haptics::Tick& newest);
+  /// News to report. `hands_off`: the command asks for no force.
+  std::vector<Notice> takeNotices(const StationHealth& health, const haptics::Tick& newest, bool hands_off = false);
 
   /// Early.
   bool recordingEnded() const { return recording_ended_; }

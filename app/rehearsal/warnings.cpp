@@ -41,7 +41,8 @@ Words forceIsOff(const Situation& s) {
 }
 
 Words noForceYet(const Situation& s) {
-  if (!s.has_motors || s.tick.state == SafetyState::active || isOffForGood(s.tick.state)) return {};
+  if (!s.has_motors || s.command.hands_off || s.tick.state == SafetyState::active || isOffForGood(s.tick.state))
+    return {};
   const haptics::StateText& text = haptics::textOf(s.tick.state);
   return sentence(text.what, text.next);
 }

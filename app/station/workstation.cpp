@@ -111,7 +111,8 @@ std::vector<haptics::HandAction> Workstation::takeActions() {
   std::vector<haptics::HandAction> asked;
   for (std::size_t i = 0; i < haptics::kHandActions; ++i) {
     const auto action = static_cast<haptics::HandAction>(i);
-    const std::uint32_t presses = loop_.presses(action) + (pedal_ != nullptr ? pedal_->presses(action) : 0);
+    const std::uint32_t by_handle = action == haptics::HandAction::tool_change ? 0 : loop_.presses(action);
+    const std::uint32_t presses = by_handle + (pedal_ != nullptr ? pedal_->presses(action) : 0);
     if (action != haptics::HandAction::drill) asked.insert(asked.end(), presses - actions_taken_[i], action);
     actions_taken_[i] = presses;
   }

@@ -62,8 +62,18 @@ class Workstation {
   /// A line, if recording has ended early or could not begin.
   std::optional<std::string> recordingTrouble() const;
 
-  /// Requests of handle buttons and pedal since the last call, except drilling; in no order.
+  /// Requests of handle buttons and pedal since the last call, except drilling and the handle's change of tool; in no
+  /// order.
   std::vector<haptics::HandAction> takeActions();
+  /// The handle's button that changes the tool: presses so far, and whether it is down.
+  struct ToolButton {
+    std::uint32_t presses = 0;
+    bool held = false;
+  };
+  ToolButton toolButton() const {
+    constexpr auto kTool = haptics::HandAction::tool_change;
+    return {loop_.presses(kTool), loop_.held().has(kTool)};
+  }
 
   /// HapticDevice::trouble().
   std::string deviceTrouble() const { return device_->trouble(); }

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "app/text/clock_text.h"
+#include "app/view/tool_ring_panel.h"
 #include "render/display/eye_projection.h"
 #include "render/frame_renderer.h"
 
@@ -96,12 +97,15 @@ HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, c
   if (frame.layers.slices) place.reserved_left_px = static_cast<int>(kSlicesColumn * place.screen_px.y);
   const glm::ivec2 eye_px = render::eyeImageSize(mode, rig.screen.px);
   if (eye_px != rig.screen.px || render::isInterleaved(mode)) place.magnification = kFewerLines;
-  const render::EyeView view = render::eyeView(rig, render::Eye::cyclopean);
-  const glm::dvec4 clip = view.clip_from_W * glm::dvec4((rig.X_WP * frame.site_P).mm, 1.0);
-  const glm::ivec2 site(glm::dvec2(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w) *
-                        glm::dvec2(rig.screen.px));
-  place.at_top = orientation.seenBox({site, {0, 0}}, rig.screen.px).corner_px.y > kLowSite * place.screen_px.y;
+  place.at_top = placeOnScreen(rig, frame.site_P).y > kLowSite * place.screen_px.y;
   return place;
+}
+
+glm::dvec2 placeOnScreen(const calibration::Rig& rig, const calibration::Point<calibration::Patient>& p_P) {
+  const render::EyeView view = render::eyeView(rig, render::Eye::cyclopean);
+  const glm::dvec4 clip = view.clip_from_W * glm::dvec4((rig.X_WP * p_P).mm, 1.0);
+  const glm::ivec2 at(glm::dvec2(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w) * glm::dvec2(rig.screen.px));
+  return render::screenOrientation(rig).seenBox({at, {0, 0}}, rig.screen.px).corner_px;
 }
 
 double headUpTextHeight_px(const HeadUpPlace& place) { return lineShape(place, false).text_px; }
@@ -220,6 +224,10 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
                      true);
            }
          }});
+  }
+  if (!c.ring.names.empty()) {
+    const ToolRingPanel ring = toolRingPanel(c.ring, place, text);
+    cells.push_back({ring.content, ring.corner_px, ring.size_px, ring.draw});
   }
   return cells;
 }

@@ -24,6 +24,14 @@ struct HeadUpWarning {
   bool operator==(const HeadUpWarning&) const = default;
 };
 
+/// The instruments of the tray around a place (app/controls/tool_ring).
+struct HeadUpRing {
+  std::vector<std::string> names;  ///< empty: closed
+  std::size_t in_hand = 0;
+  std::optional<std::size_t> chosen;  ///< none: in the middle
+  glm::dvec2 middle{0.0};             ///< viewer's, in shares of the screen's height
+};
+
 struct HeadUpContent {
   bool line_shown = true;
   std::string bur;                          ///< "round 3.0 mm, ISO 030"
@@ -36,10 +44,11 @@ struct HeadUpContent {
   std::optional<double> gap_mm;             ///< of the bur to bone or tooth; none: too far to show
   std::string ruler;                        ///< "ruler 7.3 mm"; empty: none
   double time_s = 0.0;
-  std::string said;                                       ///< just now; empty: nothing
-  std::string task;                                       ///< of an experiment; empty: none
-  std::string site;                                       ///< state of the socket; empty: none
-  std::string way;                                        ///< what keeps the tooth in; empty: not known
+  std::string said;  ///< just now; empty: nothing
+  std::string task;  ///< of an experiment; empty: none
+  std::string site;  ///< state of the socket; empty: none
+  std::string way;   ///< what keeps the tooth in; empty: not known
+  HeadUpRing ring;
   std::vector<HeadUpWarning> warnings;                    ///< the most important first; two are shown
   std::vector<std::pair<std::string, std::string>> keys;  ///< key and meaning; empty: no sheet
 };
@@ -55,6 +64,9 @@ struct HeadUpPlace {
 
 /// For frames of this rig in a display mode.
 HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, const render::Frame& frame);
+
+/// Of a point of the patient on the screen that the viewer sees, px from its top left.
+glm::dvec2 placeOnScreen(const calibration::Rig& rig, const calibration::Point<calibration::Patient>& p_P);
 
 class HeadUpLine {
  public:

@@ -28,6 +28,9 @@ enum class Fault : std::uint32_t {
 constexpr Fault operator|(Fault a, Fault b) {
   return static_cast<Fault>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
+constexpr Fault without(Fault of, Fault one) {
+  return static_cast<Fault>(static_cast<std::uint32_t>(of) & ~static_cast<std::uint32_t>(one));
+}
 constexpr bool has(Fault set, Fault one) {
   return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(one)) != 0;
 }

@@ -95,6 +95,7 @@ HandSample HapticLoop::handFrom(const HandleState& measured, const TickTiming& t
 bool HapticLoop::drills(const HandleState& state) noexcept {
   const HandActions pressed = settings_.buttons.actionsOf(state.buttons);
   const HandActions begun = press_count_.look(pressed);
+  held_.store(pressed.bits, std::memory_order_relaxed);
   for (std::size_t i = 0; i < kHandActions; ++i)
     if (begun.has(static_cast<HandAction>(i))) presses_[i].fetch_add(1, std::memory_order_relaxed);
   return state.pedal || pressed.has(HandAction::drill) ||

@@ -48,6 +48,9 @@ class HapticLoop final : public DeviceLoop {
     return presses_[static_cast<std::size_t>(action)].load(std::memory_order_relaxed);
   }
 
+  /// The actions of the handle's buttons that are held down now. Any thread.
+  HandActions held() const noexcept { return {held_.load(std::memory_order_relaxed)}; }
+
  private:
   Answer answer(const HandleState& state, const TickTiming& timing) noexcept override;
   void answered(double work_us) noexcept override;
@@ -72,6 +75,7 @@ class HapticLoop final : public DeviceLoop {
 
   Latest<TripCounter> trips_;
   std::array<std::atomic<std::uint32_t>, kHandActions> presses_{};
+  std::atomic<std::uint8_t> held_{0};
 };
 
 }  // namespace haptics

@@ -29,14 +29,17 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.hand = hand;
 
   // The hand, or its last valid pose.
-  const SafetyLayer::Admitted admitted = safety_.admit(hand, command.safety, command.rearm, tick.dt_s);
+  HandSample sensed = hand;
+  sensed.held = hand.held && !command.hands_off;
+  const SafetyLayer::Admitted admitted = safety_.admit(sensed, command.safety, command.rearm, tick.dt_s);
   const HandSample& valid = admitted.hand;
   // Without force the proxy follows the hand.
   if (admitted.relocated || (command.safety.must_be_armed && admitted.state != SafetyState::active)) {
     proxy_.release();
     soft_hold_.release();
   }
-  tick.faults = admitted.faults;
+  // What was asked for is no trouble.
+  tick.faults = command.hands_off ? without(admitted.faults, Fault::let_go) : admitted.faults;
   tick.state = admitted.state;
 
   // Undo before the bone is evaluated.
@@ -55,11 +58,13 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   const bool embedded = undo_.isToolEmbedded(), was_undone = embedded || undo_.hasChanged();
 
   // The pedal turns the bur. In an invalid state the pedal counts as proxy.
-  // A pedal that was down when bur, forceps, elevator or hand instrument changed, or at an undo, must be released.
+  // A pedal that was down when bur, forceps, elevator or hand instrument changed, or at an undo, or with the hands off,
+  // must be released.
   const Tool before = std::exchange(tool_before_, command.tool);
   const bool changed = before.grips != command.tool.grips || before.isElevator() != command.tool.isElevator() ||
                        before.isHandInstrument() != command.tool.isHandInstrument();
-  pedal_spent_ = valid.drill_pedal && (pedal_spent_ || changed || (was_undone && command.tool.luxates()));
+  pedal_spent_ =
+      valid.drill_pedal && (pedal_spent_ || changed || command.hands_off || (was_undone && command.tool.luxates()));
   const bool pedal = valid.drill_pedal && !pedal_spent_;
   const bool foot = pedal && command.drill_enabled && command.tool.turns();
   tick.drill_inhibit = undo_.inhibitFor((valid.drill_pedal && command.drill_enabled) || !admitted.mayDrill());

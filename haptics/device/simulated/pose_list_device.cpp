@@ -31,6 +31,7 @@ HandleState PoseListDevice::stateAt(double t_s) noexcept {
   state.X_DH = {glm::slerp(from.X_DH.rotation, to.X_DH.rotation, part),
                 glm::mix(from.X_DH.translation_mm, to.X_DH.translation_mm, part)};
   state.pedal = from.pedal;
+  state.buttons = from.buttons;
   return state;
 }
 

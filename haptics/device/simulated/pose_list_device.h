@@ -12,7 +12,8 @@ namespace haptics {
 struct TimedHandlePose {
   double t_s = 0.0;
   calibration::Pose<calibration::Device, calibration::Handle> X_DH;
-  bool pedal = false;  ///< until the next pose
+  bool pedal = false;         ///< until the next pose
+  std::uint32_t buttons = 0;  ///< alike
 };
 
 class PoseListDevice final : public SimulatedDevice {

@@ -136,6 +136,66 @@ TEST_F(RehearseCommand, FollowsPosesAndRequestsAtTheirTicks) {
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
 }
 
+/// Far from the tissue, with four instruments; the wanted one lies to the left on the screen of the built-in patient.
+constexpr char kTray[] = "--tool sphere:1.5 --tool sphere:1 --tool forceps --tool elevator:301 ";
+
+TEST_F(RehearseCommand, TheStylusAloneTakesAnInstrumentFromTheRing) {
+  // Held, moved, let go; then a short press, which changes to the next; then held and let go in the middle.
+  std::string rows = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,button\n";
+  rows += "0,-28,49,60,1,0,0,0,0,0\n0.2,-28,49,60,1,0,0,0,0,1\n0.7,-28,49,60,1,0,0,0,1,1\n";
+  rows += "0.9,-48,49,60,1,0,0,0,1,1\n1,-48,49,60,1,0,0,0,1,0\n1.5,-48,49,60,1,0,0,0,0,0\n";
+  rows += "2,-48,49,60,1,0,0,0,0,1\n2.1,-48,49,60,1,0,0,0,0,0\n";
+  rows += "3,-48,49,60,1,0,0,0,0,1\n3.6,-48,49,60,1,0,0,0,0,0\n4,-48,49,60,1,0,0,0,0,0\n";
+  write("p.csv", rows);
+  const ProgramOutput said = molar(kQuick + (kTray + ("--device poses:" + at("p.csv") + " --record " + at("s.molar"))));
+  ASSERT_EQ(said.status, 0) << said.err;
+  std::vector<std::pair<std::uint64_t, haptics::Command>> changes;
+  for (const SessionCommand& one : SessionReader(at("s.molar")).commands())
+    changes.emplace_back(one.first_tick, one.command);
+  const auto inForce = [&](std::uint64_t tick) {
+    haptics::Command command;
+    for (const auto& [first, one] : changes)
+      if (first <= tick) command = one;
+    return command;
+  };
+  EXPECT_FALSE(inForce(450).hands_off) << "it may be a short press";
+  EXPECT_TRUE(inForce(600).hands_off);
+  EXPECT_FALSE(inForce(600).tool.isElevator());
+  EXPECT_TRUE(inForce(990).hands_off);
+  EXPECT_FALSE(inForce(1100).hands_off);
+  EXPECT_TRUE(inForce(1100).tool.isElevator()) << "to the left is the fourth of four";
+  EXPECT_TRUE(inForce(2050).tool.isElevator());
+  EXPECT_EQ(inForce(2200).tool.head.radius_mm, 1.5) << "a short press: the next of the tray";
+  EXPECT_TRUE(inForce(3500).hands_off);
+  EXPECT_FALSE(inForce(3900).hands_off);
+  EXPECT_EQ(inForce(3900).tool.head.radius_mm, 1.5) << "let go in the middle";
+  for (const haptics::Tick& tick : ticksOf(at("s.molar"))) EXPECT_FALSE(tick.drilling) << tick.t_s;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+}
+
+TEST_F(RehearseCommand, AScriptOpensAndClosesTheRing) {
+  std::string rows = kPoseHeader;
+  rows +=
+      "0,-28,49,60,1,0,0,0,0,,\n0.1,-28,49,60,1,0,0,0,0,,ring:on\n0.4,-8,49,60,1,0,0,0,0,,ring:off\n0.5,-8,49,60,1,0,0,"
+      "0,0,,ring\n";
+  rows += "0.8,-8,49,60,1,0,0,0,0,,tool:3\n1,-8,49,60,1,0,0,0,0,,\n";
+  write("p.csv", rows);
+  const ProgramOutput said = molar(kQuick + (kTray + ("--device poses:" + at("p.csv") + " --record " + at("s.molar"))));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::vector<SessionCommand> commands = SessionReader(at("s.molar")).commands();
+  std::vector<std::tuple<std::uint64_t, bool, double>> seen;
+  for (const SessionCommand& one : commands)
+    seen.emplace_back(one.first_tick, one.command.hands_off, one.command.tool.head.radius_mm);
+  EXPECT_FALSE(commands.back().command.hands_off) << "another change of tool closes it";
+  EXPECT_TRUE(commands.back().command.tool.grips);
+  const auto taken = std::ranges::find_if(commands, [](const SessionCommand& one) { return one.first_tick == 400; });
+  ASSERT_NE(taken, commands.end());
+  EXPECT_EQ(commands[static_cast<std::size_t>(taken - commands.begin())].command.tool.head.radius_mm, 1.0)
+      << "to the right is the second";
+  const ProgramOutput one_tool = molar(kQuick + ("--tool sphere:1 --device poses:" + at("p.csv")));
+  EXPECT_NE(one_tool.status, 0) << "tool 3 is not on that tray";
+}
+
 TEST_F(RehearseCommand, NamesTheRowOfAnInvalidRequest) {
   const auto refused = [&](const std::string& row, const std::string& word) {
     write("p.csv", std::string(kPoseHeader) + "0,0,0,9,1,0,0,0,0,,\n" + row + "\n");

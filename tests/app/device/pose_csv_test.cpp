@@ -76,6 +76,15 @@ TEST_F(PoseCsv, ReadsRequestsAsWritten) {
   EXPECT_TRUE(without_pedal[0].drill);
 }
 
+TEST_F(PoseCsv, ReadsTheSecondButton) {
+  const std::string h = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,button\n";
+  const auto poses = readPoses(write(h + "0,1,2,3,1,0,0,0,0\n1,1,2,3,1,0,0,0,1\n"));
+  EXPECT_FALSE(poses[0].button);
+  EXPECT_TRUE(poses[1].button);
+  EXPECT_THROW(refuseControls(poses, "a.csv"), UsageError);
+  EXPECT_NE(refusal(h + "0,1,2,3,1,0,0,0,2\n").find("button is not 0 or 1"), std::string::npos);
+}
+
 TEST_F(PoseCsv, RefusesColumnsItDoesNotKnowOrHasTwice) {
   const std::string h = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz";
   EXPECT_NE(refusal(h + ",colour\n0,0,0,0,1,0,0,0,red\n").find("line 1: there is no column \"colour\""),

@@ -39,6 +39,59 @@ bool overlap(const render::OverlayPanel& a, const render::OverlayPanel& b) {
          a.corner_px.y < b.corner_px.y + b.image.h && b.corner_px.y < a.corner_px.y + a.image.h;
 }
 
+HeadUpRing ringOf(std::size_t tools, const glm::dvec2& middle) {
+  const std::vector<std::string> names = {"round 3.0 mm, ISO 030",
+                                          "round-end fissure 2.1 mm, ISO 021",
+                                          "elevator 301",
+                                          "extraction forceps",
+                                          "curette",
+                                          "bone file",
+                                          "suction tip",
+                                          "scalpel 15",
+                                          "periosteal elevator"};
+  return {{names.begin(), names.begin() + static_cast<std::ptrdiff_t>(tools)}, 0, tools - 1, middle};
+}
+
+// On every screen, wherever the hand is: inside the picture, with letters no smaller than half of the others.
+TEST(HeadUpLine, TheRingOfInstrumentsIsInThePicture) {
+  for (const glm::ivec2 px : {glm::ivec2(1280, 800), glm::ivec2(640, 400), glm::ivec2(800, 1280)})
+    for (const std::size_t tools : {1u, 2u, 9u})
+      for (const glm::dvec2& middle :
+           {glm::dvec2(0.8, 0.5), glm::dvec2(0.0, 0.0), glm::dvec2(1.6, 1.0), glm::dvec2(9.0, -4.0)}) {
+        HeadUpContent content;
+        content.line_shown = false;
+        content.ring = ringOf(tools, middle);
+        HeadUpLine line;
+        const render::Frame frame = frameOf(px);
+        ASSERT_TRUE(line.update(content, headUpPlace(frame.rig, render::DisplayMode::mono, frame)));
+        ASSERT_EQ(line.panels().size(), 1u);
+        const render::OverlayPanel& panel = line.panels()[0];
+        EXPECT_GE(panel.corner_px.x, 0);
+        EXPECT_GE(panel.corner_px.y, 0);
+        EXPECT_LE(panel.corner_px.x + panel.image.w, px.x);
+        EXPECT_LE(panel.corner_px.y + panel.image.h, px.y);
+        if (middle == glm::dvec2(0.8, 0.5) && px == glm::ivec2(1280, 800)) {
+          EXPECT_GT(panel.image.h, static_cast<int>(0.3 * px.y)) << tools;
+        }
+      }
+}
+
+TEST(HeadUpLine, TheRingIsDrawnAgainOnlyWhenAnotherInstrumentIsChosen) {
+  HeadUpContent content;
+  content.line_shown = false;
+  content.ring = ringOf(9, {0.8, 0.5});
+  HeadUpLine line;
+  const render::Frame frame = frameOf({1280, 800});
+  const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
+  ASSERT_TRUE(line.update(content, place));
+  EXPECT_FALSE(line.update(content, place));
+  content.ring.chosen = 3;
+  EXPECT_TRUE(line.update(content, place));
+  content.ring = {};
+  line.update(content, place);
+  EXPECT_TRUE(line.panels().empty());
+}
+
 // For every screen and every position of the site: inside the picture, apart from each other, away from the site.
 TEST(HeadUpLine, IsInThePictureAndNeverOverTheSite) {
   for (const glm::ivec2 px :
