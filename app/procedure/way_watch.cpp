@@ -28,6 +28,7 @@ std::size_t outOfMouth(const haptics::Tick& tick) {
 WayWatch::WayWatch(const assets::Patient& patient, const haptics::Bodies& bodies)
     : bodies_(bodies),
       search_(patient, bodies),
+      is_changed_(assets::VolumeGrid{bodies.grid().bricks(), 1.0, {}}.voxelCount(), 0),
       jaw_(bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size)),
       thread_([this] { run(); }) {}
 
@@ -63,6 +64,7 @@ void WayWatch::begin(const haptics::Tick& newest) {
   Question question{newest.bone_digest, std::exchange(wants_now_, false), newest.pieces, copyOfPieces(bodies_, newest)};
   std::vector<Brick> bricks;
   for (const glm::ivec3& at : std::exchange(changed_, {})) {
+    is_changed_[assets::indexIn(bodies_.grid().bricks(), at)] = 0;
     bricks.push_back({at, {}});
     bodies_.jaw().copyBrick(at, bricks.back().solid);
   }
@@ -114,7 +116,8 @@ void WayWatch::forget() {
 }
 
 void WayWatch::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, bool alone, bool waits) {
-  changed_.insert(changed_.end(), bricks.begin(), bricks.end());
+  for (const glm::ivec3& brick : bricks)
+    if (std::exchange(is_changed_[assets::indexIn(bodies_.grid().bricks(), brick)], 1) == 0) changed_.push_back(brick);
   leaveOutCut(bricks);
   if (newest.dt_s == 0.0) return;
   if (std::exchange(last_digest_, newest.bone_digest) != newest.bone_digest) changed_s_ = newest.t_s;

@@ -70,7 +70,8 @@ class WayWatch {
 
   const haptics::Bodies& bodies_;
   WaySearch search_;
-  std::vector<glm::ivec3> changed_;       ///< since the last question
+  std::vector<glm::ivec3> changed_;       ///< since the last question, each once
+  std::vector<char> is_changed_;          ///< by brick
   std::optional<std::uint64_t> looking_;  ///< for bodies of this digest
   std::uint64_t last_digest_ = 0, answered_ = 0;
   double changed_s_ = 0.0;
