@@ -1,15 +1,11 @@
 #include "app/calibrate/sounds.h"
 
-#include <fcntl.h>
-#include <portaudio.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
+#include "app/sound/sound_card.h"
 #include "calibration/geometry/units.h"
 
 namespace app {
@@ -28,29 +24,6 @@ constexpr std::array<std::array<Note, 4>, 4> kNotes{{{{{880.0, 0.09}}},
                                                      {{{150.0, 0.28, true}}},
                                                      {{{587.0, 0.06}, {784.0, 0.07}}},
                                                      {{{523.0, 0.12}, {659.0, 0.12}, {784.0, 0.12}, {1047.0, 0.25}}}}};
-
-/// Suppresses stderr: sound libraries report every card they do not find.
-class SilentStderr {
- public:
-  SilentStderr() {
-    std::fflush(stderr);
-    kept_ = dup(STDERR_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
-  }
-  ~SilentStderr() {
-    if (kept_ < 0) return;
-    std::fflush(stderr);
-    dup2(kept_, STDERR_FILENO);
-    close(kept_);
-  }
-  SilentStderr(const SilentStderr&) = delete;
-  SilentStderr& operator=(const SilentStderr&) = delete;
-
- private:
-  int kept_ = -1;
-};
 
 }  // namespace
 
@@ -73,42 +46,14 @@ std::vector<float> soundSamples(WizardSound sound, double rate_Hz) {
 struct Sounds::Player {
   static constexpr std::size_t kWaiting = 8;
 
-  explicit Player(const std::function<void(const std::string&)>& report) {
-    const SilentStderr silent;
-    PaError error = Pa_Initialize();
-    is_initialised = error == paNoError;
-    if (is_initialised && Pa_GetDefaultOutputDevice() == paNoDevice) error = paDeviceUnavailable;
-    if (error == paNoError) {
-      const PaDeviceInfo* card = Pa_GetDeviceInfo(Pa_GetDefaultOutputDevice());
-      const double rate_Hz = card != nullptr && card->defaultSampleRate > 0.0 ? card->defaultSampleRate : 48'000.0;
-      for (std::size_t t = 0; t < samples_of.size(); ++t)
-        samples_of[t] = soundSamples(static_cast<WizardSound>(t), rate_Hz);
-      error = Pa_OpenDefaultStream(&stream, 0, 1, paFloat32, rate_Hz, paFramesPerBufferUnspecified, fillBuffer, this);
-    }
-    if (error == paNoError) error = Pa_StartStream(stream);
-    if (error == paNoError) return;
-    end();
-    report("sound: " + std::string(error == paDeviceUnavailable ? "no sound card" : Pa_GetErrorText(error)) +
-           "; the wizard is silent, watch the ring");
-  }
-  ~Player() {
-    const SilentStderr silent;
-    end();
-  }
-  Player(const Player&) = delete;
-  Player& operator=(const Player&) = delete;
+  explicit Player(const std::function<void(const std::string&)>& report)
+      : card([this](double rate_Hz) { return prepare(rate_Hz); },
+             [&](const std::string& why) { report("sound: " + why + "; the wizard is silent, watch the ring"); }) {}
 
-  void end() {
-    if (stream != nullptr) Pa_CloseStream(stream);
-    stream = nullptr;
-    if (is_initialised) Pa_Terminate();
-    is_initialised = false;
-  }
-
-  static int fillBuffer(const void*, void* output, unsigned long frames, const PaStreamCallbackTimeInfo*,
-                        PaStreamCallbackFlags, void* self) {
-    static_cast<Player*>(self)->fill(std::span(static_cast<float*>(output), frames));
-    return paContinue;
+  SoundCard::Fill prepare(double rate_Hz) {
+    for (std::size_t t = 0; t < samples_of.size(); ++t)
+      samples_of[t] = soundSamples(static_cast<WizardSound>(t), rate_Hz);
+    return [this](std::span<float> output) { fill(output); };
   }
 
   void fill(std::span<float> output) {
@@ -127,17 +72,16 @@ struct Sounds::Player {
   }
 
   std::array<std::vector<float>, 4> samples_of;
-  PaStream* stream = nullptr;
-  bool is_initialised = false;
   std::array<WizardSound, kWaiting> queued{};  ///< ring: written by the loop, read by the sound thread
   std::atomic<std::size_t> queued_count{0}, played_count{0};
   std::size_t at = 0;  ///< used by the sound thread
+  SoundCard card;      ///< the last: it asks for sound from then on
 };
 
 Sounds::Sounds(const std::function<void(const std::string&)>& report) : player_(std::make_unique<Player>(report)) {}
 Sounds::~Sounds() = default;
 
-bool Sounds::isAvailable() const { return player_->stream != nullptr; }
+bool Sounds::isAvailable() const { return player_->card.isAvailable(); }
 
 void Sounds::play(WizardSound sound) {
   if (!isAvailable()) return;

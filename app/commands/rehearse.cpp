@@ -383,6 +383,7 @@ int run(RehearseOptions& options) {
   plan.device_options.report = printMessage;
   plan.display = options.display.mode();
   plan.head_up_line = !options.no_line;
+  plan.sound = !options.no_sound;
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);

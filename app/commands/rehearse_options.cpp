@@ -117,6 +117,7 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command
       .option("--quality", options.plan.quality_step, "Hold this quality, 0 best, 6 fastest [by measured frame times]")
       .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
+  command.flag("--no-sound", options.no_sound, "Without the sound of handpiece and cut (key S)");
   command.flag("--no-line", options.no_line, "Without the line of text in the picture (key L shows it)");
   command.optionGroup("Output");
   Option record = command

@@ -32,7 +32,7 @@ struct RehearseOptions {
   std::optional<std::string> position;
   std::optional<int> monitor;
   double loupes = 4.0;
-  bool no_line = false;
+  bool no_line = false, no_sound = false;
 };
 
 /// Adds them, in groups, with examples and the keys; the values go to `options`, which must outlive the command.

@@ -5,11 +5,13 @@
 #include <optional>
 
 #include "app/commands/command.h"
+#include "app/review/session_sound.h"
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
+#include "app/text/usage_error.h"
 #include "assets/scan/image_file.h"
 #include "calibration/output_file.h"
 
@@ -17,7 +19,7 @@ namespace app {
 namespace {
 
 struct ReplayOptions {
-  std::string session, out;
+  std::string session, out, sound;
   std::optional<double> to_s;
   bool verify = false, force = false;
 };
@@ -39,6 +41,16 @@ int bringBack(const ReplayOptions& options) {
   return 0;
 }
 
+/// What was heard.
+int writeSound(const ReplayOptions& options) {
+  if (!options.sound.ends_with(".flac")) throw UsageError("--sound-file " + options.sound + ": name it .flac");
+  calibration::OutputFile out(options.sound, options.force);
+  const double length_s = writeSessionSound(options.session, out.temporaryPath());
+  out.commit();
+  std::printf("sound of %.3f s written\n", length_s);
+  return 0;
+}
+
 }  // namespace
 
 void addReplay(CommandLine& molar) {
@@ -50,9 +62,12 @@ void addReplay(CommandLine& molar) {
   Option out = command.option("--out", options->out, "Write the bone as it then was, .nrrd");
   out.excludes(check);
   to.needs(out);
+  Option sound = command.option("--sound-file", options->sound, "Write what was heard, .flac, in step with the ticks");
+  sound.excludes(check).excludes(out);
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
     options->session = sessionNamed(options->session);
+    if (!options->sound.empty()) return writeSound(*options);
     return options->out.empty() ? verifySession(options->session) : bringBack(*options);
   });
 }

@@ -37,7 +37,8 @@ enum class Control : std::uint8_t {
   ruler,
   step,
   way,
-  ring
+  ring,
+  sound
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -63,7 +64,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 24> kControls = {{
+inline constexpr std::array<ControlMeaning, 25> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -88,6 +89,7 @@ inline constexpr std::array<ControlMeaning, 24> kControls = {{
     {Control::step, "step", "N", "go on to the procedure's next step", ControlValue::none, false},
     {Control::way, "way", "W", "what keeps the tooth or piece in", ControlValue::none, false},
     {Control::ring, "ring", "Shift+T", "ring of instruments; again takes", ControlValue::on_or_off, true},
+    {Control::sound, "sound", "S", "sound on or off", ControlValue::on_or_off, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

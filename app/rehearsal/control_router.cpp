@@ -160,6 +160,7 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (request.control == Control::ruler) markRuler(frame);
   if (request.control == Control::step) ++steps_;
   if (request.control == Control::way) asks_way_ = true;
+  if (request.control == Control::sound) sound_ = request.value;
   if (request.control == Control::home) {
     equipment_.workstation().setHome();
     head_up_.say("the handle is at home");

@@ -45,6 +45,8 @@ class ControlRouter {
   bool takeWay() { return std::exchange(asks_way_, false); }
   /// The instruments to choose from, while they are shown.
   const ToolRing& ring() const { return ring_; }
+  /// Sound that was asked for since the last call: on, off, or the other (kNoValue).
+  std::optional<int> takeSound() { return std::exchange(sound_, {}); }
   /// Of the tool of a mouse, W.
   const glm::dvec3& handPosition_W_mm() const { return input_.X_WT().translation_mm; }
   /// Of a mouse, before it is started: the hand is there at once, and touches nothing on a way there.
@@ -89,6 +91,7 @@ class ControlRouter {
   bool asks_way_ = false;
   ToolRing ring_;
   HeldPress tool_press_;
+  std::optional<int> sound_;
   DeskView desk_view_;
   glm::dvec2 pointer_px_{0.0};
   ControlScript script_;

@@ -28,6 +28,7 @@
 #include "app/rehearsal/touches.h"
 #include "app/rehearsal/way_follower.h"
 #include "app/session/soft_touches.h"
+#include "app/sound/live_sound.h"
 #include "assets/scan/tooth_division.h"
 
 namespace app {
@@ -169,6 +170,18 @@ class Rehearsal {
     event_log_.note("quality", view_.qualityText());
     event_log_.note(kTouchEvent, kTouchCounting);
     if (steps_) steps_->start();
+    if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace();
+  }
+
+  void followSound() {
+    const std::optional<int> asked = router_.takeSound();
+    if (asked && !sound_) head_up_.say("there is no sound in this rehearsal");
+    if (!sound_) return;
+    if (asked) {
+      sound_->mute(*asked == kNoValue ? !sound_->isMuted() : *asked == 0);
+      head_up_.say(sound_->isMuted() ? "sound off" : "sound on");
+    }
+    if (const std::string trouble = sound_->takeTrouble(); !trouble.empty()) printMessage(trouble);
   }
 
   std::optional<Ending> endingNow() {
@@ -190,6 +203,7 @@ class Rehearsal {
     // A stepped rehearsal has no wall clock by which a file could change.
     if (pace_.isRealTime()) active_command_.pollSettingsFile(pace_.now());
     followTicks();
+    followSound();
     active_command_.followStrokes(newest_);
     if (active_command_.takeToolChange() && pace_.isRealTime()) view_.showInstrument();
   }
@@ -201,6 +215,7 @@ class Rehearsal {
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
     followLuxation(ticks);
+    if (sound_) sound_->follow(ticks, command);
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
     head_up_.follow(ticks, command.irrigating);
@@ -359,6 +374,8 @@ class Rehearsal {
     for (const Touch& touch : touches_.finish()) noteTouch(touch);
     if (steps_) steps_->finish();
     socket_->finish(view_.takeChangedBricks(), station().newestTick());
+    if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())
+      event_log_.note("sound", latency);
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
@@ -407,6 +424,7 @@ class Rehearsal {
   JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
   std::optional<StepFollower> steps_;
+  std::optional<LiveSound> sound_;
   bool shows_gutter_ = false;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;

@@ -64,6 +64,7 @@ struct RehearsalPlan {
   double face_window_mm = 0.0;
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;
+  bool sound = true;                        ///< in real time with a window
   bool head_up_line = true;                 ///< shown to begin with
   bool summary = true;                      ///< printed at the end; else only where it was recorded
   bool verbose = false;                     ///< words for engineers on the terminal; force laws by key

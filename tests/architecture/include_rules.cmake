@@ -2,7 +2,7 @@
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
 #   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
-#   app: text < { case | report | session } < { view | device } < station < options < controls < instructor
+#   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
 #     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
 #     | start_screen | review }.
 #   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
@@ -36,8 +36,8 @@ set(assets calibration/ assets/)
 # Folders of app: each may include itself and those before it; the last group is for commands only.
 set(floors calibration/ assets/ haptics/ render/)
 set(app/text ${floors} app/text/)
-set(case_report_session app/case/ app/report/ app/session/)
-foreach(room case report session)
+set(case_report_session app/case/ app/report/ app/session/ app/sound/)
+foreach(room case report session sound)
   set(app/${room} ${floors} app/text/ app/${room}/)
 endforeach()
 foreach(room view device)

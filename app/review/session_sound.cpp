@@ -1,0 +1,36 @@
+#include "app/review/session_sound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/session/replay.h"
+#include "app/sound/sound_file.h"
+#include "app/sound/work_sound.h"
+
+namespace app {
+
+double writeSessionSound(const std::string& session_path, const std::string& to) {
+  SessionReader session(session_path);
+  refuseDamaged(session, session_path);
+  const std::vector<SessionCommand> commands = session.commands();
+  auto next = commands.begin();
+  haptics::Command in_force;
+  SoundScore score;
+  WorkSound sound(kSoundRate_Hz);
+  SoundFile file(to, kSoundRate_Hz);
+  std::vector<float> samples;
+  double written = 0.0;
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
+    for (const haptics::Tick& tick : block.ticks) {
+      for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
+      const double until = std::round((tick.t_s + tick.dt_s) * kSoundRate_Hz);
+      samples.resize(static_cast<std::size_t>(std::clamp(until - written, 0.0, 1e6)));
+      written += static_cast<double>(samples.size());
+      sound.render(score.of(tick, in_force), samples);
+      file.write(samples);
+    }
+  file.close();
+  return written / kSoundRate_Hz;
+}
+
+}  // namespace app
