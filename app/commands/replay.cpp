@@ -1,8 +1,11 @@
 // `molar replay SESSION` and `molar metrics SESSION`: after the rehearsal.
 
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
+
+#include <fmt/core.h>
 
 #include "app/commands/command.h"
 #include "app/review/session_sound.h"
@@ -21,7 +24,7 @@ namespace {
 struct ReplayOptions {
   std::string session, out, sound;
   std::optional<double> to_s;
-  bool verify = false, force = false;
+  bool verify = false, digest = false, force = false;
 };
 
 /// 0: every byte as recorded, and every bit of a re-run where this version recorded it; 1: not.
@@ -41,6 +44,17 @@ int bringBack(const ReplayOptions& options) {
   return 0;
 }
 
+/// The digest of jaw, pieces and poses at a moment (haptics::Bodies::digest), re-run from the start.
+void printDigest(const ReplayOptions& options) {
+  SessionReader session(options.session);
+  refuseDamaged(session, options.session);
+  const ReplayedState state = replayTo(session, options.to_s.value_or(std::numeric_limits<double>::infinity()));
+  if (state.divergence)
+    printMessage(fmt::format("{}: from tick {} on {}, the digest is of the bone as re-run", options.session,
+                             state.divergence->tick, state.divergence->what));
+  std::printf("%016llx\n", static_cast<unsigned long long>(state.bodies.digest()));
+}
+
 /// What was heard.
 int writeSound(const ReplayOptions& options) {
   if (!options.sound.ends_with(".flac")) throw UsageError("--sound-file " + options.sound + ": name it .flac");
@@ -58,17 +72,23 @@ void addReplay(CommandLine& molar) {
   CommandLine& command = molar.command("replay", "Run a recorded session again");
   command.option("SESSION", options->session, kSessionHelp).required();
   Option check = command.flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
-  Option to = command.option("--to", options->to_s, "Stop at this time, s").from(0.0, 1e9);
-  Option out = command.option("--out", options->out, "Write the bone as it then was, .nrrd");
+  command.option("--to", options->to_s, "Stop at this time, s").from(0.0, 1e9);
+  Option out = command.option("--volume", options->out, "Write the bone as it then was, .nrrd");
   out.excludes(check);
-  to.needs(out);
+  command.option("--out", options->out, "Former name of --volume").hidden().excludes(check);
+  command.flag("--digest", options->digest, "Print the digest of jaw, pieces and poses as they then were")
+      .excludes(check);
   Option sound = command.option("--sound-file", options->sound, "Write what was heard, .flac, in step with the ticks");
   sound.excludes(check).excludes(out);
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
     options->session = sessionNamed(options->session);
     if (!options->sound.empty()) return writeSound(*options);
-    return options->out.empty() ? verifySession(options->session) : bringBack(*options);
+    if (options->to_s && options->out.empty() && !options->digest)
+      throw UsageError("--to: of what, give --volume FILE.nrrd or --digest");
+    if (options->out.empty() && !options->digest) return verifySession(options->session);
+    if (options->digest) printDigest(*options);
+    return options->out.empty() ? 0 : bringBack(*options);
   });
 }
 

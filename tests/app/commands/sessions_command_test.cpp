@@ -51,6 +51,22 @@ TEST_F(SessionsCommand, EveryRehearsalIsRecordedAndNamedAndTheLastIsAtHand) {
   EXPECT_EQ(sessions().size(), 1u) << "nor does --record into the data folder";
 }
 
+TEST_F(SessionsCommand, TheBoneOfAnyMomentHasItsDigestAndItsSound) {
+  ASSERT_EQ(molar(kCoarseRun + std::string("--seconds 6 --record ") + at("s.molar")).status, 0);
+  const std::string replay = "replay " + at("s.molar");
+  const ProgramOutput end = molar(replay + " --digest"), early = molar(replay + " --to 1 --digest");
+  EXPECT_EQ(std::stoull(end.out, nullptr, 16), verify(at("s.molar")).bone_digest);
+  EXPECT_EQ(early.status, 0) << early.err;
+  EXPECT_NE(early.out, end.out);
+  EXPECT_EQ(molar(replay + " --to 1 --digest --volume " + at("v.nrrd")).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(at("v.nrrd")));
+  const ProgramOutput sound = molar(replay + " --sound-file " + at("s.flac"));
+  EXPECT_EQ(sound.out, "sound of 6.000 s written\n") << sound.err;
+  expectRefusal(replay + " --sound-file " + at("s.mp3"), "name it .flac");
+  expectRefusal(replay + " --sound-file " + at("s.flac"), "s.flac");
+  expectRefusal(replay + " --to 1", "--volume");
+}
+
 TEST_F(SessionsCommand, GoesOnWithoutADataFolderAndSaysSo) {
   setenv("XDG_DATA_HOME", write("a_file", "not a folder").c_str(), 1);
   const ProgramOutput said = molar(kCoarseRun + std::string("--seconds 0.2"));
