@@ -26,6 +26,7 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
+#include "app/procedure/coach/coach_file.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/continuation.h"
@@ -326,6 +327,17 @@ void chooseProcedure(RehearseOptions& options) {
   plan.procedure_steps = std::move(steps);
 }
 
+/// Never in assessment.
+void chooseCoach(RehearseOptions& options) {
+  const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
+  const bool is_assessed = steps && steps->guidance == Guidance::assessed;
+  if (is_assessed && !options.coach.empty() && options.coach != "off")
+    throw UsageError("--coach " + options.coach + ": nothing is said in assessment, leave it out");
+  const bool is_guided = steps && steps->guidance == Guidance::guided;
+  if (options.coach == "off" || (options.coach.empty() && !is_guided)) return;
+  options.plan.coach = coachRulesOf(options.coach == "on" ? "" : options.coach);
+}
+
 int run(RehearseOptions& options) {
   if (options.list_cases) {
     std::fputs((caseList() + importedList()).c_str(), stdout);
@@ -338,6 +350,7 @@ int run(RehearseOptions& options) {
   if (plan.device.starts_with("scripted:"))
     throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
   chooseProcedure(options);
+  chooseCoach(options);
   if (isShown(options)) {
     // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
     static const RehearseOptions kAsked;

@@ -98,6 +98,11 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
               "for in the picture, but for free]")
       .valueNamed("WORDS")
       .needs(procedure);
+  command
+      .option("--coach", options.coach,
+              "Says one thing at a time about how you work: on, off, or a supervisor's own FILE.toml of rules "
+              "(app/procedure/coach) [on where a procedure is guided, else off; never in assessment]")
+      .valueNamed("RULES");
   command.optionGroup("Workplace and picture");
   Option rig = options.rig.addTo(command, true);
   command.option("--loupes", options.loupes, "Magnification on a desk (without --rig)")

@@ -13,6 +13,7 @@
 #include "app/procedure/jaw_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
+#include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
@@ -82,6 +83,7 @@ class Rehearsal {
     socket_.emplace(plan_, station().bodies(), event_log_);
     ways_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
+    if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
     if (equipment_.led() != nullptr)
       demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
                              *equipment_.led());
@@ -204,6 +206,7 @@ class Rehearsal {
     if (pace_.isRealTime()) active_command_.pollSettingsFile(pace_.now());
     followTicks();
     followSound();
+    if (const auto says = coach_ ? coach_->news() : std::nullopt) head_up_.say(*says);
     active_command_.followStrokes(newest_);
     if (active_command_.takeToolChange() && pace_.isRealTime()) view_.showInstrument();
   }
@@ -216,6 +219,7 @@ class Rehearsal {
     countSoftTouches(ticks);
     followLuxation(ticks);
     if (sound_) sound_->follow(ticks, command);
+    if (coach_) coach_->follow(ticks, command);
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
     head_up_.follow(ticks, command.irrigating);
@@ -425,6 +429,7 @@ class Rehearsal {
   LuxationLog luxation_;
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;
+  std::optional<CoachFollower> coach_;
   bool shows_gutter_ = false;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;

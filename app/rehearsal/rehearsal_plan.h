@@ -9,6 +9,7 @@
 
 #include "app/device/pose_source.h"
 #include "app/device/second_hand.h"
+#include "app/procedure/coach/coach.h"
 #include "app/procedure/procedure.h"
 #include "app/procedure/steps/step_plan.h"
 #include "app/session/step_event.h"
@@ -55,6 +56,7 @@ struct RehearsalPlan {
   std::string parameters;  ///< settings file, applied whenever it changes; `command` holds the keys it leaves out
   Procedure* procedure = nullptr;                 ///< leads where there is one
   std::optional<ProcedureSteps> procedure_steps;  ///< followed where there is one
+  std::optional<CoachRules> coach;                ///< none: it is silent
   std::optional<haptics::PedalChoice> pedal;      ///< none: no pedal is searched for
   std::optional<double> rate_Hz;                  ///< none: the rate of a recorded pose source, else 1 kHz
   std::optional<double> seconds;                  ///< simulated time; a scripted hand ends by itself

@@ -7,6 +7,7 @@
 #include "app/device/pose_csv.h"
 #include "app/options/command_settings.h"
 #include "app/options/view_option.h"
+#include "app/procedure/coach/coach_file.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/psychophysics/protocol.h"
 #include "app/text/usage_error.h"
@@ -85,6 +86,11 @@ TEST(TextMutants, ProtocolToml) {
 TEST(TextMutants, ProcedureToml) {
   judge<assets::LoadError>(app::shippedProcedureText("coronectomy"),
                            [](const std::string& text) { app::stepPlanFromToml(text, "procedure.toml"); });
+}
+
+TEST(TextMutants, CoachToml) {
+  judge<assets::LoadError>(app::shippedCoachText(),
+                           [](const std::string& text) { app::coachRulesFromToml(text, "coach.toml"); });
 }
 
 TEST(TextMutants, TouchesYaml) {
