@@ -53,21 +53,21 @@ std::uint64_t riskFingerprint(const assets::Patient& patient) {
   return hash.value();
 }
 
-RiskStructures cachedRiskStructures(const assets::Patient& patient) {
+assets::RiskStructures cachedRiskStructures(const assets::Patient& patient) {
   const std::uint64_t fingerprint = riskFingerprint(patient);
   const std::filesystem::path file = cacheFolder() / fmt::format("clearance-{:016x}", fingerprint);
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored)) {
     try {
-      const auto kept = assets::readStructures(file.string(), fingerprint, kRiskStructures);
-      RiskStructures structures;
+      const auto kept = assets::readStructures(file.string(), fingerprint, assets::kRiskStructures);
+      assets::RiskStructures structures;
       std::ranges::copy(kept, structures.distance.begin());
       return structures;
     } catch (const assets::LoadError&) {
       printMessage("the cached distances to nerve and neighbours cannot be read, computing them again");
     }
   }
-  RiskStructures structures = riskStructures(patient);
+  assets::RiskStructures structures = riskStructures(patient);
   try {
     std::filesystem::create_directories(file.parent_path(), ignored);
     assets::writeStructures(structures.distance, fingerprint, file.string());

@@ -12,6 +12,6 @@ namespace app {
 /// Of everything that riskStructures() reads.
 std::uint64_t riskFingerprint(const assets::Patient& patient);
 
-RiskStructures cachedRiskStructures(const assets::Patient& patient);
+assets::RiskStructures cachedRiskStructures(const assets::Patient& patient);
 
 }  // namespace app

@@ -15,6 +15,8 @@ namespace app {
 namespace {
 
 using assets::CtVolume;
+using assets::kRiskStructures;
+using assets::RiskStructure;
 using assets::Tissue;
 using Voxels = std::vector<std::uint8_t>;
 
@@ -25,6 +27,7 @@ constexpr double kBeyond_mm = 12.0;                              ///< the surfac
 constexpr double kNerveAlong_mm = 12.0, kNerveStation_mm = 0.5;  ///< of the lingual nerve
 constexpr double kOffPlate_mm = 2.06, kOffPlateSd_mm = 1.10, kUnderCrest_mm = 3.01, kUnderCrestSd_mm = 0.42;
 constexpr double kDeviations = 2.0;
+constexpr double kAtTooth_mm = 4.0, kCrestRises_mm = 2.0;
 
 bool isOfBone(std::uint8_t label) { return Tissue{label} == Tissue::cortical || Tissue{label} == Tissue::trabecular; }
 
@@ -101,6 +104,22 @@ std::vector<OuterVoxel> lingualSurface(const CtVolume& ct, const LingualSite& si
   return surface;
 }
 
+/// Whether the bone around a voxel faces the tongue, not the mouth above or the floor below: by the middle of what is
+/// hard within a millimetre.
+bool facesTongue(const CtVolume& ct, glm::ivec3 ijk, const glm::dvec3& lingual_P) {
+  constexpr double kAround_mm = 1.0, kFacing = 0.6;
+  const int reach = std::max(2, static_cast<int>(std::lround(kAround_mm / ct.grid.spacing_mm)));
+  glm::dvec3 inward(0.0);
+  assets::forVoxels(-glm::ivec3(reach), glm::ivec3(reach + 1), [&](glm::ivec3 way) {
+    const glm::ivec3 at = ijk + way;
+    if (way.x * way.x + way.y * way.y + way.z * way.z <= reach * reach && ct.grid.contains(at) &&
+        assets::isHard(ct.label[ct.grid.index(at)]))
+      inward += glm::dvec3(way);
+  });
+  const double length = glm::length(inward);
+  return length > 0.0 && glm::dot(inward, lingual_P) <= -kFacing * length;
+}
+
 /// Single voxels that oblique lines have missed.
 void fillBetween(const assets::VolumeGrid& grid, Voxels& voxels, const std::vector<std::uint8_t>& label) {
   const Voxels before = voxels;
@@ -115,10 +134,11 @@ void fillBetween(const assets::VolumeGrid& grid, Voxels& voxels, const std::vect
 Voxels lingualVoxels(const CtVolume& ct, const LingualSite& site) {
   Voxels beyond(ct.label.size(), 0);
   for (const OuterVoxel& outer : lingualSurface(ct, site))
-    towardsTongue(ct.grid, outer.ijk, site.lingual_P, [&](std::size_t v) {
-      beyond[v] = 1;
-      return true;
-    });
+    if (facesTongue(ct, outer.ijk, site.lingual_P))
+      towardsTongue(ct.grid, outer.ijk, site.lingual_P, [&](std::size_t v) {
+        beyond[v] = 1;
+        return true;
+      });
   fillBetween(ct.grid, beyond, ct.label);
   return beyond;
 }
@@ -140,7 +160,14 @@ Voxels nerveVoxels(const CtVolume& ct, const LingualSite& site) {
     plate = std::max(plate, outer.lingual_mm);
   }
   Voxels band(ct.label.size(), 0);
-  if (stations.empty()) return band;
+  // The ramus behind is no crest.
+  std::vector<double> crests_mm;
+  for (const auto& [at, station] : stations)
+    if (std::abs(at * kNerveStation_mm) <= kAtTooth_mm) crests_mm.push_back(station.crest_mm);
+  if (crests_mm.empty()) return band;
+  const auto middle = crests_mm.begin() + static_cast<std::ptrdiff_t>(crests_mm.size() / 2);
+  std::ranges::nth_element(crests_mm, middle);
+  for (auto& [at, station] : stations) station.crest_mm = std::min(station.crest_mm, *middle + kCrestRises_mm);
   const double reach_mm = kNerveAlong_mm + kToTongue_mm + 8.0;
   const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(ct.grid.indexFromPoint(site.centre_P_mm - reach_mm))), 0);
   const glm::ivec3 end =
@@ -164,12 +191,6 @@ Voxels nerveVoxels(const CtVolume& ct, const LingualSite& site) {
 
 }  // namespace
 
-std::size_t RiskStructures::bytes() const {
-  std::size_t sum = 0;
-  for (const assets::StructureDistance& one : distance) sum += one.bytes();
-  return sum;
-}
-
 std::vector<std::uint8_t> voxelsOf(RiskStructure structure, const assets::Patient& patient) {
   const CtVolume& ct = patient.ct;
   if (structure == RiskStructure::canal) return canalVoxels(patient);
@@ -185,8 +206,8 @@ std::vector<std::uint8_t> voxelsOf(RiskStructure structure, const assets::Patien
   }
 }
 
-RiskStructures riskStructures(const assets::Patient& patient) {
-  RiskStructures structures;
+assets::RiskStructures riskStructures(const assets::Patient& patient) {
+  assets::RiskStructures structures;
   for (std::size_t n = 0; n < kRiskStructures; ++n) {
     const Voxels voxels = voxelsOf(static_cast<RiskStructure>(n), patient);
     if (!voxels.empty())

@@ -4,49 +4,27 @@
 // Definitions: reference/product 3.2.
 #pragma once
 
-#include <array>
-#include <string_view>
+#include <cstdint>
+#include <vector>
 
 #include "assets/patient.h"
-#include "assets/structure_distance.h"
+#include "assets/risk_structures.h"
 
 namespace app {
 
-enum class RiskStructure { canal, lingual, second_molar, lingual_nerve };
-inline constexpr std::size_t kRiskStructures = 4;
-
-struct RiskText {
-  std::string_view key;   ///< in files
-  std::string_view name;  ///< for people
-};
-/// In the order of RiskStructure.
-inline constexpr std::array<RiskText, kRiskStructures> kRiskTexts{{{"canal", "canal"},
-                                                                   {"lingual", "lingual plate"},
-                                                                   {"second_molar", "second molar"},
-                                                                   {"lingual_nerve", "lingual nerve (modelled)"}}};
-
-struct RiskStructures {
-  std::array<assets::StructureDistance, kRiskStructures> distance;
-
-  const assets::StructureDistance& of(RiskStructure structure) const {
-    return distance[static_cast<std::size_t>(structure)];
-  }
-  std::size_t bytes() const;
-};
-
 /// To be incremented with any change of the definitions below.
-inline constexpr int kRiskStructuresRevision = 1;
+inline constexpr int kRiskStructuresRevision = 2;
 
 /// The voxels of one, not 0 inside, in the order of the patient's grid; empty: the case has none.
 ///   canal         labelled as such, or the tube about its centre line
-///   lingual       what lies beyond the outer surface of bone, seen from it towards the tongue: 12 mm deep, from 20 mm
-///                 before to 20 mm behind the operated tooth; nothing where a root lies bare
+///   lingual       what lies beyond the outer surface of bone where that faces the tongue, within 53°: 12 mm deep, from
+///                 20 mm before to 20 mm behind the operated tooth; nothing where a root lies bare
 ///   second_molar  the tooth before the operated third molar
 ///   lingual_nerve two standard deviations about where 669 nerves lay at the third molar: 2.06 ± 1.10 mm off the plate,
 ///                 3.01 ± 0.42 mm below the crest; from 12 mm before to 12 mm behind the tooth
-std::vector<std::uint8_t> voxelsOf(RiskStructure structure, const assets::Patient& patient);
+std::vector<std::uint8_t> voxelsOf(assets::RiskStructure structure, const assets::Patient& patient);
 
 /// Reads grid, labels, numbers of the teeth, site and canal of the patient.
-RiskStructures riskStructures(const assets::Patient& patient);
+assets::RiskStructures riskStructures(const assets::Patient& patient);
 
 }  // namespace app

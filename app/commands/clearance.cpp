@@ -28,6 +28,7 @@ struct ClearanceOptions {
 };
 
 /// In the order of the columns.
+using assets::RiskStructure;
 constexpr std::array kColumns{RiskStructure::canal, RiskStructure::lingual, RiskStructure::second_molar};
 
 int clearance(const ClearanceOptions& options) {
@@ -40,7 +41,7 @@ int clearance(const ClearanceOptions& options) {
   refuseControls(poses, options.poses);
   const assets::Patient patient = options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
                                                           : assets::loadPatient(patientNamed(options.patient));
-  const RiskStructures structures = cachedRiskStructures(patient);
+  const assets::RiskStructures structures = cachedRiskStructures(patient);
 
   std::string csv = "t_s,canal_mm,lingual_mm,second_molar_mm\n";
   for (const TimedPose& pose : poses) {

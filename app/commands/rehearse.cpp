@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/case/case.h"
+#include "app/case/clearance_source.h"
 #include "app/case/extraction_plan.h"
 #include "app/case/handpiece_direction.h"
 #include "app/case/impaction_class.h"
@@ -135,6 +136,7 @@ struct PreparedCase {
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   std::optional<CutPlan> cut;
   assets::SoftTissueField soft_tissue;
+  assets::RiskStructures risks;
   Prediction computed;  ///< difficulty and index alone
 };
 
@@ -166,10 +168,12 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
     const bool compares = steps && (steps->asks || steps->prediction.isGiven());
     return compares ? computedDifficulty(one.patient) : Prediction{};
   });
+  auto risks = std::async(std::launch::async, [&] { return cachedRiskStructures(one.patient); });
   const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
   one.soft_tissue = softTissueAround(one.patient.gingiva, one.patient.face, region);
   report(kSoftTissueShare);
   one.computed = computed.get();
+  one.risks = risks.get();
   one.cut = cut.get();
   if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);
   return one;
@@ -189,6 +193,7 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
   if (!one) return false;
   plan.patient = std::move(one->patient);
   plan.soft_tissue = std::move(one->soft_tissue);
+  plan.risks = std::move(one->risks);
   plan.windows = preparation.takeWindows();
   if (plan.procedure_steps) {
     plan.procedure_steps->prediction.computed = one->computed.computed;
@@ -397,6 +402,8 @@ int run(RehearseOptions& options) {
   plan.display = options.display.mode();
   plan.head_up_line = !options.no_line;
   plan.sound = !options.no_sound;
+  const bool is_assessed = plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed;
+  plan.shows_clearance = options.clearance.empty() ? !is_assessed : options.clearance == "view";
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);

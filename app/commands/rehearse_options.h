@@ -33,6 +33,7 @@ struct RehearseOptions {
   std::optional<int> monitor;
   double loupes = 4.0;
   bool no_line = false, no_sound = false;
+  std::string clearance;
 };
 
 /// Adds them, in groups, with examples and the keys; the values go to `options`, which must outlive the command.

@@ -12,6 +12,7 @@
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
+#include "app/station/session_risks.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -100,7 +101,7 @@ void addMetrics(CommandLine& molar) {
   command.flag("--json", *as_json, "All measures as JSON");
   command.footer(measuresHelp());
   command.does([session, as_json] {
-    const SessionMetrics metrics = metricsOf(sessionNamed(*session));
+    const SessionMetrics metrics = metricsOf(sessionNamed(*session), risksOfSession);
     std::fputs((*as_json ? metricsJson(metrics) + "\n" : metricsText(metrics)).c_str(), stdout);
     return 0;
   });

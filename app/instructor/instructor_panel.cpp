@@ -130,6 +130,21 @@ void drawTool(const RehearsalStatus& s) {
   row("Cutting", clockText(s.cutting_s) + dry, dry.empty() ? kInk : kWarn);
 }
 
+/// From the tool to what it is to keep off, wherever it is: the surgeon may see it or not.
+void drawClearances(const RehearsalStatus& s) {
+  if (std::ranges::none_of(s.clearances, [](const auto& mm) { return mm.has_value(); })) return;
+  heading("Clearance");
+  for (std::size_t n = 0; n < s.clearances.size(); ++n) {
+    if (!s.clearances[n]) continue;
+    const assets::RiskLevel level = assets::riskLevel(n, *s.clearances[n]);
+    row(std::string(assets::kRiskTexts[n].name).c_str(), fixedText(*s.clearances[n], 1) + " mm",
+        level == assets::RiskLevel::red     ? kBad
+        : level == assets::RiskLevel::amber ? kWarn
+        : level == assets::RiskLevel::note  ? kGood
+                                            : kInk);
+  }
+}
+
 /// "stiffness_N_per_mm" as "stiffness": the unit stands behind the value.
 std::string nameWithoutUnit(std::string_view key) {
   std::string name(key.substr(0, key.find("_N")));
@@ -373,6 +388,7 @@ std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, g
   drawButtons(status, requests);
   drawHand(status, requests);
   drawTool(status);
+  drawClearances(status);
   drawLaw(status, requests);
   drawView(status);
   drawServo(status);

@@ -12,6 +12,7 @@
 #include "haptics/safety/trips.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
+#include "haptics/tool/clearance.h"
 #include "render/frame.h"
 
 namespace app {
@@ -42,8 +43,9 @@ struct RehearsalStatus {
   double cutting_s = 0.0, dry_s = 0.0;  ///< time with the bur in bone or tooth, and that without water
   std::string said;                     ///< to the surgeon, last
   std::optional<double> gap_mm;  ///< from the bur to tooth or bone as drawn; none: farther than render::kMaxGap_mm
-  std::string ruler;             ///< between two touches; empty: none
-  std::string way;               ///< what keeps the tooth in; empty: not known
+  haptics::Clearances clearances = {};  ///< of the tool now
+  std::string ruler;                    ///< between two touches; empty: none
+  std::string way;                      ///< what keeps the tooth in; empty: not known
   RecordingState recording = RecordingState::none;
   std::string recording_path;
   std::string to_surgeon, to_instructor;  ///< messages of a procedure; a question to the surgeon

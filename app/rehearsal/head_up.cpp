@@ -67,6 +67,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.task = values.task;
   content.ruler = values.ruler;
   content.site = values.socket;
+  content.clearances = values.clearances;
   content.way = values.way;
   content.ring = values.ring;
   if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);

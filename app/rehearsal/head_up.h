@@ -40,8 +40,9 @@ class HeadUp {
     std::string ruler;          ///< rulerText()
     bool pieces_ready = false;  ///< for forceps and elevators
     std::string socket;         ///< SocketFollower::line()
-    std::string way;            ///< WayFollower::line()
-    HeadUpRing ring;
+    std::string way = {};       ///< WayFollower::line()
+    HeadUpRing ring = {};
+    std::vector<HeadUpClearance> clearances = {};
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -13,6 +13,7 @@
 #include "app/procedure/jaw_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
+#include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
@@ -128,8 +129,8 @@ class Rehearsal {
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
-    return {newest_,    active_command_.inForce(), frame_.layers, head_up_, router_.question(),
-            frame_.gap, rulerText(frame_.ruler),   ways_->line()};
+    return {newest_,    active_command_.inForce(), frame_.layers, head_up_,        router_.question(),
+            frame_.gap, rulerText(frame_.ruler),   ways_->line(), clearance_.now()};
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -223,8 +224,9 @@ class Rehearsal {
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
     head_up_.follow(ticks, command.irrigating);
+    clearance_.follow(ticks, command);
     if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest());
-    for (const Touch& touch : touches_.follow(ticks, command.tool.head)) noteTouch(touch);
+    for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
   }
@@ -263,6 +265,7 @@ class Rehearsal {
   /// The tick before the bricks: bone that a tick removed is in the same frame as its pose.
   void readServo() {
     newest_ = station().newestTick();
+    clearance_.update(newest_, active_command_.inForce().tool);
     frame_ = nextFrame(frame_, newest_, active_command_.inForce());
     clarity_.step(newest_, active_command_.inForce().irrigating);
     frame_.field = surgicalField(clarity_);
@@ -338,6 +341,8 @@ class Rehearsal {
     Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                                       monitor_.recordingEnded());
     situation.jaw_N_per_mm2 = jaw_stress_.now_N_per_mm2();
+    situation.canal_mm = clearance_.canal_mm();
+    situation.is_blind = !plan_.shows_clearance;
     return {situation,
             frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
             task(),
@@ -345,7 +350,8 @@ class Rehearsal {
             sites_->isReady(),
             socket_->line(),
             ways_->line(),
-            ringShown()};
+            ringShown(),
+            plan_.shows_clearance ? clearance_.ruler() : std::vector<HeadUpClearance>()};
   }
 
   HeadUpRing ringShown() const {
@@ -380,6 +386,8 @@ class Rehearsal {
     socket_->finish(view_.takeChangedBricks(), station().newestTick());
     if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())
       event_log_.note("sound", latency);
+    if (const std::string least = clearanceText(clearance_.measures()); least != "{}")
+      event_log_.note(kClearanceEvent, least);
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
@@ -399,6 +407,7 @@ class Rehearsal {
                                       jaw_stress_.most_N_per_mm2());
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     figures.touched = touches_.counts();
+    figures.clearance = clearancesInWords(clearance_.measures());
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
     if (plan_.recording) figures.recording = recorded, figures.recorded_by_default = plan_.recording->by_default;
@@ -412,7 +421,8 @@ class Rehearsal {
   std::optional<double> duration_s_;
   RunMonitor monitor_;
   HeadUp head_up_;
-  Touches touches_{plan_.patient};
+  Touches touches_{plan_.patient, plan_.risks.of(assets::RiskStructure::canal)};
+  ClearanceWatch clearance_{plan_.risks};
   ControlRouter router_;
   SoftTouchCounter soft_touches_;
   SoftMarkTrail soft_marks_;

@@ -17,6 +17,7 @@
 #include "app/view/display_windows.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
+#include "assets/risk_structures.h"
 #include "assets/soft_tissue_field.h"
 #include "calibration/rig.h"
 #include "haptics/device/pedal/foot_pedal.h"
@@ -39,6 +40,8 @@ struct RehearsalPlan {
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
   std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
   assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
+  assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told
+  bool shows_clearance = true;              ///< in the picture; it is recorded in any case
   calibration::Rig rig;
   bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own
   render::DisplayMode display = render::DisplayMode::mono;

@@ -84,6 +84,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
     for (const std::string& step : stepsInWords(*f.procedure)) line("", step);
   }
   line("touched", f.touched.empty() ? "no tooth, no canal" : touchesText(f.touched));
+  line("came as near as", f.clearance);
   line("soft tissue", softTouchesText(f.soft_touches.touched));
   line("bur turned on", softTouchesText(f.soft_touches.cut));
   std::string warnings;

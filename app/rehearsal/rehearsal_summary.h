@@ -33,6 +33,7 @@ struct RehearsalFigures {
   std::optional<ProcedureRun> procedure;  ///< step by step
   Prediction prediction;                  ///< nothing said without a procedure
   std::vector<TouchCount> touched;        ///< teeth and canal
+  std::string clearance;                  ///< clearancesInWords(); empty: the drill was not on
   std::vector<Warnings::Count> warnings;
   bool for_engineers = true;  ///< servo, display and latency as well
   bool has_motors = true;

@@ -36,6 +36,7 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
   s.dry_s = state.head_up.times().dry_s;
   s.said = state.head_up.lastSaid();
   s.ruler = state.ruler;
+  s.clearances = state.clearances;
   s.way = state.way;
   if (state.gap) s.gap_mm = state.gap->mm;
   if (plan_.procedure) {

@@ -34,6 +34,7 @@ class StatusReporter {
     const std::optional<render::BoneGap>& gap;
     std::string ruler;  ///< rulerText()
     std::string way;    ///< WayFollower::line()
+    haptics::Clearances clearances = {};
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/rehearsal/touches.h"
+#include "app/session/measures/clearance_measures.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -24,6 +24,12 @@ StepInstrument instrumentOf(const haptics::Tool& tool) {
       return StepInstrument::suction;
   }
   return tool.isElevator() ? StepInstrument::elevator : tool.grips ? StepInstrument::forceps : StepInstrument::bur;
+}
+
+std::optional<double> toCanal_mm(const assets::RiskStructures& risks, const haptics::Tick& tick,
+                                 const haptics::Tool& tool) {
+  const assets::StructureDistance& canal = risks.of(assets::RiskStructure::canal);
+  return canal.isEmpty() ? std::nullopt : std::optional(haptics::clearance_mm(canal, tool, heldPose(tick)));
 }
 
 }  // namespace
@@ -66,7 +72,7 @@ void StepFollower::follow(std::span<const haptics::Tick> ticks, const haptics::C
   }
   for (const haptics::Tick& tick : ticks) {
     const bool cuts = tick.drilling && tick.depth_mm > 0.0;
-    facts.nerve_mm = cuts ? canalGap_mm(tick, command.tool.head, plan_.patient) : std::nullopt;
+    facts.nerve_mm = cuts ? toCanal_mm(plan_.risks, tick, command.tool) : std::nullopt;
     tracker_.follow(tick, facts);
   }
   tell();

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
+#include "app/session/measures/clearance_measures.h"
 #include "assets/tissue.h"
 #include "assets/tooth.h"
 #include "assets/volume_grid.h"
@@ -42,25 +42,13 @@ std::vector<int> teethTouched(const haptics::Tick& tick, const haptics::BurShape
   return touched;
 }
 
-std::optional<double> canalGap_mm(const haptics::Tick& tick, const haptics::BurShape& head,
-                                  const assets::Patient& patient) {
-  const std::vector<glm::dvec3>& line = patient.mandibular_canal_P_mm;
-  if (line.size() < 2) return {};
-  const auto [from, to] = axisOf(tick, head);
-  double nearest_mm = 1e9;
-  for (const glm::dvec3& p : {from, 0.5 * (from + to), to})
-    for (std::size_t n = 1; n < line.size(); ++n)
-      nearest_mm = std::min(nearest_mm, calibration::distanceToSegment(p, line[n - 1], line[n]));
-  return nearest_mm - head.radius_mm - patient.mandibular_canal_radius_mm;
-}
-
-std::vector<Touch> Touches::follow(std::span<const haptics::Tick> ticks, const haptics::BurShape& head) {
+std::vector<Touch> Touches::follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool) {
   std::vector<Touch> ended;
   for (const haptics::Tick& tick : ticks) {
-    for (const int fdi : teethTouched(tick, head, patient_)) touch(assets::toothName(fdi), tick);
+    for (const int fdi : teethTouched(tick, tool.head, patient_)) touch(assets::toothName(fdi), tick);
     // Only what lies in bone can reach the canal.
-    if (tick.depth_mm > 0.0)
-      if (const auto gap_mm = canalGap_mm(tick, head, patient_); gap_mm && *gap_mm <= 0.0) touch(kCanalTouch, tick);
+    if (tick.depth_mm > 0.0 && !canal_.isEmpty() && haptics::clearance_mm(canal_, tool, heldPose(tick)) <= 0.0)
+      touch(kCanalTouch, tick);
     if (running_.empty()) continue;
     const std::vector<Touch> over = endedBefore(tick.t_s - kTouchPause_s);
     ended.insert(ended.end(), over.begin(), over.end());

@@ -11,8 +11,9 @@
 
 #include "app/session/touch_event.h"
 #include "assets/patient.h"
+#include "assets/structure_distance.h"
 #include "haptics/servo/tick.h"
-#include "haptics/tool/bur_shape.h"
+#include "haptics/tool/tool.h"
 
 namespace app {
 
@@ -20,17 +21,13 @@ namespace app {
 /// with a tooth.
 std::vector<int> teethTouched(const haptics::Tick& tick, const haptics::BurShape& head, const assets::Patient& patient);
 
-/// From the head's surface to the wall of the mandibular canal, mm, below 0 inside; none where no canal is known.
-std::optional<double> canalGap_mm(const haptics::Tick& tick, const haptics::BurShape& head,
-                                  const assets::Patient& patient);
-
 class Touches {
  public:
-  /// Borrows the patient.
-  explicit Touches(const assets::Patient& patient) : patient_(patient) {}
+  /// Borrows both.
+  Touches(const assets::Patient& patient, const assets::StructureDistance& canal) : patient_(patient), canal_(canal) {}
 
-  /// `ticks` in order, made with this head. Returns the touches that ended.
-  std::vector<Touch> follow(std::span<const haptics::Tick> ticks, const haptics::BurShape& head);
+  /// `ticks` in order, made with this tool. Returns the touches that ended.
+  std::vector<Touch> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
   /// At the end: those that are still on.
   std::vector<Touch> finish();
 
@@ -49,6 +46,7 @@ class Touches {
   std::vector<Touch> endedBefore(double time_s);
 
   const assets::Patient& patient_;
+  const assets::StructureDistance& canal_;
   std::map<std::string, Running> running_;
   std::vector<TouchCount> counts_;
 };

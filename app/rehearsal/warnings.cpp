@@ -166,7 +166,7 @@ Situation situationOf(const haptics::Tick& tick, const haptics::Command& command
   const haptics::BurShape& head = command.tool.head;
   // A hand instrument that touches a tooth harms nothing.
   const auto neighbour = command.tool.isHandInstrument() ? std::nullopt : neighbourAt(tick, head, patient);
-  return {tick, command, has_motors, recording_ended, neighbour, canalGap_mm(tick, head, patient), {}};
+  return {tick, command, has_motors, recording_ended, neighbour, {}, {}};
 }
 
 std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
@@ -183,7 +183,8 @@ std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
       state.words = std::move(words);
       state.last_s = now_s;
     }
-    if (now_s - state.last_s <= kStays_s) shown.push_back({state.words, kTable[n].danger});
+    if (now_s - state.last_s <= kStays_s && !(now.is_blind && kTable[n].words == canalNear))
+      shown.push_back({state.words, kTable[n].danger});
   }
   std::ranges::stable_partition(shown, &HeadUpWarning::danger);
   return shown;

@@ -21,8 +21,9 @@ struct Situation {
   bool has_motors = false;
   bool recording_ended = false;         ///< early
   std::optional<int> neighbour;         ///< FDI number of another tooth that the bur touches
-  std::optional<double> canal_mm;       ///< from the bur's surface to the mandibular canal; below 0 inside
+  std::optional<double> canal_mm;       ///< from the tool to the mandibular canal, clearance_watch.h; below 0 inside
   std::optional<double> jaw_N_per_mm2;  ///< of an elevator (app/procedure/jaw_stress)
+  bool is_blind = false;                ///< distances are counted and not told
 };
 
 /// `tick` newest. Cost: the voxels around the bur, while it touches a tooth.

@@ -8,6 +8,7 @@
 #include "app/case/trough_plan.h"
 #include "app/options/law_text.h"
 #include "app/session/replay.h"
+#include "app/station/session_risks.h"
 #include "app/text/usage_error.h"
 #include "assets/cut_field.h"
 #include "assets/patient/patient_folder.h"
@@ -62,7 +63,7 @@ PlanComparison comparisonOf(const StoredStart& start, std::span<const std::uint8
 
 SessionReview reviewOf(const std::string& path, const std::string& patient_folder) {
   SessionReview review;
-  review.metrics = metricsOf(path);
+  review.metrics = metricsOf(path, risksOfSession);
   SessionReader session(path);
   review.course = courseOf(session);
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());

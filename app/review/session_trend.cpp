@@ -11,6 +11,7 @@
 #include "app/session/measures/painting.h"
 #include "app/session/session_error.h"
 #include "app/session/session_list.h"
+#include "app/station/session_risks.h"
 #include "app/text/clock_text.h"
 
 namespace app {
@@ -65,7 +66,7 @@ std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const Report
     try {
       CaseTrend& one = by_title[session.case_title];
       one.title = session.case_title;
-      one.runs.push_back({file, session.unix_s, metricsOf(session.path)});
+      one.runs.push_back({file, session.unix_s, metricsOf(session.path, risksOfSession)});
     } catch (const SessionError& error) {
       report(std::string(error.what()) + ", left out");
     }

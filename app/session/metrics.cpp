@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/session/field_clarity.h"
+#include "app/session/measures/clearance_measures.h"
 #include "app/session/measures/hand_work.h"
 #include "app/session/measures/original_surface.h"
 #include "app/session/replay.h"
@@ -81,7 +82,7 @@ std::optional<RemovedByTissue> removedByReplay(SessionReader& session) {
 
 }  // namespace
 
-SessionMetrics metricsOf(const std::string& path) {
+SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of) {
   SessionReader session(path);
   refuseDamaged(session, path);
   SessionMetrics metrics;
@@ -118,12 +119,15 @@ SessionMetrics metricsOf(const std::string& path) {
   HandWork work;
   const StoredStart start = session.start();
   const OriginalSurface surface(start.grid, start.solid);
+  const assets::RiskStructures risks = risks_of ? risks_of(start) : assets::RiskStructures();
+  ClearanceMeasures clearance(risks);
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& tick : block.ticks) {
       for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
       field.step(tick, in_force.irrigating);
       addTick(metrics, tick, before, in_force.irrigating, field.cover().clarity());
       work.add(workSample(tick, in_force, &surface));
+      clearance.add(tick, in_force.tool);
       for (; ruler != events.end() && ruler->tick <= tick.index; ++ruler)
         metrics.measured.push_back({tick.t_s, *measuredMm(ruler->text), ruler->text});
       soft_touches.add(tick);
@@ -143,6 +147,8 @@ SessionMetrics metricsOf(const std::string& path) {
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
   work.finish();
   metrics.measures = work.values();
+  const auto clearances = risks_of ? clearance.values() : noClearances("the case was not looked at");
+  metrics.measures.insert(metrics.measures.end(), clearances.begin(), clearances.end());
   metrics.soft_touches = soft_touches.counts();
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);

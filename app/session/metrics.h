@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,12 +14,14 @@
 #include "app/session/measures/measure_value.h"
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
+#include "app/session/session_start.h"
 #include "app/session/session_text.h"
 #include "app/session/socket_event.h"
 #include "app/session/soft_touches.h"
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"
 #include "app/session/way_event.h"
+#include "assets/risk_structures.h"
 
 namespace app {
 
@@ -102,8 +105,10 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"returned_mm3", "mm3", "volume restored by undone strokes", &SessionMetrics::returned_mm3},
 });
 
-/// Throws SessionError if the file is missing, not a session, or damaged.
-SessionMetrics metricsOf(const std::string& path);
+/// Throws SessionError if the file is missing, not a session, or damaged. `risks_of` a session's start: what its bur
+/// had to keep off (app/station/session_risks); without it no clearance is told.
+using RisksOf = std::function<assets::RiskStructures(const StoredStart&)>;
+SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of = {});
 
 /// The table of kMeasures for --help and the manual, and where the others are.
 std::string measuresHelp();

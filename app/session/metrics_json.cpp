@@ -121,6 +121,7 @@ nlohmann::ordered_json measuresJson(const std::vector<MeasureValue>& measures) {
     else
       entry["why"] = measure.why;
     if (measure.t_s) entry["t_s"] = *measure.t_s;
+    if (!measure.conditions.empty()) entry["conditions"] = measure.conditions;
     list.push_back(std::move(entry));
   }
   return list;

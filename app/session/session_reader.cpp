@@ -212,6 +212,7 @@ struct SessionReader::Impl {
       start.label = volume(session_format::kLabel, voxels);
       if (start.label.empty()) start.label.resize(voxels);
       start.is_tooth = volume(session_format::kIsTooth, voxels);
+      start.teeth = volume(session_format::kTeeth, voxels);
       readSoftTissue(start.soft_tissue);
     }
     for (std::uint8_t& value : start.label) value = label[value];

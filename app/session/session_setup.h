@@ -1,5 +1,6 @@
-// What a rehearsal needs besides the bone to go on later: the parameters of the built-in patient, the tools on the
-// tray, and which session it continues. Plain values; any thread. Never a person's name, identifier or folder.
+// What a rehearsal needs besides the bone to go on later and to be measured: the parameters of the built-in patient,
+// the tools on the tray, which session it continues, the operated tooth and the canal. Plain values; any thread. Never
+// a person's name, identifier or folder.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/operative_site.h"
 #include "assets/synthetic/jaw.h"
 #include "haptics/tool/tool.h"
 
@@ -23,6 +25,9 @@ struct SessionSetup {
   std::optional<assets::JawParameters> built_in;  ///< none: an imported patient
   std::vector<haptics::Tool> tray;                ///< the first in the hand at the start
   std::optional<FormerSession> former;            ///< none: the patient was untouched
+  std::optional<assets::OperativeSite> site;      ///< none: no such tooth, or recorded before it was stored
+  std::vector<glm::dvec3> canal_P_mm;             ///< centre line of the mandibular canal; empty: as `site`
+  double canal_radius_mm = 0.0;
 };
 
 }  // namespace app

@@ -33,6 +33,7 @@ struct SessionStart {
   /// Borrowed, in the order of `grid`: not 0 in the tooth to be removed (haptics/body/bodies); empty: the jaw is one
   /// body.
   std::span<const std::uint8_t> is_tooth = {};
+  std::span<const std::uint8_t> teeth = {};  ///< the same, numbers of the teeth; empty: not numbered
 };
 
 /// The start as stored, with its voxels; labels are those of this program.
@@ -42,6 +43,7 @@ struct StoredStart {
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
   std::vector<std::uint8_t> is_tooth;             ///< empty: one body, or recorded before it was stored
+  std::vector<std::uint8_t> teeth;                ///< FDI numbers; empty: none, or recorded before they were stored
   assets::SoftTissueField soft_tissue;            ///< empty: none, or recorded before it was stored
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was stored
   ServoBuild servo;

@@ -9,6 +9,7 @@
 #include "app/session/session_error.h"
 #include "assets/json_depth.h"
 #include "assets/tissue.h"
+#include "assets/tooth.h"
 
 namespace app {
 namespace {
@@ -94,11 +95,49 @@ json setupJson(const SessionSetup& setup) {
     object["continues"] = {{"file", setup.former->file},
                            {"duration_s", setup.former->duration_s},
                            {"bone_digest", fmt::format("{:016x}", setup.former->bone_digest)}};
+  const auto three = [](const glm::dvec3& v) { return json{v.x, v.y, v.z}; };
+  if (setup.site)
+    object["site"] = {{"fdi", setup.site->fdi},
+                      {"centre_P_mm", three(setup.site->centre_P_mm)},
+                      {"axis_P", three(setup.site->axis_P)}};
+  for (const glm::dvec3& p : setup.canal_P_mm) object["canal"]["line_P_mm"].push_back(three(p));
+  if (!setup.canal_P_mm.empty()) object["canal"]["radius_mm"] = setup.canal_radius_mm;
   return object;
+}
+
+glm::dvec3 vectorFrom(const json& three) {
+  if (!three.is_array() || three.size() != 3) throw damagedSession("it has no valid site");
+  glm::dvec3 vector;
+  for (int axis = 0; axis < 3; ++axis) {
+    const json& number = three[static_cast<std::size_t>(axis)];
+    if (!number.is_number() || !(std::abs(number.get<double>()) < 1e5)) throw damagedSession("it has no valid site");
+    vector[axis] = number.get<double>();
+  }
+  return vector;
+}
+
+void readSite(const json& object, SessionSetup& setup) {
+  if (const auto site = object.find("site"); site != object.end() && site->is_object()) {
+    const auto part = [&](const char* key) {
+      return site->contains(key) ? vectorFrom(site->at(key)) : glm::dvec3(0.0);
+    };
+    setup.site = assets::OperativeSite{valueOf(*site, "fdi", 0), part("centre_P_mm"), part("axis_P")};
+    const double length = glm::length(setup.site->axis_P);
+    if (!assets::isToothNumber(setup.site->fdi) || !(std::abs(length - 1.0) < 1e-3))
+      throw damagedSession("it has no valid site");
+  }
+  const auto canal = object.find("canal");
+  if (canal == object.end() || !canal->is_object()) return;
+  setup.canal_radius_mm = valueOf(*canal, "radius_mm", 0.0);
+  if (!(setup.canal_radius_mm >= 0.0 && setup.canal_radius_mm < 100.0)) throw damagedSession("it has no valid site");
+  const auto line = canal->find("line_P_mm");
+  if (line == canal->end() || !line->is_array()) return;
+  for (const json& p : *line) setup.canal_P_mm.push_back(vectorFrom(p));
 }
 
 SessionSetup setupFrom(const json& object) {
   SessionSetup setup;
+  readSite(object, setup);
   if (const auto jaw = object.find("built_in"); jaw != object.end() && jaw->is_object()) {
     setup.built_in.emplace();
     forEachParameter(*setup.built_in, [&](const char* key, auto& value) { value = valueOf(*jaw, key, value); });

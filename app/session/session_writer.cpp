@@ -134,6 +134,10 @@ struct SessionWriter::Impl {
       appendVolume(session_format::kIsTooth, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::ranges::copy(start.is_tooth.subspan(first, part.size()), part.begin());
       });
+    if (!start.teeth.empty())
+      appendVolume(session_format::kTeeth, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
+        std::ranges::copy(start.teeth.subspan(first, part.size()), part.begin());
+      });
     if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty()) appendSoftTissue(*start.soft_tissue);
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
   }
@@ -217,6 +221,7 @@ SessionWriter::SessionWriter(const std::string& path, bool overwrite, const Sess
   assert(start.solid.size() == start.grid.voxelCount());
   assert(start.label.empty() || start.label.size() == start.grid.voxelCount());
   assert(start.is_tooth.empty() || start.is_tooth.size() == start.grid.voxelCount());
+  assert(start.teeth.empty() || start.teeth.size() == start.grid.voxelCount());
   impl_->attempt([&] { impl_->begin(start); }, [] {});
 }
 

@@ -36,7 +36,11 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.soft_tissue = &soft_tissue;
   start.command = command;
   start.calibration = recording->calibration;
+  start.teeth = patient.ct.tooth;
   start.setup = recording->setup;
+  start.setup.site = patient.site;
+  start.setup.canal_P_mm = patient.mandibular_canal_P_mm;
+  start.setup.canal_radius_mm = patient.mandibular_canal_radius_mm;
   start.started_utc = calibration::nowUtc();
   try {
     return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log,

@@ -20,6 +20,10 @@ constexpr double kLowSite = 0.62;     ///< of the height: below, the text goes t
 constexpr double kPlateOfText = 1.7;  ///< height of the line's plate
 constexpr int kForceSteps = 24;
 constexpr double kShowGapBelow_mm = 10.0;
+constexpr double kBesideBur_mm = 7.0, kBesideSite_mm = 13.0;
+constexpr double kRulerWidth = 11.0, kRulerRow = 2.3;  ///< heights of the text
+constexpr double kRulerEnd_mm = 4.0;
+constexpr std::size_t kRulerRows = 3;
 
 /// Cells of the line from left to right, and which go first where even small letters do not fit.
 enum class Cells { bur, drive, water, force, gap, ruler, time };
@@ -85,7 +89,48 @@ void drop(const Drawing& drawing, const glm::dvec2& centre, double radius, const
   drawing.polygon(outline, ink);
 }
 
+/// A row of the ruler: name and number over a scale with a mark each millimetre.
+void drawClearance(const Drawing& to, const HeadUpClearance& near, double top, double width, double text) {
+  const Ink ink = near.level == assets::RiskLevel::red     ? kRedBar
+                  : near.level == assets::RiskLevel::amber ? kAmberBar
+                                                           : kCalm;
+  const std::string number = near.mm <= 0.0 ? "touched" : fmt::format("{:.1f} mm", near.mm);
+  const double inset = 0.5 * text, letters = 0.9 * text, middle = top + 0.85 * text;
+  const double number_width = to.textWidth(number, letters, true);
+  const double room = width - 2.4 * inset - number_width, name_width = to.textWidth(near.name, letters, true);
+  to.text(near.name, {inset, middle}, letters * std::min(1.0, room / name_width), kWhite, Align::left, true);
+  to.text(number, {width - inset, middle}, letters, ink, Align::right, true);
+  const glm::dvec2 corner{inset, top + 1.55 * text};
+  const double length = width - 2.0 * inset, thick = 0.45 * text;
+  to.box(corner, {length, thick}, kTrough);
+  to.box(corner, {length * std::clamp(near.mm / kRulerEnd_mm, near.mm <= 0.0 ? 1.0 : 0.02, 1.0), thick}, ink);
+  for (int mm = 1; mm < static_cast<int>(kRulerEnd_mm); ++mm)
+    to.box({corner.x + length * mm / kRulerEnd_mm - 0.5, corner.y - 0.12 * text}, {1.0, thick + 0.24 * text}, kWhite);
+}
+
 std::string gapText(double gap_mm) { return gap_mm <= 0.0 ? "contact" : fmt::format("gap {:.1f} mm", gap_mm); }
+
+/// Beside bur and site, on the side where the shaft is not, if there is room.
+void placeRuler(const calibration::Rig& rig, const render::Frame& frame, HeadUpPlace& place) {
+  const auto of_tool = [&](double z_mm) {
+    return placeOnScreen(rig, frame.X_PT * calibration::Point<calibration::Tool>{{0.0, 0.0, z_mm}});
+  };
+  constexpr double kWay_mm = 10.0;
+  const glm::dvec3 across_P_mm = glm::conjugate(rig.X_WP.rotation) * glm::dvec3(kWay_mm, 0.0, 0.0);
+  const glm::dvec2 site = placeOnScreen(rig, frame.site_P), bur = of_tool(0.0), shaft = of_tool(20.0),
+                   beside = placeOnScreen(rig, {frame.site_P.mm + across_P_mm});
+  const double per_mm = glm::distance(site, beside) / kWay_mm;
+  const double text = headUpTextHeight_px(place), width = kRulerWidth * text;
+  const double right = std::max(site.x + kBesideSite_mm * per_mm, bur.x + kBesideBur_mm * per_mm),
+               left = std::min(site.x - kBesideSite_mm * per_mm, bur.x - kBesideBur_mm * per_mm);
+  const double room_right = place.screen_px.x - right - width, room_left = left - width - place.reserved_left_px;
+  place.ruler_at_left = room_left > 0.0 && (shaft.x >= bur.x || room_right <= 0.0);
+  // In steps of a line of text, so that a resting hand leaves it where it is.
+  const double step = std::max(1.0, text);
+  const double x = place.ruler_at_left ? left : std::min(right, place.screen_px.x - width);
+  const double y = std::clamp(bur.y, 0.22 * place.screen_px.y, 0.74 * place.screen_px.y);
+  place.ruler_px = glm::ivec2(step * glm::round(glm::dvec2(x, y) / step));
+}
 
 }  // namespace
 
@@ -98,6 +143,7 @@ HeadUpPlace headUpPlace(const calibration::Rig& rig, render::DisplayMode mode, c
   const glm::ivec2 eye_px = render::eyeImageSize(mode, rig.screen.px);
   if (eye_px != rig.screen.px || render::isInterleaved(mode)) place.magnification = kFewerLines;
   place.at_top = placeOnScreen(rig, frame.site_P).y > kLowSite * place.screen_px.y;
+  placeRuler(rig, frame, place);
   return place;
 }
 
@@ -169,6 +215,25 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     in_line(Cells::time, time, [=](const Drawing& to, const glm::dvec2& size) {
       to.text(time, {size.x - 0.6 * text, 0.5 * size.y}, text, kWhite, Align::right, true);
     });
+  }
+
+  // The ruler beside the site: a scale of 4 mm for each structure, filled as far as there is room.
+  if (!c.clearances.empty()) {
+    const std::size_t rows = std::min(kRulerRows, c.clearances.size());
+    std::string content = "clearance";
+    for (std::size_t n = 0; n < rows; ++n)
+      content += fmt::format("\n{} {:.1f} {}", c.clearances[n].name, c.clearances[n].mm,
+                             static_cast<int>(c.clearances[n].level));
+    const double height = text, row_px = kRulerRow * height;
+    const glm::dvec2 size =
+        glm::ceil(glm::dvec2(kRulerWidth * height, row_px * static_cast<double>(rows) + 0.5 * height));
+    const glm::ivec2 corner(place.ruler_px.x - (place.ruler_at_left ? static_cast<int>(size.x) : 0),
+                            place.ruler_px.y - static_cast<int>(0.5 * size.y));
+    cells.push_back({content, corner, glm::ivec2(size), [=, near = c.clearances](const Drawing& to) {
+                       plate(to, size, 0.5 * height, kPlate);
+                       for (std::size_t n = 0; n < rows; ++n)
+                         drawClearance(to, near[n], row_px * static_cast<double>(n), size.x, height);
+                     }});
   }
 
   // Towards the middle: warnings, the task, the socket, what keeps the tooth in, then what was just said.

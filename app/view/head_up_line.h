@@ -1,8 +1,8 @@
 // What the surgeon reads in the picture: a line at its edge (bur, speed, water, force, gap, time), warnings and what
 // was just said next to it, and on request the sheet of keys. Panels in the plane of the screen
 // (render/display/overlay.h), each drawn again only when its own content changed. Never over the site: the line is at
-// the lower edge, or at the upper one where the site is low in the picture. Any one thread; a changed panel costs about
-// 0.1 ms.
+// the lower edge, or at the upper one where the site is low in the picture; the ruler of clearances stands beside bur
+// and site, where the shaft does not come in. Any one thread; a changed panel costs about 0.1 ms.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/report/drawing.h"
+#include "assets/risk_structures.h"
 #include "render/display/overlay.h"
 #include "render/frame.h"
 
@@ -32,6 +33,13 @@ struct HeadUpRing {
   glm::dvec2 middle{0.0};             ///< viewer's, in shares of the screen's height
 };
 
+/// A structure that the tool is near, for the ruler beside the site.
+struct HeadUpClearance {
+  std::string name;  ///< "canal"
+  double mm = 0.0;   ///< below 0 inside
+  assets::RiskLevel level = assets::RiskLevel::none;
+};
+
 struct HeadUpContent {
   bool line_shown = true;
   std::string bur;                          ///< "round 3.0 mm, ISO 030"
@@ -49,6 +57,7 @@ struct HeadUpContent {
   std::string site;  ///< state of the socket; empty: none
   std::string way;   ///< what keeps the tooth in; empty: not known
   HeadUpRing ring;
+  std::vector<HeadUpClearance> clearances;                ///< the most urgent first; three are shown
   std::vector<HeadUpWarning> warnings;                    ///< the most important first; two are shown
   std::vector<std::pair<std::string, std::string>> keys;  ///< key and meaning; empty: no sheet
 };
@@ -59,6 +68,10 @@ struct HeadUpPlace {
   int reserved_left_px = 0;    ///< a column that belongs to the CT slices
   bool at_top = false;         ///< the site is low in the picture
   double magnification = 1.0;  ///< of the letters, for displays that give an eye fewer lines
+  /// Of the ruler beside bur and site: the edge towards them and the height of its middle; on the side that the shaft
+  /// leaves free.
+  glm::ivec2 ruler_px{0};
+  bool ruler_at_left = false;
   bool operator==(const HeadUpPlace&) const = default;
 };
 

@@ -301,4 +301,11 @@ double clearance_mm(const StructureDistance& structure, const Tool& tool, const 
   return is_within ? field_mm : glm::mix(field_mm, outside_mm, std::clamp(outside_mm / voxel_mm, 0.0, 1.0));
 }
 
+Clearances clearances_mm(const assets::RiskStructures& structures, const Tool& tool, const ToolPose& X_PT) {
+  Clearances found;
+  for (std::size_t n = 0; n < found.size(); ++n)
+    if (!structures.distance[n].isEmpty()) found[n] = clearance_mm(structures.distance[n], tool, X_PT);
+  return found;
+}
+
 }  // namespace haptics

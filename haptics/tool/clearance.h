@@ -8,7 +8,10 @@
 // nearest, as D changes by no more than the way, until the middle of a patch is its least within 0.15 voxels.
 #pragma once
 
-#include "assets/structure_distance.h"
+#include <array>
+#include <optional>
+
+#include "assets/risk_structures.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "haptics/tool/tool.h"
@@ -18,5 +21,10 @@ namespace haptics {
 /// `structure` not empty (assert), `tool` sanitised.
 double clearance_mm(const assets::StructureDistance& structure, const Tool& tool,
                     const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT);
+
+/// In the order of assets::RiskStructure; none where the case has no such structure.
+using Clearances = std::array<std::optional<double>, assets::kRiskStructures>;
+Clearances clearances_mm(const assets::RiskStructures& structures, const Tool& tool,
+                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT);
 
 }  // namespace haptics

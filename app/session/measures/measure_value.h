@@ -13,6 +13,7 @@ struct MeasureValue {
   std::optional<double> value;      ///< none: the recording cannot tell, see `why`
   std::string_view why;             ///< words, where there is no value
   std::optional<double> t_s;        ///< the moment it is of
+  std::string conditions = {};      ///< that it depends on; empty: none but the recording's
 };
 
 }  // namespace app

@@ -13,6 +13,9 @@
 namespace app {
 namespace {
 
+using assets::RiskStructure;
+using assets::RiskStructures;
+
 constexpr double kHalfVoxel_mm = 0.25;
 
 TEST(RiskStructures, AreAsFarAsTheirClosedForms) {

@@ -2,6 +2,9 @@
 // tests/app/case/risk_structures_test.cpp.
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
+#include "app/session/session_reader.h"
 #include "assets/patient/patient_folder.h"
 #include "tests/app/case/block_with_risks.h"
 #include "tests/app/commands/program.h"
@@ -90,6 +93,30 @@ TEST_F(ClearanceCommand, LeavesEmptyWhatACaseDoesNotHave) {
   const std::string row = rows("f.csv").at(1);
   EXPECT_EQ(row.substr(row.size() - 2), ",,");
   EXPECT_NE(row.substr(0, 3), "0,,");
+}
+
+/// Live, from the recording, and by the command on the poses of the recording's moment.
+TEST_F(ClearanceCommand, OfARehearsalIsTheSameLiveAndMeasured) {
+  const ProgramOutput said =
+      molar("rehearse --headless --voxel 0.5 --device scripted --pace fast --seconds 12 --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("came as near as"), std::string::npos) << said.out;
+  nlohmann::json live;
+  for (const SessionEvent& event : SessionReader(at("s.molar")).events())
+    if (event.kind == "clearance") live = nlohmann::json::parse(event.text);
+  ASSERT_TRUE(live.is_object());
+  const ProgramOutput measured = molar("metrics " + at("s.molar") + " --json");
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const auto measures = nlohmann::json::parse(measured.out).at("measures");
+  for (const char* key : {"canal", "lingual", "second_molar", "lingual_nerve"}) {
+    const auto measure = std::ranges::find_if(
+        measures, [&](const nlohmann::json& one) { return one.at("id") == "S1." + std::string(key); });
+    ASSERT_NE(measure, measures.end()) << key;
+    ASSERT_TRUE(live.contains(key)) << key;
+    EXPECT_EQ(measure->at("value"), live.at(key).at("mm")) << key;
+    EXPECT_EQ(measure->at("t_s"), live.at(key).at("t_s")) << key;
+    EXPECT_NE(measure->at("conditions").get<std::string>().find("0.5 mm"), std::string::npos) << key;
+  }
 }
 
 TEST_F(ClearanceCommand, RefusesInOneLineAndWritesNothing) {

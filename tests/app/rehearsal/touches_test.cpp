@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/case/risk_structures.h"
+#include "assets/scan/label_distance.h"
 #include "assets/tissue.h"
 
 namespace app {
@@ -10,7 +12,8 @@ namespace {
 /// Tooth 47 left of x = -3 mm, 48 right of x = 3 mm, bone between them; the canal along x, 6 mm below the middle.
 struct Jaw {
   assets::Patient patient;
-  haptics::BurShape round{haptics::ShapeKind::sphere, 1.5, 0.0};
+  haptics::Tool round{{haptics::ShapeKind::sphere, 1.5, 0.0}, {}};
+  assets::StructureDistance canal;
   std::vector<haptics::Tick> ticks;
 
   Jaw() {
@@ -26,6 +29,7 @@ struct Jaw {
     patient.site.emplace().fdi = 48;
     patient.mandibular_canal_P_mm = {{-9.0, 0.0, -6.0}, {9.0, 0.0, -6.0}};
     patient.mandibular_canal_radius_mm = 1.0;
+    canal = assets::structureDistance(ct.grid, voxelsOf(assets::RiskStructure::canal, patient), glm::dvec3(0.0));
   }
   /// Ticks of a millisecond with the bur there.
   void stay(int ms, const glm::dvec3& at_P_mm, bool in_contact, assets::Tissue tissue = assets::Tissue::enamel) {
@@ -51,7 +55,7 @@ TEST(Touches, CountTouchesShorterThanAFrameAndJoinThoseWithoutAPause) {
   jaw.stay(300, at_47, false);
   jaw.stay(40, at_47, true);
   // In frames of a sixtieth of a second.
-  Touches touches(jaw.patient);
+  Touches touches(jaw.patient, jaw.canal);
   std::size_t ended = 0;
   for (std::size_t from = 0; from < jaw.ticks.size(); from += 17)
     ended +=
@@ -75,7 +79,7 @@ TEST(Touches, TellTheTeethApartAndLeaveBoneOut) {
   jaw.stay(10, {4.0, 0.0, 0.0}, true, assets::Tissue::cortical);
   jaw.stay(10, {0.0, 0.0, 0.0}, true);  // farther than its radius and half a voxel from both
   jaw.stay(10, {-4.4, 0.0, 0.0}, false);
-  Touches touches(jaw.patient);
+  Touches touches(jaw.patient, jaw.canal);
   touches.follow(jaw.ticks, jaw.round);
   touches.finish();
   ASSERT_EQ(touches.counts().size(), 1u);
@@ -85,13 +89,11 @@ TEST(Touches, TellTheTeethApartAndLeaveBoneOut) {
 
 TEST(Touches, ReachTheCanalWhereTheHeadMeetsItsWall) {
   Jaw jaw;
-  haptics::Tick tick;
-  tick.proxy_P.mm = {1.0, 0.0, -3.0};
-  EXPECT_NEAR(*canalGap_mm(tick, jaw.round, jaw.patient), 3.0 - 1.5 - 1.0, 1e-12);
-  jaw.stay(10, {1.0, 0.0, -3.45}, true, assets::Tissue::trabecular);
-  jaw.stay(20, {1.0, 0.0, -3.55}, true, assets::Tissue::trabecular);
-  jaw.stay(30, {1.0, 0.0, -3.55}, false, assets::Tissue::trabecular);
-  Touches touches(jaw.patient);
+  // To half a voxel: the labels' own.
+  jaw.stay(10, {1.0, 0.0, -3.2}, true, assets::Tissue::trabecular);
+  jaw.stay(20, {1.0, 0.0, -3.8}, true, assets::Tissue::trabecular);
+  jaw.stay(30, {1.0, 0.0, -3.8}, false, assets::Tissue::trabecular);
+  Touches touches(jaw.patient, jaw.canal);
   touches.follow(jaw.ticks, jaw.round);
   touches.finish();
   ASSERT_EQ(touches.counts().size(), 1u);

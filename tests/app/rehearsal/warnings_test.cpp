@@ -17,7 +17,8 @@ struct Scene {
   haptics::Command command;
   assets::Patient patient;
   bool has_motors = false, recording_ended = false;
-  std::optional<double> jaw_N_per_mm2;
+  std::optional<double> jaw_N_per_mm2, canal_mm;
+  bool is_blind = false;
   Warnings warnings;
 
   Scene() {
@@ -31,6 +32,8 @@ struct Scene {
   std::vector<HeadUpWarning> shown() {
     Situation situation = situationOf(tick, command, patient, has_motors, recording_ended);
     situation.jaw_N_per_mm2 = jaw_N_per_mm2;
+    situation.canal_mm = canal_mm;
+    situation.is_blind = is_blind;
     return warnings.update(situation);
   }
   std::string first() {
@@ -131,12 +134,14 @@ TEST(Warnings, NeighbourToothButNotTheOperatedOne) {
 
 TEST(Warnings, DistanceToTheNerveBelowTwoMillimetres) {
   Scene scene;
-  scene.patient.mandibular_canal_P_mm = {{-20, 0, -6}, {20, 0, -6}};
-  scene.patient.mandibular_canal_radius_mm = 1.5;
-  scene.command.tool.head = {haptics::ShapeKind::sphere, 1.0, 0.0};
-  EXPECT_EQ(scene.first(), "") << "3.5 mm";
-  scene.tick.proxy_P = {glm::dvec3(0.0, 0.0, -2.0)};
+  scene.canal_mm = 3.5;
+  EXPECT_EQ(scene.first(), "");
+  scene.canal_mm = 1.5;
+  scene.is_blind = true;
+  EXPECT_EQ(scene.first(), "") << "counted, not told";
+  scene.is_blind = false;
   EXPECT_EQ(scene.first(), "Nerve 1.5 mm");
+  EXPECT_EQ(scene.warnings.counts().front().times, 1);
   scene.tick.contact_tissue = static_cast<std::uint8_t>(assets::Tissue::mandibular_canal);
   scene.tick.overlap_mm3 = 0.1;
   scene.tick.drilling = true;
