@@ -128,7 +128,9 @@ void placeRuler(const calibration::Rig& rig, const render::Frame& frame, HeadUpP
   // In steps of a line of text, so that a resting hand leaves it where it is.
   const double step = std::max(1.0, text);
   const double x = place.ruler_at_left ? left : std::min(right, place.screen_px.x - width);
-  const double y = std::clamp(bur.y, 0.22 * place.screen_px.y, 0.74 * place.screen_px.y);
+  // The half of the picture where the line and its warnings are is theirs.
+  const double y = std::clamp(bur.y, (place.at_top ? 0.42 : 0.15) * place.screen_px.y,
+                              (place.at_top ? 0.85 : 0.58) * place.screen_px.y);
   place.ruler_px = glm::ivec2(step * glm::round(glm::dvec2(x, y) / step));
 }
 
@@ -217,25 +219,6 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     });
   }
 
-  // The ruler beside the site: a scale of 4 mm for each structure, filled as far as there is room.
-  if (!c.clearances.empty()) {
-    const std::size_t rows = std::min(kRulerRows, c.clearances.size());
-    std::string content = "clearance";
-    for (std::size_t n = 0; n < rows; ++n)
-      content += fmt::format("\n{} {:.1f} {}", c.clearances[n].name, c.clearances[n].mm,
-                             static_cast<int>(c.clearances[n].level));
-    const double height = text, row_px = kRulerRow * height;
-    const glm::dvec2 size =
-        glm::ceil(glm::dvec2(kRulerWidth * height, row_px * static_cast<double>(rows) + 0.5 * height));
-    const glm::ivec2 corner(place.ruler_px.x - (place.ruler_at_left ? static_cast<int>(size.x) : 0),
-                            place.ruler_px.y - static_cast<int>(0.5 * size.y));
-    cells.push_back({content, corner, glm::ivec2(size), [=, near = c.clearances](const Drawing& to) {
-                       plate(to, size, 0.5 * height, kPlate);
-                       for (std::size_t n = 0; n < rows; ++n)
-                         drawClearance(to, near[n], row_px * static_cast<double>(n), size.x, height);
-                     }});
-  }
-
   // Towards the middle: warnings, the task, the socket, what keeps the tooth in, then what was just said.
   const auto stacked = [&](const std::string& words, double height, const Ink& ink, const Ink& ground) {
     if (words.empty()) return;
@@ -262,6 +245,30 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
   stacked(c.site, text, kWhite, kPlate);
   stacked(c.way, text, kWhite, kPlate);
   stacked(c.said, text, kWhite, kPlate);
+
+  // The ruler beside the site: a scale of 4 mm for each structure, filled as far as there is room. Off the other
+  // panels.
+  if (!c.clearances.empty()) {
+    const std::size_t rows = std::min(kRulerRows, c.clearances.size());
+    std::string content = "clearance";
+    for (std::size_t n = 0; n < rows; ++n) {
+      const HeadUpClearance& near = c.clearances[n];
+      content += fmt::format("\n{} {:.1f} {}", near.name, near.mm, static_cast<int>(near.level));
+    }
+    const double row_px = kRulerRow * text;
+    const glm::ivec2 size(glm::ceil(glm::dvec2(kRulerWidth * text, row_px * static_cast<double>(rows) + 0.5 * text)));
+    glm::ivec2 corner = place.ruler_px - glm::ivec2(place.ruler_at_left ? size.x : 0, size.y / 2);
+    for (const Cell& cell : cells) {
+      if (cell.corner_px.x >= corner.x + size.x || corner.x >= cell.corner_px.x + cell.size_px.x) continue;
+      const int below = cell.corner_px.y + cell.size_px.y, gap = static_cast<int>(0.3 * text);
+      corner.y = place.at_top ? std::max(corner.y, below + gap) : std::min(corner.y, cell.corner_px.y - size.y - gap);
+    }
+    cells.push_back({content, corner, size, [=, near = c.clearances](const Drawing& to) {
+                       plate(to, size, 0.5 * text, kPlate);
+                       for (std::size_t n = 0; n < rows; ++n)
+                         drawClearance(to, near[n], row_px * static_cast<double>(n), size.x, text);
+                     }});
+  }
 
   if (!c.keys.empty()) {
     const std::size_t rows = (c.keys.size() + 1) / 2;

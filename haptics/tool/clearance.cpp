@@ -222,12 +222,12 @@ void addShaft(const Tool& tool, Outlines& outlines) {
   outlines.addEdge({end, r});
 }
 
-/// The least of the field over a tool's surface: of a sphere its centre's, less the radius. kReach_mm: it is farther.
-double inField_mm(const StructureDistance& structure, const Tool& tool, const ToolPose& X_PT) {
+/// The least of the field over a tool's surface: of a sphere its centre's, less the radius. `found_mm`: if none is
+/// less.
+double inField_mm(const StructureDistance& structure, const Tool& tool, const ToolPose& X_PT, double found_mm) {
   const bool is_sphere = tool.head.kind == ShapeKind::sphere;
-  const double of_sphere_mm =
-      is_sphere ? structure.at_mm(X_PT.translation_mm) - tool.head.radius_mm : std::numeric_limits<double>::max();
-  LeastOver least(structure, X_PT, std::min(of_sphere_mm, StructureDistance::kReach_mm));
+  if (is_sphere) found_mm = std::min(found_mm, structure.at_mm(X_PT.translation_mm) - tool.head.radius_mm);
+  LeastOver least(structure, X_PT, found_mm);
   Outlines head, shaft;
   addHead(tool.head, head);
   addShaft(tool, shaft);
@@ -297,7 +297,7 @@ double clearance_mm(const StructureDistance& structure, const Tool& tool, const 
   }) - StructureDistance::kSurface_voxels * voxel_mm;
   const bool is_within = structure.near_mm(X_PT.translation_mm) < 0.0;
   if (outside_mm >= voxel_mm && !is_within) return outside_mm;
-  const double field_mm = std::min(outside_mm, inField_mm(structure, tool, X_PT));
+  const double field_mm = inField_mm(structure, tool, X_PT, outside_mm);
   return is_within ? field_mm : glm::mix(field_mm, outside_mm, std::clamp(outside_mm / voxel_mm, 0.0, 1.0));
 }
 

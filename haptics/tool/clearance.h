@@ -1,6 +1,6 @@
 // How near a tool's surface is to a structure of the patient (canal, second molar, …): from head and shaft, negative
 // where it lies inside. Frame P, mm. A pure function of its arguments, so a recording gives the live numbers. Any
-// thread but the servo; allocates where they touch; 3 to 5 µs for a bur of R = 2 mm with its shaft, 16 to 24 touching
+// thread but the servo; allocates where they touch; 2 to 4 µs for a bur of R = 2 mm with its shaft, 11 to 18 touching
 // (clearance_bench).
 //
 // Outside: the least distance of the structure's voxels from the tool, a closed form. Touching: the least of the signed

@@ -124,6 +124,52 @@ TEST(HeadUpLine, IsInThePictureAndNeverOverTheSite) {
         }
 }
 
+// For every screen, wherever bur and shaft are: beside both bur and site, inside the picture, on no other panel.
+TEST(HeadUpLine, TheRulerStandsBesideBurAndSite) {
+  for (const glm::ivec2 px : {glm::ivec2(1280, 800), glm::ivec2(640, 400), glm::ivec2(1920, 1080)})
+    for (const double rise_mm : {-15.0, 0.0, 15.0})
+      for (const double bur_x_mm : {-12.0, 0.0, 9.0})
+        for (const double bur_z_mm : {-14.0, 0.0, 14.0})
+          for (const double shaft_rad : {0.7, -0.7})
+            for (const auto mode : {render::DisplayMode::mono, render::DisplayMode::side_by_side}) {
+              render::Frame frame = frameOf(px, rise_mm);
+              frame.X_PT = {glm::angleAxis(shaft_rad, glm::dvec3(0, 1, 0)), {bur_x_mm, 0.0, bur_z_mm + rise_mm}};
+              HeadUpContent content = atWork();
+              HeadUpLine without, with;
+              const HeadUpPlace place = headUpPlace(frame.rig, mode, frame);
+              without.update(content, place);
+              content.clearances = {{"canal", 0.4, assets::RiskLevel::red},
+                                    {"second molar", 0.4, assets::RiskLevel::amber},
+                                    {"lingual nerve (modelled)", 1.2, assets::RiskLevel::note},
+                                    {"lingual plate", 1.9, assets::RiskLevel::note}};
+              ASSERT_TRUE(with.update(content, place));
+              ASSERT_EQ(with.panels().size(), without.panels().size() + 1) << "three rows on one panel";
+              const auto ruler = std::ranges::find_if(with.panels(), [&](const render::OverlayPanel& panel) {
+                return std::ranges::none_of(without.panels(), [&](const render::OverlayPanel& old) {
+                  return old.corner_px == panel.corner_px && old.image.w == panel.image.w;
+                });
+              });
+              ASSERT_NE(ruler, with.panels().end());
+              EXPECT_GE(ruler->corner_px.x, 0);
+              EXPECT_GE(ruler->corner_px.y, 0);
+              EXPECT_LE(ruler->corner_px.x + ruler->image.w, px.x);
+              EXPECT_LE(ruler->corner_px.y + ruler->image.h, px.y);
+              // The camera's picture is 2 * 300 * tan(0.15) mm high.
+              const double per_mm = px.y / (600.0 * std::tan(0.15));
+              for (const double x_mm : {0.0, bur_x_mm}) {
+                const double x_px = 0.5 * px.x + per_mm * x_mm;
+                EXPECT_TRUE(ruler->corner_px.x > x_px + 4.0 * per_mm ||
+                            ruler->corner_px.x + ruler->image.w < x_px - 4.0 * per_mm)
+                    << px.x << " bur at " << bur_x_mm << ", " << bur_z_mm;
+              }
+              for (const render::OverlayPanel& panel : with.panels()) {
+                if (&panel != &*ruler) {
+                  EXPECT_FALSE(overlap(panel, *ruler)) << px.x << " rise " << rise_mm << " bur at " << bur_z_mm;
+                }
+              }
+            }
+}
+
 TEST(HeadUpLine, DrawsOnlyWhatChanged) {
   const render::Frame frame = frameOf({1280, 800});
   const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
