@@ -3,7 +3,7 @@
 // own, from a copy of the bodies; a newer question replaces an older one, and what was found of bodies that have
 // changed since is dropped. For display and record: the servo never hears of it. Main thread, once a frame; a question
 // costs it the copy of the pieces (2 to 8 ms each), and where the servo is stepped it waits for the answer. The end
-// waits 0.3 s at most for a search to stop. Frame P, mm.
+// waits some tenths of a second at most for a search to stop. Frame P, mm.
 #pragma once
 
 #include <array>

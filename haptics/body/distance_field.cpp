@@ -29,7 +29,8 @@ float distanceFrom(std::array<float, 3> d_mm, float edge_mm) {
 
 }  // namespace
 
-DistanceField::DistanceField(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, double band_mm)
+DistanceField::DistanceField(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, double band_mm,
+                             const std::stop_token& stop)
     : grid_(grid),
       last_(grid.size - 1),
       band_mm_(static_cast<float>(band_mm)),
@@ -37,7 +38,7 @@ DistanceField::DistanceField(const assets::VolumeGrid& grid, std::span<const std
   assert(solid.size() == grid.voxelCount());
   std::vector<std::uint8_t> is_fixed(solid.size(), 0);
   startAtCrossings(solid, is_fixed);
-  for (int n = 0; n < 8; ++n) sweep(is_fixed, solid, 1 - 2 * assets::cornerOffset(n));
+  for (int n = 0; n < 8 && !stop.stop_requested(); ++n) sweep(is_fixed, solid, 1 - 2 * assets::cornerOffset(n));
   for (std::size_t v = 0; v < solid.size(); ++v)
     if (isSolid(solid[v])) distance_mm_[v] = -distance_mm_[v];
 }

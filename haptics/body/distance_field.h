@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "assets/volume_grid.h"
@@ -15,8 +16,10 @@ namespace haptics {
 
 class DistanceField {
  public:
-  /// `solid` in the order of the grid (assert). Farther than `band_mm` from the surface the field holds the band.
-  DistanceField(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, double band_mm);
+  /// `solid` in the order of the grid (assert). Farther than `band_mm` from the surface the field holds the band. One
+  /// that was told to stop holds what it had.
+  DistanceField(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, double band_mm,
+                const std::stop_token& stop = {});
 
   const assets::VolumeGrid& grid() const { return grid_; }
   float atVoxel(std::size_t v) const { return distance_mm_[v]; }

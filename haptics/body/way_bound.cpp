@@ -23,7 +23,7 @@ double frontInSolid_mm2(double radius_mm, double clearance_mm) {
 }  // namespace
 
 WayBound::WayBound(const DistanceField& obstacles, const Ball& ball, const glm::dvec3& direction, double distance_mm,
-                   double length_price, double solid_price)
+                   double length_price, double solid_price, const std::stop_token& stop)
     : start_mm_(ball.start_mm), direction_(direction), distance_mm_(distance_mm), length_price_(length_price) {
   const assets::VolumeGrid& fine = obstacles.grid();
   const glm::dvec3 extent_mm = fine.spacing_mm * glm::dvec3(fine.size - 1);
@@ -42,7 +42,7 @@ WayBound::WayBound(const DistanceField& obstacles, const Ball& ball, const glm::
     const bool is_border = glm::any(glm::equal(ijk, glm::ivec3(0))) || glm::any(glm::equal(ijk, grid_.size - 1));
     if (rest <= 0.0 || is_border) open.emplace(cost_[v] = static_cast<float>(rest), v);
   });
-  while (!open.empty()) {
+  while (!open.empty() && !stop.stop_requested()) {
     const float cost = open.top().first;
     const std::size_t v = open.top().second;
     open.pop();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <stop_token>
 #include <vector>
 
 #include "haptics/body/distance_field.h"
@@ -18,9 +19,9 @@ class WayBound {
     double radius_mm;
   };
   /// `length_price` per mm, `solid_price` per mm^3. The goal: `distance_mm` along `direction` from the start. The
-  /// obstacles' band must reach the ball's radius.
+  /// obstacles' band must reach the ball's radius. One that was told to stop is not the least.
   WayBound(const DistanceField& obstacles, const Ball& ball, const glm::dvec3& direction, double distance_mm,
-           double length_price, double solid_price);
+           double length_price, double solid_price, const std::stop_token& stop = {});
 
   /// Of a ball whose centre lies there.
   double at(const glm::dvec3& centre_mm) const;

@@ -45,21 +45,22 @@ struct SearchedPiece {
 };
 
 /// Two voxels of air all around, so that its surface closes.
-DistanceField paddedField(const SolidVoxels& piece) {
+DistanceField paddedField(const SolidVoxels& piece, const std::stop_token& stop) {
   constexpr int kAround = 2;
   const assets::VolumeGrid padded{piece.grid.size + 2 * kAround, piece.grid.spacing_mm,
                                   piece.grid.centre_P_mm(glm::ivec3(-kAround))};
   std::vector<std::uint8_t> solid(padded.voxelCount(), 0);
   assets::forVoxels(piece.grid,
                     [&](glm::ivec3 ijk, std::size_t v) { solid[padded.index(ijk + kAround)] = piece.solid[v]; });
-  return {padded, solid, kBeyondAnyTooth_mm};
+  return {padded, solid, kBeyondAnyTooth_mm, stop};
 }
 
-std::optional<SearchedPiece> searchedPiece(const SolidVoxels& volume) {
-  SearchedPiece piece{paddedField(volume), {}, 0.0, 0.0, {}, {}, {}};
+/// None: nothing is solid, or it was stopped.
+std::optional<SearchedPiece> searchedPiece(const SolidVoxels& volume, const std::stop_token& stop) {
+  SearchedPiece piece{paddedField(volume, stop), {}, 0.0, 0.0, {}, {}, {}};
   const assets::VolumeGrid& grid = piece.field.grid();
   const assets::VoxelSum inside = assets::voxelSum(grid, [&](std::size_t v) { return piece.field.atVoxel(v) < 0.0F; });
-  if (inside.count == 0.0) return std::nullopt;
+  if (inside.count == 0.0 || stop.stop_requested()) return std::nullopt;
   // Of a root that is as thick everywhere, the place nearest to its middle.
   const glm::dvec3 centroid = inside.sum / inside.count;
   double best_mm = -kBeyondAnyTooth_mm;
@@ -74,6 +75,7 @@ std::optional<SearchedPiece> searchedPiece(const SolidVoxels& volume) {
   });
   piece.coarse = surfacePoints(piece.field, piece.middle_mm, kCoarse_mm);
   piece.fine = surfacePoints(piece.field, piece.middle_mm, kFine_mm);
+  if (stop.stop_requested()) return std::nullopt;
   for (const glm::vec3& p_mm : piece.fine.at_mm)
     piece.reach_mm = std::max(piece.reach_mm, static_cast<double>(glm::length(p_mm)));
   const int lattice = static_cast<int>(piece.reach_mm / kShell_mm) + 1;
@@ -247,10 +249,11 @@ Placement settled(const Placement& start, const SearchedPiece& piece, const Surr
 
 /// Solid voxels deeper than kPlay_mm in the piece at any pose of the way.
 std::vector<std::size_t> sweptBy(const std::vector<Placement>& way, const SearchedPiece& piece,
-                                 const Surroundings& around) {
+                                 const Surroundings& around, const std::stop_token& stop) {
   const assets::VolumeGrid& grid = around.volume.grid;
   std::vector<std::uint8_t> is_swept(grid.voxelCount(), 0);
   for (const Placement& at : way) {
+    if (stop.stop_requested()) return {};
     if (overlap_mm3(piece.fine, at, around.field, kPlay_mm) <= 0.0) continue;
     const glm::mat3 back(glm::mat3_cast(glm::conjugate(at.rotation)));
     const glm::dvec3 middle = grid.indexFromPoint(at.at_mm);
@@ -269,10 +272,12 @@ std::vector<std::size_t> sweptBy(const std::vector<Placement>& way, const Search
   return swept;
 }
 
-WayOut wayOutAlong(const std::vector<Placement>& way, const SearchedPiece& piece, const Surroundings& around) {
+WayOut wayOutAlong(const std::vector<Placement>& way, const SearchedPiece& piece, const Surroundings& around,
+                   const std::stop_token& stop) {
   WayOut out;
   std::vector<Placement> tight = way;
-  for (Placement& at : tight) at = settled(at, piece, around);
+  for (Placement& at : tight)
+    if (!stop.stop_requested()) at = settled(at, piece, around);
   for (std::size_t n = 0; n < tight.size(); ++n) {
     const Placement& at = tight[n];
     if (n > 0) out.length_mm += glm::length(at.at_mm - tight[n - 1].at_mm);
@@ -280,7 +285,7 @@ WayOut wayOutAlong(const std::vector<Placement>& way, const SearchedPiece& piece
     out.turned_rad = std::max(out.turned_rad, 2.0 * std::atan2(glm::length(sine), std::abs(at.rotation.w)));
     out.path_X_PQ.push_back({at.rotation, at.at_mm - at.rotation * piece.middle_mm});
   }
-  out.in_the_way = sweptBy(tight, piece, around);
+  out.in_the_way = sweptBy(tight, piece, around, stop);
   out.in_the_way_mm3 = static_cast<double>(out.in_the_way.size()) * around.volume.grid.voxelVolume_mm3();
   out.answer = out.in_the_way_mm3 < kGrazes_mm3    ? WayOutAnswer::free
                : out.in_the_way_mm3 < kBlocked_mm3 ? WayOutAnswer::grazes
@@ -318,13 +323,14 @@ std::vector<Placement> straightWay(const SearchedPiece& piece, const Surrounding
 WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const WayOutGoal& goal,
                   const std::stop_token& stop) {
   assert(obstacles.solid.size() == obstacles.grid.voxelCount() && volume.solid.size() == volume.grid.voxelCount());
-  const std::optional<SearchedPiece> piece = searchedPiece(volume);
+  const std::optional<SearchedPiece> piece = searchedPiece(volume, stop);
   if (!piece || stop.stop_requested()) return {};
-  const Surroundings around{obstacles, {obstacles.grid, obstacles.solid, std::max(1.5, piece->ball_mm + 0.5)}};
+  const Surroundings around{obstacles, {obstacles.grid, obstacles.solid, std::max(1.5, piece->ball_mm + 0.5), stop}};
+  if (stop.stop_requested()) return {};
   WayOut best;
   const auto keep = [&](const std::vector<Placement>& way) {
     if (way.empty() || stop.stop_requested()) return;
-    WayOut found = wayOutAlong(way, *piece, around);
+    WayOut found = wayOutAlong(way, *piece, around, stop);
     if (best.answer == WayOutAnswer::not_found || found.in_the_way.size() < best.in_the_way.size())
       best = std::move(found);
   };
@@ -334,9 +340,11 @@ WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& volume, const
 
   const auto bound = [&](double per_mm) {
     return WayBound(around.field, {piece->middle_mm, piece->ball_mm}, goal.direction, goal.distance_mm, per_mm,
-                    kSolidEagerness * kSolidPrice);
+                    kSolidEagerness * kSolidPrice, stop);
   };
-  const WayBound patient = bound(3.0), eager = bound(8.0);
+  const WayBound patient = bound(3.0);
+  if (stop.stop_requested()) return {};
+  const WayBound eager = bound(8.0);
   Search search(*piece, around, goal);
   // A price of grazing keeps it off the walls but makes it wander; the least that is cut wins. Those that find a way at
   // once cost next to nothing.

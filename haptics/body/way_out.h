@@ -49,8 +49,8 @@ struct SolidVoxels {
 };
 
 /// Both where they are now. The obstacles' grid should reach goal.distance_mm beyond the piece; outside it the nearest
-/// place of it counts. Without a solid voxel of the piece: not found; also when it was told to stop, which takes 0.2 s
-/// at most.
+/// place of it counts. Without a solid voxel of the piece: not found; also when it was told to stop, which takes some
+/// tenths of a second at most.
 WayOut findWayOut(const SolidVoxels& obstacles, const SolidVoxels& piece, const WayOutGoal& goal,
                   const std::stop_token& stop = {});
 
