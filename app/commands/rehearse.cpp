@@ -404,6 +404,9 @@ int run(RehearseOptions& options) {
   plan.sound = !options.no_sound;
   const bool is_assessed = plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed;
   plan.shows_clearance = options.clearance.empty() ? !is_assessed : options.clearance == "view";
+  plan.sounds_clearance = options.clearance == "sound";
+  if (plan.sounds_clearance && (options.no_sound || plan.headless))
+    throw UsageError("--clearance sound: there is no sound with --no-sound or --headless, leave one of them out");
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);

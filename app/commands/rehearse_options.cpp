@@ -125,10 +125,12 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.flag("--no-sound", options.no_sound, "Without the sound of handpiece and cut (key S)");
   command.flag("--no-line", options.no_line, "Without the line of text in the picture (key L shows it)");
   command
-      .option("--clearance", options.clearance,
-              "view: mm to canal, lingual plate, second molar and lingual nerve (modelled) on a ruler beside the site, "
-              "where the bur is near; off: blind, they are recorded and not told [view; off where assessed]")
-      .oneOf({"view", "off"});
+      .option(
+          "--clearance", options.clearance,
+          "view: mm to canal, lingual plate, second molar and lingual nerve (modelled) on a ruler beside the site, "
+          "where the bur is near; sound: by tones instead; off: blind, they are recorded and not told [view; off where "
+          "assessed]")
+      .oneOf({"view", "sound", "off"});
   command.optionGroup("Output");
   Option record = command
                       .option("--record", options.record,

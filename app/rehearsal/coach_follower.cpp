@@ -12,10 +12,14 @@ CoachFollower::CoachFollower(CoachRules rules, const assets::Patient& patient, E
   if (waits) surface_ = coming_.get();
 }
 
-void CoachFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
+void CoachFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
+                           const haptics::Clearances& clearances) {
+  std::optional<double> nearest_mm;
+  for (const std::optional<double>& one : clearances)
+    if (one && (!nearest_mm || *one < *nearest_mm)) nearest_mm = one;
   if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     surface_ = coming_.get();
-  for (const haptics::Tick& tick : ticks) coach_.add(workSample(tick, command, surface_.get()));
+  for (const haptics::Tick& tick : ticks) coach_.add(workSample(tick, command, surface_.get()), nearest_mm);
 }
 
 std::optional<std::string> CoachFollower::news() {

@@ -13,6 +13,7 @@
 #include "app/rehearsal/event_log.h"
 #include "app/session/measures/original_surface.h"
 #include "assets/patient.h"
+#include "haptics/tool/clearance.h"
 
 namespace app {
 
@@ -21,8 +22,9 @@ class CoachFollower {
   /// Borrows patient and log. `waits`: for the surface, so that a stepped rehearsal says the same each time.
   CoachFollower(CoachRules rules, const assets::Patient& patient, EventLog& event_log, bool waits);
 
-  /// All ticks, in order, made with this command.
-  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command);
+  /// All ticks, in order, made with this command; `clearances` of the newest.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
+              const haptics::Clearances& clearances);
   std::optional<std::string> news();
 
  private:

@@ -219,8 +219,9 @@ class Rehearsal {
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
     followLuxation(ticks);
-    if (sound_) sound_->follow(ticks, command);
-    if (coach_) coach_->follow(ticks, command);
+    if (sound_)
+      sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
+    if (coach_) coach_->follow(ticks, command, clearance_.now());
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
     head_up_.follow(ticks, command.irrigating);

@@ -42,6 +42,7 @@ struct RehearsalPlan {
   assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
   assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told
   bool shows_clearance = true;              ///< in the picture; it is recorded in any case
+  bool sounds_clearance = false;            ///< told by tones
   calibration::Rig rig;
   bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own
   render::DisplayMode display = render::DisplayMode::mono;

@@ -12,7 +12,6 @@
 #include <fmt/core.h>
 
 #include "app/sound/sound_card.h"
-#include "app/sound/work_sound.h"
 #include "haptics/spsc_ring.h"
 
 namespace app {
@@ -64,7 +63,7 @@ struct LiveSound::Player {
       if (left == 0) takeNext();
       const std::size_t count = std::min(left, samples.size());
       synth->render(current.control, samples.first(count));
-      current.control.crack_mJ = 0.0;
+      current.control.crack_Nmm = 0.0;
       current.control.fibres = 0;
       left -= count;
       if (muted.load(std::memory_order_relaxed)) std::ranges::fill(samples.first(count), 0.0F);
@@ -109,14 +108,16 @@ struct LiveSound::Player {
 LiveSound::LiveSound() : player_(std::make_unique<Player>()) {}
 LiveSound::~LiveSound() = default;
 
-void LiveSound::follow(std::span<const haptics::Tick> ticks, const haptics::Command& in_force) {
+void LiveSound::follow(std::span<const haptics::Tick> ticks, const haptics::Command& in_force,
+                       const SoundWarning& warning) {
   Player& player = *player_;
   for (const haptics::Tick& tick : ticks) {
-    const SoundControl control = player.score.of(tick, in_force);
+    SoundControl control = player.score.of(tick, in_force);
+    if (tick.drilling && control.warning.alarm == SoundAlarm::none) control.warning = warning;
     const SoundControl before = player.gathered;
     player.gathered = control;
     player.gathered.cut = std::max(control.cut, before.cut);
-    player.gathered.crack_mJ = std::max(control.crack_mJ, before.crack_mJ);
+    player.gathered.crack_Nmm = std::max(control.crack_Nmm, before.crack_Nmm);
     player.gathered.fibres = std::min(8, control.fibres + before.fibres);
     player.gathered_s += tick.dt_s;
     if (player.gathered_s < kPiece_s - 1e-9) continue;

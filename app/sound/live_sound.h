@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "app/sound/work_sound.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 
@@ -20,7 +21,8 @@ class LiveSound {
   LiveSound(const LiveSound&) = delete;
   LiveSound& operator=(const LiveSound&) = delete;
 
-  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& in_force);
+  /// `warning`: beats while the drill is on.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& in_force, const SoundWarning& warning = {});
   void mute(bool muted);
   bool isMuted() const;
   /// Why there is no sound, once, when that is known; else empty.

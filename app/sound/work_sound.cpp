@@ -10,7 +10,7 @@ namespace app {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kFibre_mJ = 2.0, kStiffness_N_per_mm = 500.0;
+constexpr double kFibre_Nmm = 2.0, kStiffness_N_per_mm = 500.0;
 
 /// The colour of a cut: the harder, the higher.
 double cutFrequency_Hz(std::uint8_t label) {
@@ -30,7 +30,7 @@ double cutFrequency_Hz(std::uint8_t label) {
 }
 
 /// Of a click, from 30 mJ, the break of a usual bridge: 0.5.
-double clickLevel(double energy_mJ) { return 0.5 * std::sqrt(energy_mJ / 30.0); }
+double clickLevel(double energy_Nmm) { return 0.5 * std::sqrt(energy_Nmm / 30.0); }
 
 struct AlarmTone {
   double first_Hz, second_Hz, times_per_s;
@@ -40,6 +40,18 @@ constexpr std::array<AlarmTone, 4> kAlarms{
     {{0.0, 0.0, 1.0}, {1175.0, 880.0, 5.0}, {988.0, 988.0, 4.0}, {740.0, 740.0, 2.5}}};
 
 }  // namespace
+
+SoundWarning soundWarning(const haptics::Clearances& clearances) noexcept {
+  constexpr std::array kAlarmOf{SoundAlarm::canal, SoundAlarm::lingual, SoundAlarm::second_molar, SoundAlarm::lingual};
+  SoundWarning found;
+  for (std::size_t n = 0; n < clearances.size(); ++n) {
+    if (!clearances[n]) continue;
+    const assets::RiskLevel level = assets::riskLevel(n, *clearances[n]);
+    if (level == assets::RiskLevel::red) return {kAlarmOf[n], true};
+    if (level == assets::RiskLevel::amber && found.alarm == SoundAlarm::none) found.alarm = kAlarmOf[n];
+  }
+  return found;
+}
 
 SoundControl SoundScore::of(const haptics::Tick& tick, const haptics::Command& in_force) noexcept {
   constexpr double kLoud_mm3_per_s = 10.0, kRub_N = 4.0, kRub = 0.25, kStalled = 0.4;
@@ -57,13 +69,13 @@ SoundControl SoundScore::of(const haptics::Tick& tick, const haptics::Command& i
   const double wanted = haptics::radPerSecond(std::abs(in_force.spindle.commanded_rpm));
   control.stall = tick.drilling && touches && speed < kStalled * wanted ? 1.0 : 0.0;
   if (tick.broken.piece != 0)
-    control.crack_mJ = tick.broken.force_N * tick.broken.force_N / (2.0 * kStiffness_N_per_mm);
+    control.crack_Nmm = tick.broken.force_N * tick.broken.force_N / (2.0 * kStiffness_N_per_mm);
   if (tick.torn_total_Nmm > torn_Nmm_) waiting_Nmm_ += tick.torn_total_Nmm - torn_Nmm_;
   torn_Nmm_ = tick.torn_total_Nmm;
-  control.fibres = static_cast<int>(std::min(8.0, waiting_Nmm_ / kFibre_mJ));
-  waiting_Nmm_ = control.fibres < 8 ? waiting_Nmm_ - kFibre_mJ * control.fibres : 0.0;
+  control.fibres = static_cast<int>(std::min(8.0, waiting_Nmm_ / kFibre_Nmm));
+  waiting_Nmm_ = control.fibres < 8 ? waiting_Nmm_ - kFibre_Nmm * control.fibres : 0.0;
   if (touches && tick.contact_tissue == static_cast<std::uint8_t>(assets::Tissue::mandibular_canal))
-    control.alarm = SoundAlarm::canal;
+    control.warning = {SoundAlarm::canal, true};
   return control;
 }
 
@@ -111,10 +123,10 @@ double WorkSound::clicks() noexcept {
 /// Beats of a tone, with soft edges.
 double WorkSound::alarm() noexcept {
   constexpr double kLoudest = 0.25;
-  const AlarmTone& sounds = kAlarms[static_cast<std::size_t>(now_.alarm)];
-  const double beat = std::fmod(alarm_s_ * sounds.times_per_s, 2.0);
-  const bool on = now_.alarm != SoundAlarm::none && std::fmod(beat, 1.0) < 0.6;
-  alarm_s_ = now_.alarm == SoundAlarm::none ? 0.0 : alarm_s_ + 1.0 / rate_Hz_;
+  const AlarmTone& sounds = kAlarms[static_cast<std::size_t>(now_.warning.alarm)];
+  const double beat = std::fmod(alarm_s_ * sounds.times_per_s * (now_.warning.is_red ? 1.0 : 0.4), 2.0);
+  const bool on = now_.warning.alarm != SoundAlarm::none && std::fmod(beat, 1.0) < 0.6;
+  alarm_s_ = now_.warning.alarm == SoundAlarm::none ? 0.0 : alarm_s_ + 1.0 / rate_Hz_;
   alarm_level_ += glide_ * ((on ? 1.0 : 0.0) - alarm_level_);
   alarm_phase_ += (beat < 1.0 ? sounds.first_Hz : sounds.second_Hz) / rate_Hz_;
   alarm_phase_ -= std::floor(alarm_phase_);
@@ -122,8 +134,8 @@ double WorkSound::alarm() noexcept {
 }
 
 void WorkSound::render(const SoundControl& control, std::span<float> samples) noexcept {
-  if (control.crack_mJ > 0.0) {
-    click_ = std::max(click_, std::min(0.8, clickLevel(control.crack_mJ)));
+  if (control.crack_Nmm > 0.0) {
+    click_ = std::max(click_, std::min(0.8, clickLevel(control.crack_Nmm)));
     thud_ = std::max(thud_, click_);
     click_phase_ = thud_phase_ = 0.0;
   }
@@ -131,7 +143,7 @@ void WorkSound::render(const SoundControl& control, std::span<float> samples) no
     const double level = std::min(0.2, 0.1 * clickLevel(30.0) * std::sqrt(static_cast<double>(control.fibres)));
     if (level > click_) click_ = level, click_phase_ = 0.0;
   }
-  now_.alarm = control.alarm;
+  now_.warning = control.warning;
   for (float& sample : samples) {
     const auto glide = [&](double SoundControl::*part) { now_.*part += glide_ * (control.*part - now_.*part); };
     for (const auto part : {&SoundControl::spindle_Hz, &SoundControl::cut, &SoundControl::cut_Hz, &SoundControl::water,

@@ -15,10 +15,18 @@
 
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
+#include "haptics/tool/clearance.h"
 
 namespace app {
 
 enum class SoundAlarm : std::uint8_t { none, canal, lingual, second_molar };
+
+/// Of the structure that is nearest within its bands.
+struct SoundWarning {
+  SoundAlarm alarm = SoundAlarm::none;
+  bool is_red = false;  ///< else amber: slower beats
+};
+SoundWarning soundWarning(const haptics::Clearances& clearances) noexcept;
 
 /// What is heard from one moment on.
 struct SoundControl {
@@ -27,9 +35,9 @@ struct SoundControl {
   double cut_Hz = 1500.0;  ///< its colour
   double water = 0.0;      ///< 0 or 1
   double stall = 0.0;      ///< 0 or 1
-  double crack_mJ = 0.0;   ///< begins here; 0: none
+  double crack_Nmm = 0.0;  ///< begins here; 0: none
   int fibres = 0;          ///< begin here
-  SoundAlarm alarm = SoundAlarm::none;
+  SoundWarning warning;
 };
 
 /// From ticks in order.

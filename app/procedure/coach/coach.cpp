@@ -45,12 +45,16 @@ bool Coach::isSeen(const CoachRule& rule, const WorkSample& sample) const {
       const double out = glm::dot(sample.velocity_P_mm_per_s, sample.normal_P);
       return sample.drills() && glm::length(sample.velocity_P_mm_per_s - out * sample.normal_P) < kMoves_mm_per_s;
     }
+    case CoachSign::near_structure:
+      return sample.drills() && nearest_mm_ && *nearest_mm_ < rule.within_mm &&
+             glm::length(sample.force_P_N) > rule.most;
   }
   return false;
 }
 
-void Coach::add(const WorkSample& sample) {
+void Coach::add(const WorkSample& sample, std::optional<double> nearest_mm) {
   if (!sample.valid) return;
+  nearest_mm_ = nearest_mm;
   now_s_ = sample.t_s + sample.dt_s;
   deepest_ = 0.0;
   strokes_.add(sample);

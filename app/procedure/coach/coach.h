@@ -17,14 +17,16 @@ namespace app {
 /// Kind of the events of a recording: what was said.
 inline constexpr char kCoachEvent[] = "coach";
 
-enum class CoachSign : std::uint8_t { force, plunging, deep_stroke, dry, lingering };
+enum class CoachSign : std::uint8_t { force, plunging, deep_stroke, dry, lingering, near_structure };
 /// In files, in the order of the values.
-inline constexpr std::array<std::string_view, 5> kCoachSigns{"force", "plunging", "deep-stroke", "dry", "lingering"};
+inline constexpr std::array<std::string_view, 6> kCoachSigns{"force", "plunging",  "deep-stroke",
+                                                             "dry",   "lingering", "near-structure"};
 
 struct CoachRule {
   CoachSign looks_for = CoachSign::force;
-  double most = 0.0;   ///< N, or a ratio; not of dry and lingering
-  double for_s = 0.0;  ///< seen so long without a break; not of plunging and deep strokes
+  double most = 0.0;       ///< N, or a ratio; not of dry and lingering
+  double within_mm = 0.0;  ///< of a structure, for near_structure alone
+  double for_s = 0.0;      ///< seen so long without a break; not of plunging and deep strokes
   std::string says;
 };
 
@@ -43,7 +45,8 @@ class Coach {
   Coach(const Coach&) = delete;
   Coach& operator=(const Coach&) = delete;
 
-  void add(const WorkSample& sample);
+  /// `nearest_mm`: of the structures that are to be kept off; none: no structure is known.
+  void add(const WorkSample& sample, std::optional<double> nearest_mm = {});
   /// What is to be said now; it counts as said.
   std::optional<std::string> take();
 
@@ -58,6 +61,7 @@ class Coach {
   std::vector<char> is_due_;
   std::optional<double> last_s_;  ///< anything was said
   double now_s_ = 0.0;
+  std::optional<double> nearest_mm_;
   double deepest_ = 0.0;  ///< of the strokes that ended with this sample, over the radius
   // Ways of the last kWindow_s of drilling, in tenths of it.
   static constexpr std::size_t kParts = 10;

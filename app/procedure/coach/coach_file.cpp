@@ -25,7 +25,9 @@ CoachRule ruleOf(assets::TomlReader& keys, const std::string& table) {
   if (found == kCoachSigns.end()) keys.refuse(table, "looks_for", "no such sign, give one of " + joined(kCoachSigns));
   rule.looks_for = static_cast<CoachSign>(found - kCoachSigns.begin());
   const bool is_ratio = rule.looks_for == CoachSign::plunging || rule.looks_for == CoachSign::deep_stroke;
-  if (rule.looks_for == CoachSign::force) rule.most = keys.number(table, "most", {0.1, 100.0, "N"});
+  const bool is_near = rule.looks_for == CoachSign::near_structure;
+  if (is_near) rule.within_mm = keys.number(table, "within_mm", {0.1, 10.0, "mm"});
+  if (rule.looks_for == CoachSign::force || is_near) rule.most = keys.number(table, "most", {0.1, 100.0, "N"});
   if (is_ratio) rule.most = keys.number(table, "most", {0.05, 10.0, ""});
   if (!is_ratio) rule.for_s = keys.number(table, "for_s", {0.0, 60.0, "s"});
   rule.says = keys.text(table, "says");

@@ -22,7 +22,7 @@ std::vector<float> heard(const SoundControl& control, double seconds, double aft
       samples(static_cast<std::size_t>(seconds * kRate_Hz));
   if (!before.empty()) sound.render(control, before);
   SoundControl goes_on = control;
-  if (!before.empty()) goes_on.crack_mJ = 0.0, goes_on.fibres = 0;
+  if (!before.empty()) goes_on.crack_Nmm = 0.0, goes_on.fibres = 0;
   sound.render(goes_on, samples);
   return samples;
 }
@@ -100,21 +100,21 @@ TEST(WorkSound, AtRestThereIsSilence) { EXPECT_EQ(loudness(heard({}, 0.2)), 0.0)
 
 TEST(WorkSound, ACrackIsAClickOfThreeKilohertzThatIsGoneAfterTenMilliseconds) {
   SoundControl control;
-  control.crack_mJ = 30.0;
+  control.crack_Nmm = 30.0;
   const std::vector<float> samples = heard(control, 0.1, 0.0);
   const std::vector<float> begin(samples.begin(), samples.begin() + 240), end(samples.end() - 1200, samples.end());
   EXPECT_GT(loudness(begin), 0.15);
   EXPECT_LT(loudness(end), 1e-3);
   EXPECT_NEAR(strongest_Hz(samples, 1000.0, 6000.0, 50.0), 3000.0, 150.0);
   SoundControl weak;
-  weak.crack_mJ = 3.0;
+  weak.crack_Nmm = 3.0;
   EXPECT_NEAR(20.0 * std::log10(loudness(begin) / loudness({heard(weak, 0.005, 0.0)})), 10.0, 0.5)
       << "10 dB for ten times the energy";
 }
 
 TEST(WorkSound, AFibreIsTwentyDecibelsSofterThanACrack) {
   SoundControl crack, fibre;
-  crack.crack_mJ = 30.0;
+  crack.crack_Nmm = 30.0;
   fibre.fibres = 1;
   const auto click = [](const SoundControl& control) { return std::sqrt(powerAt(heard(control, 0.02, 0.0), 3000.0)); };
   EXPECT_NEAR(20.0 * std::log10(click(crack) / click(fibre)), 20.0, 0.5);
@@ -124,7 +124,7 @@ TEST(WorkSound, AlarmsDifferByStructure) {
   std::vector<double> found_Hz;
   for (const SoundAlarm alarm : {SoundAlarm::canal, SoundAlarm::lingual, SoundAlarm::second_molar}) {
     SoundControl control;
-    control.alarm = alarm;
+    control.warning = {alarm, true};
     found_Hz.push_back(strongest_Hz(heard(control, 0.1, 0.01), 600.0, 1300.0, 5.0));
   }
   EXPECT_NEAR(found_Hz[0], 1175.0, 10.0);
@@ -137,7 +137,7 @@ TEST(WorkSound, TheSamplesAreTheSameInWhateverPiecesTheyAreAskedFor) {
   control.spindle_Hz = 500.0;
   control.cut = 0.7;
   control.water = 1.0;
-  control.alarm = SoundAlarm::canal;
+  control.warning = {SoundAlarm::canal, true};
   WorkSound whole(kRate_Hz), pieces(kRate_Hz);
   std::vector<float> a(9600), b(9600);
   whole.render(control, a);
@@ -163,10 +163,39 @@ TEST(WorkSound, IsBoundedWhateverTheControls) {
                          1.0,
                          1000.0 * any(random),
                          static_cast<int>(random() % 9),
-                         static_cast<SoundAlarm>(random() % 4)};
+                         {static_cast<SoundAlarm>(random() % 4), random() % 2 == 0}};
     sound.render(control, samples);
     for (const float sample : samples) ASSERT_LE(std::abs(sample), 1.0F);
   }
+}
+
+TEST(WorkSound, AnAmberAlarmBeatsSlowerThanARedOne) {
+  const auto beats = [](bool is_red) {
+    SoundControl control;
+    control.warning = {SoundAlarm::second_molar, is_red};
+    const std::vector<float> samples = heard(control, 4.0, 0.0);
+    int begun = 0;
+    bool was_loud = false;
+    for (std::size_t at = 0; at + 480 <= samples.size(); at += 480) {
+      const bool is_loud = loudness({samples.begin() + static_cast<std::ptrdiff_t>(at),
+                                     samples.begin() + static_cast<std::ptrdiff_t>(at) + 480}) > 0.05;
+      begun += is_loud && !was_loud;
+      was_loud = is_loud;
+    }
+    return begun;
+  };
+  EXPECT_EQ(beats(true), 10);
+  EXPECT_EQ(beats(false), 4);
+}
+
+TEST(SoundScore, TheNearestStructureWithinItsBandsIsHeard) {
+  EXPECT_EQ(soundWarning({}).alarm, SoundAlarm::none);
+  EXPECT_EQ(soundWarning({5.0, 5.0, 5.0, 5.0}).alarm, SoundAlarm::none);
+  EXPECT_EQ(soundWarning({1.5, {}, {}, {}}).alarm, SoundAlarm::canal);
+  EXPECT_FALSE(soundWarning({1.5, {}, {}, {}}).is_red);
+  const SoundWarning red = soundWarning({1.5, 5.0, -0.1, {}});
+  EXPECT_EQ(red.alarm, SoundAlarm::second_molar) << "red before amber";
+  EXPECT_TRUE(red.is_red);
 }
 
 TEST(SoundScore, ReadsTheTick) {
@@ -190,7 +219,7 @@ TEST(SoundScore, ReadsTheTick) {
   tick.spindle_rad_per_s *= 0.2;
   EXPECT_EQ(score.of(tick, command).stall, 1.0);
   tick.contact_tissue = static_cast<std::uint8_t>(assets::Tissue::mandibular_canal);
-  EXPECT_EQ(score.of(tick, command).alarm, SoundAlarm::canal);
+  EXPECT_EQ(score.of(tick, command).warning.alarm, SoundAlarm::canal);
 }
 
 TEST(SoundScore, AFibreForEachTwoMillijoulesAndACrackByItsForce) {
@@ -206,7 +235,7 @@ TEST(SoundScore, AFibreForEachTwoMillijoulesAndACrackByItsForce) {
   tick.torn_total_Nmm = 0.0;
   EXPECT_EQ(score.of(tick, {}).fibres, 0) << "undone";
   tick.broken = {1, true, 9.0, 173.0, 0.0};
-  EXPECT_NEAR(score.of(tick, {}).crack_mJ, 30.0, 0.1);
+  EXPECT_NEAR(score.of(tick, {}).crack_Nmm, 30.0, 0.1);
 }
 
 }  // namespace

@@ -89,6 +89,20 @@ TEST(Coach, APlungeADeepStrokeAndALingeringBurAreSeen) {
   EXPECT_NEAR(lingering[0].t_s, 1.5, 0.01);
 }
 
+TEST(Coach, ForceTowardsANearStructureIsSaidBeforeAnythingElse) {
+  Coach coach(coachRulesOf(""));
+  std::vector<std::string> all;
+  for (WorkSample sample : goodWork(2.0)) {
+    if (sample.t_s > 2.0) break;
+    sample.force_P_N = {0.0, 0.0, 6.0};
+    sample.irrigated = false;
+    coach.add(sample, sample.t_s < 1.0 ? std::optional(1.5) : std::nullopt);
+    if (auto words = coach.take()) all.push_back(*words);
+  }
+  ASSERT_EQ(all.size(), 1U) << "a pause of 3 s";
+  EXPECT_EQ(all[0], "near a structure: less force");
+}
+
 TEST(Coach, OffTheBoneNothingIsSaid) {
   std::vector<WorkSample> samples = goodWork(6.0);
   for (WorkSample& sample : samples) {
