@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/instrument/handpiece.h"
+#include "assets/mesh.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
@@ -125,6 +126,10 @@ struct Frame {
   SoftMarks marks;
   std::vector<Bead> beads;
   Obstacles obstacles;
+  /// Gum that is cut and raised, in P; borrowed until the frame is drawn. The renderer takes what has a new serial.
+  const assets::MeshModel* flap = nullptr;  ///< null: none
+  const assets::MeshModel* gum = nullptr;   ///< the gum around it, instead of FrameRenderer::setGingiva()
+  std::uint64_t flap_serial = 0, gum_serial = 0;
 };
 
 }  // namespace render

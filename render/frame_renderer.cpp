@@ -195,6 +195,13 @@ void FrameRenderer::updateObstacles(const Frame& frame) {
   scene_->setModel(Model::obstacles, obstacleMesh(obstacles_));
 }
 
+void FrameRenderer::updateFlap(const Frame& frame) {
+  if (frame.gum != nullptr && frame.gum_serial != gum_serial_) scene_->setModel(Model::gingiva, *frame.gum);
+  if (frame.flap_serial != flap_serial_)
+    scene_->setModel(Model::flap, frame.flap != nullptr ? *frame.flap : assets::MeshModel{});
+  flap_serial_ = frame.flap_serial, gum_serial_ = frame.gum_serial;
+}
+
 void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   scene_->drawEye(frame, eye, px);
   drawn(eye) = {frame, px};
@@ -205,6 +212,7 @@ void FrameRenderer::prepare(const Frame& frame) {
   updateRuler(frame);
   updateBeads(frame);
   updateObstacles(frame);
+  updateFlap(frame);
   std::vector<PlacedFields> placed;
   bool any_changed = false;
   for (std::size_t n = 0; n < kMostPieces; ++n) {

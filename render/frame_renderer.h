@@ -110,6 +110,7 @@ class FrameRenderer {
   void updateRuler(const Frame& frame);
   void updateBeads(const Frame& frame);
   void updateObstacles(const Frame& frame);
+  void updateFlap(const Frame& frame);
   void prepare(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
   void compose(const Frame& frame);
@@ -133,6 +134,7 @@ class FrameRenderer {
   std::optional<RulerLine> ruler_;  ///< whose meshes the back-end has
   std::vector<Bead> beads_;         ///< alike
   Obstacles obstacles_;             ///< alike
+  std::uint64_t flap_serial_ = 0, gum_serial_ = 0;
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;

@@ -141,8 +141,8 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
       meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], view.mirrored);
   };
   constexpr std::array kOutside{Model::face, Model::instrument, Model::second_instrument};
-  constexpr std::array kInside{Model::gingiva, Model::mandibular_canal, Model::ruler,  Model::beads,
-                               pieceModel(0),  pieceModel(1),           pieceModel(2), pieceModel(3)};
+  constexpr std::array kInside{Model::gingiva, Model::flap,   Model::mandibular_canal, Model::ruler, Model::beads,
+                               pieceModel(0),  pieceModel(1), pieceModel(2),           pieceModel(3)};
   static_assert(kMostPieces == 4);
   constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::obstacles, Model::ghost};
   bool any_transparent = false;

@@ -10,6 +10,7 @@
 #include "app/case/case.h"
 #include "app/case/clearance_source.h"
 #include "app/case/extraction_plan.h"
+#include "app/case/gutter_plan.h"
 #include "app/case/handpiece_direction.h"
 #include "app/case/impaction_class.h"
 #include "app/case/patient_placement.h"
@@ -44,6 +45,7 @@
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
@@ -55,6 +57,7 @@ constexpr double kForeignFaceWindow_mm = 24.0;
 
 /// The scripted hand performs the whole operation.
 constexpr const char* kShownOperation = "scripted:third-molar";
+constexpr const char* kShownFlap = "scripted:flap";  ///< incision, flap and the planned cut
 bool isShown(const RehearseOptions& options) { return options.plan.device == kShownOperation; }
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
@@ -131,6 +134,15 @@ void placePatient(RehearsalPlan& plan, const std::string& position, const std::o
   plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
 }
 
+/// With the site's part a tissue of its own, which gives way once it is raised.
+assets::MeshModel closedGum(const assets::Patient& patient, const std::string& flap) {
+  const auto cut = planGutter(patient, kUsualBurRadius_mm);
+  assets::MeshModel gum = assets::gingivaSurface(patient.ct, std::nullopt);
+  if (gum.parts.empty() || !cut)
+    throw UsageError("--flap " + flap + ": no gum is labelled over a planned cut in this patient, leave it out");
+  return assets::withFlapPart(gum, *cut);
+}
+
 struct PreparedCase {
   assets::Patient patient;
   assets::FacePose X_PF = assets::kFaceAxes_PF;
@@ -162,6 +174,7 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   const auto load = assets::sectionOf(report, 0.0, kPatientShare);
   one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
+  if (options.flap == "closed") one.patient.gingiva = closedGum(one.patient, options.flap);
   auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
   auto computed = std::async(std::launch::async, [&] {
     const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
@@ -208,6 +221,16 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
                                     : std::string("no operated tooth is labelled")) +
                  ", the scripted cut is on the nearest bone");
   return true;
+}
+
+/// What cuts and raises it lies on the tray; the assistant of a scripted hand holds from the beginning.
+void closeFlap(RehearsalPlan& plan) {
+  if (!plan.cut) throw UsageError("--flap closed: there is no planned cut in this patient, leave it out");
+  plan.flap_closed = true;
+  for (const haptics::HandInstrument kind : {haptics::HandInstrument::scalpel_15, haptics::HandInstrument::periosteal})
+    if (std::ranges::find(plan.other_tools, kind, &haptics::Tool::hand_instrument) == plan.other_tools.end())
+      plan.other_tools.push_back(haptics::handInstrumentTool(kind));
+  plan.command.assistant_holds = plan.device.starts_with("scripted:");
 }
 
 /// A procedure needs a lower third molar that is a body of its own, and bone to begin with.
@@ -307,8 +330,8 @@ std::string importedList() {
 bool asksForThirdMolar(const StepPlan& plan) {
   return std::ranges::any_of(plan.steps, [](const Step& step) {
     const DoneWhen& when = step.done_when;
-    return when.gutter_removed || when.crown_bared || when.bridge_mm || when.torn || when.pieces || when.pieces_out ||
-           when.all_out;
+    return when.asksForFlap() || when.gutter_removed || when.crown_bared || when.bridge_mm || when.torn ||
+           when.pieces || when.pieces_out || when.all_out;
   });
 }
 
@@ -361,6 +384,11 @@ int run(RehearseOptions& options) {
     static const RehearseOptions kAsked;
     if (options.tools == kAsked.tools)
       options.tools = {options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps"};
+  }
+  if (options.flap == "closed") {
+    if (!options.continued.empty())
+      throw UsageError("--flap closed: a rehearsal that goes on begins with the flap raised, leave it out");
+    if (plan.device == "scripted") plan.device = kShownFlap;
   }
   std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
@@ -444,7 +472,8 @@ int run(RehearseOptions& options) {
   if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
   // An assistant holds cheek and flap aside.
-  if (isShown(options)) plan.soft_tissue = {};
+  if (isShown(options) && options.flap != "closed") plan.soft_tissue = {};
+  if (options.flap == "closed") closeFlap(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.
   static const RehearseOptions kUntouched;

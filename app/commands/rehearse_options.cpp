@@ -103,6 +103,13 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
               "Says one thing at a time about how you work: on, off, or a supervisor's own FILE.toml of rules "
               "(app/procedure/coach) [on where a procedure is guided, else off; never in assessment]")
       .valueNamed("RULES");
+  command
+      .option(
+          "--flap", options.flap,
+          "raised: the bone lies bare; closed: the gum is whole, and is cut with scalpel:15, raised with periosteal "
+          "and held aside by the assistant (key A)")
+      .oneOf({"raised", "closed"})
+      .showsDefault();
   command.optionGroup("Workplace and picture");
   Option rig = options.rig.addTo(command, true);
   command.option("--loupes", options.loupes, "Magnification on a desk (without --rig)")

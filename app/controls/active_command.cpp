@@ -17,6 +17,8 @@ namespace {
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.hands_off = from.hands_off;
   to.irrigating = from.irrigating;
+  to.assistant_holds = from.assistant_holds;
+  to.flap_aside = from.flap_aside;
   to.undo_serial = from.undo_serial;
   to.redo_serial = from.redo_serial;
   to.split = from.split;
@@ -72,6 +74,10 @@ bool ActiveCommand::execute(const ControlRequest& request, const std::string& wh
     case Control::irrigation:
       setSwitch(&haptics::Command::irrigating, request.value, "irrigation", "irrigation on",
                 "irrigation off: the bur cuts dry");
+      return true;
+    case Control::assistant:
+      setSwitch(&haptics::Command::assistant_holds, request.value, "assistant",
+                "the assistant holds cheek and flap aside", "the assistant lets go");
       return true;
     case Control::undo:
     case Control::redo:
@@ -236,6 +242,12 @@ void ActiveCommand::takeHandsOff(bool off) {
   command_.hands_off = off;
   workstation_->change(command_);
   workstation_->note("ring", off ? "the ring of instruments is open: no force, nothing turns" : "the ring is closed");
+}
+
+void ActiveCommand::layFlapAside(bool is_aside) {
+  if (command_.flap_aside == is_aside) return;
+  command_.flap_aside = is_aside;
+  workstation_->change(command_);
 }
 
 void ActiveCommand::put(const haptics::Command& wanted) {

@@ -30,9 +30,8 @@ class ActiveCommand {
   /// The receiver of changes. Borrowed.
   void attach(Workstation& workstation) { workstation_ = &workstation; }
 
-  /// Executes law, drill, tool (the next of the tray, cyclic), irrigation, undo, redo and arm (clears a latched
-  /// fault whose cause is over); returns false for all others. `where`: file and row of a script, for
-  /// refusals.
+  /// Executes law, drill, tool (the next of the tray, cyclic), irrigation, assistant, undo, redo and arm (clears a
+  /// latched fault whose cause is over); returns false for all others. `where`: file and row of a script, for refusals.
   bool execute(const ControlRequest& request, const std::string& where = {});
   /// Once a frame: reports an undo or redo when the servo has done it, with its volume and what is left.
   void followStrokes(const haptics::Tick& newest);
@@ -45,8 +44,10 @@ class ActiveCommand {
   void makeReady(const haptics::SiteOrder& order);
   /// Lets chips leave the volumes, alike.
   void loosen(const haptics::ChipOrder& order);
-  /// A procedure's command, unchecked and unreported; irrigation, hands off, undo, redo, split, bridge, site, chips and
-  /// rearm stay as they are.
+  /// A flap that was raised from closed gum is held aside, or lies on the bone again. Unreported.
+  void layFlapAside(bool is_aside);
+  /// A procedure's command, unchecked and unreported; irrigation, hands off, assistant, undo, redo, split, bridge,
+  /// site, chips and rearm stay as they are.
   void adopt(const haptics::Command& command);
 
   /// The hand chooses and neither feels nor works: force fades to zero, nothing turns (haptics::Command::hands_off).

@@ -38,7 +38,8 @@ enum class Control : std::uint8_t {
   step,
   way,
   ring,
-  sound
+  sound,
+  assistant
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -64,7 +65,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 25> kControls = {{
+inline constexpr std::array<ControlMeaning, 26> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -90,6 +91,8 @@ inline constexpr std::array<ControlMeaning, 25> kControls = {{
     {Control::way, "way", "W", "what keeps the tooth or piece in", ControlValue::none, false},
     {Control::ring, "ring", "Shift+T", "ring of instruments; again takes", ControlValue::on_or_off, true},
     {Control::sound, "sound", "S", "sound on or off", ControlValue::on_or_off, false},
+    {Control::assistant, "assistant", "A", "assistant holds cheek and flap aside, or not", ControlValue::on_or_off,
+     true},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

@@ -12,7 +12,7 @@ namespace app {
 namespace {
 
 bool isNothing(const std::string& rest) { return rest.empty(); }
-bool isScript(const std::string& rest) { return rest.empty() || rest == kThirdMolarScript; }
+bool isScript(const std::string& rest) { return rest.empty() || rest == kThirdMolarScript || rest == kFlapScript; }
 bool isSomething(const std::string& rest) { return !rest.empty(); }
 bool isModel(const std::string& rest) { return rest.empty() || haptics::findSimulatedPhantom(rest) != nullptr; }
 bool isPractice(const std::string& rest) {

@@ -18,9 +18,9 @@ struct PoseSourceContext {
 };
 
 PoseSource openMouse(const std::string& rest, const PoseSourceContext& at);
-/// The planned cut; with kThirdMolarScript a hand that a procedure leads, in front of it.
+/// The planned cut; with kThirdMolarScript or kFlapScript a hand that a procedure leads, in front of it.
 PoseSource openScript(const std::string& rest, const PoseSourceContext& at);
-inline constexpr std::string_view kThirdMolarScript = "third-molar";
+inline constexpr std::string_view kThirdMolarScript = "third-molar", kFlapScript = "flap";
 PoseSource openSimulated(const std::string& model, const PoseSourceContext& at);
 /// The scripted hand works at the true site; the tool is drawn where the rig's calibration has it.
 PoseSource openPractice(const std::string& unit, const PoseSourceContext& at);

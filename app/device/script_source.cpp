@@ -25,12 +25,12 @@ haptics::CuttingMotion cuttingMotion(const assets::PlannedCut& cut, const calibr
 
 PoseSource openScript(const std::string& rest, const PoseSourceContext& at) {
   PoseSource hand;
-  if (rest == kThirdMolarScript) {
+  if (rest == kThirdMolarScript || rest == kFlapScript) {
     const haptics::TroughPath gutter(cutFor(at), cuttingMotion(cutFor(at), at.rig));
     auto led = std::make_unique<haptics::LedHand>(gutter.at(0.0));
     hand.led = led.get();
     hand.device = std::move(led);
-    hand.name = "scripted hand, third molar";
+    hand.name = rest == kFlapScript ? "scripted hand, flap" : "scripted hand, third molar";
     return hand;
   }
   auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), cuttingMotion(cutFor(at), at.rig));

@@ -9,14 +9,17 @@
 #include "app/case/enamel_exposure.h"
 #include "app/controls/active_command.h"
 #include "app/device/emergency_exit.h"
+#include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
 #include "app/procedure/jaw_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
+#include "app/procedure/third_molar/flap_demonstration.h"
 #include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
+#include "app/rehearsal/flap_follower.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/luxation_log.h"
 #include "app/rehearsal/pace.h"
@@ -83,11 +86,11 @@ class Rehearsal {
     sites_.emplace(station().bodies());
     socket_.emplace(plan_, station().bodies(), event_log_);
     ways_.emplace(plan_, station().bodies(), event_log_);
+    if (plan_.flap_closed) flap_.emplace(plan_, event_log_);
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
-    if (equipment_.led() != nullptr)
-      demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
-                             *equipment_.led());
+    if (equipment_.led() != nullptr && flap_) beginFlap();
+    if (equipment_.led() != nullptr && !flap_) beginOperation();
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
@@ -131,6 +134,18 @@ class Rehearsal {
   StatusReporter::FrameState state() const {
     return {newest_,    active_command_.inForce(), frame_.layers, head_up_,        router_.question(),
             frame_.gap, rulerText(frame_.ruler),   ways_->line(), clearance_.now()};
+  }
+
+  bool isWholeOperation() const { return plan_.device != std::string("scripted:") + std::string(kFlapScript); }
+  void beginOperation() {
+    demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
+                           *equipment_.led());
+  }
+  void beginFlap() {
+    const haptics::TroughPath path(*plan_.cut, cuttingMotion(*plan_.cut, plan_.rig));
+    flap_shown_.emplace(
+        flap_->flap().chart(), flap_->flap().plan(), *plan_.cut, active_command_.tray(), *equipment_.led(),
+        haptics::LedPath{[path](double t_s) { return path.at(t_s); }, path.duration_s()}, !isWholeOperation());
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -192,13 +207,18 @@ class Rehearsal {
   }
 
   bool isProcedureOver() const {
-    return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver());
+    const bool is_flap_all = flap_shown_ && flap_shown_->isOver() && !demonstration_;
+    return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver()) ||
+           is_flap_all;
   }
 
   /// 1: the tooth could not be taken out.
   int demonstrationStatus() const {
-    if (!demonstration_ || demonstration_->failure().empty()) return 0;
-    printMessage("the operation was not finished: " + demonstration_->failure());
+    const std::string failure = flap_shown_ && !flap_shown_->failure().empty() ? flap_shown_->failure()
+                                : demonstration_                               ? demonstration_->failure()
+                                                                               : "";
+    if (failure.empty()) return 0;
+    printMessage("the operation was not finished: " + failure);
     return 1;
   }
 
@@ -224,9 +244,10 @@ class Rehearsal {
     if (coach_) coach_->follow(ticks, command, clearance_.now());
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
+    if (flap_) flap_->follow(ticks, command, station().commandSerial());
     head_up_.follow(ticks, command.irrigating);
     clearance_.follow(ticks, command);
-    if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest());
+    if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest(), flapFacts());
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
@@ -286,6 +307,7 @@ class Rehearsal {
     if (const auto order = socket_->follow({changed, newest_, may_loosen, !pace_.isRealTime()}))
       active_command_.loosen(*order);
     frame_.beads = socket_->beads();
+    followFlap();
     if (const auto line = socket_->news()) head_up_.say(*line);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
     followWays(changed);
@@ -314,18 +336,44 @@ class Rehearsal {
     if (const auto order = tooth_->bridgeOrder(newest_, luxates, !pace_.isRealTime())) active_command_.arm(*order);
   }
 
+  std::optional<FlapFacts> flapFacts() const {
+    if (!flap_) return {};
+    const FlapRecord& flap = flap_->newest();
+    return FlapFacts{flap.incision_mm * flap.full_share, flap.raised_share, flap_->flap().isAside()};
+  }
+
+  void followFlap() {
+    if (!flap_) return;
+    flap_->show(frame_);
+    active_command_.layFlapAside(flap_->flap().isAside());
+    while (const auto line = flap_->news()) head_up_.say(*line);
+  }
+
+  void followFlapShown() {
+    const haptics::Command& command = active_command_.inForce();
+    const bool is_aside = flap_->flap().isAside() && command.flap_aside;
+    if (const auto request = flap_shown_->follow({newest_, command.tool, station().isApplied(newest_), is_aside}))
+      active_command_.execute(*request);
+    while (const auto line = flap_shown_->news()) tellStep(*line);
+    if (flap_shown_->isOver() && flap_shown_->failure().empty() && isWholeOperation() && !demonstration_)
+      beginOperation();
+  }
+
+  void tellStep(const std::string& line) {
+    head_up_.say(line);
+    event_log_.note("procedure", line);
+    if (plan_.verbose || plan_.headless) printMessage(fmt::format("at {:.1f} s {}", newest_.t_s, line));
+  }
+
   void followDemonstration() {
+    if (flap_shown_) followFlapShown();
     if (!demonstration_) return;
     const haptics::Command& command = active_command_.inForce();
     const Demonstration::Frame frame{
         newest_,           command.tool,        command.drill_enabled, station().isApplied(newest_),
         sites_->isReady(), !pace_.isRealTime(), socket_->left()};
     if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
-    while (const auto line = demonstration_->news()) {
-      head_up_.say(*line);
-      event_log_.note("procedure", *line);
-      if (plan_.verbose || plan_.headless) printMessage(fmt::format("at {:.1f} s {}", newest_.t_s, *line));
-    }
+    while (const auto line = demonstration_->news()) tellStep(*line);
   }
 
   /// Some tenths of a second: once, at the end.
@@ -384,6 +432,7 @@ class Rehearsal {
     followTicks();
     for (const Touch& touch : touches_.finish()) noteTouch(touch);
     if (steps_) steps_->finish();
+    if (flap_) flap_->finish();
     socket_->finish(view_.takeChangedBricks(), station().newestTick());
     if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())
       event_log_.note("sound", latency);
@@ -401,6 +450,7 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     figures.tooth = tooth_->ending();
     figures.luxation = luxation_.summary();
+    if (flap_) figures.flap = flap_->newest();
     figures.socket = socket_->newest();
     figures.way = ways_->words();
     if (jaw_stress_.most_N_per_mm2() > 0.0)
@@ -436,12 +486,14 @@ class Rehearsal {
   std::optional<SiteDesk> sites_;
   std::optional<SocketFollower> socket_;
   std::optional<WayFollower> ways_;
+  std::optional<FlapFollower> flap_;
   JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;
   std::optional<CoachFollower> coach_;
   bool shows_gutter_ = false;
+  std::optional<FlapDemonstration> flap_shown_;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;

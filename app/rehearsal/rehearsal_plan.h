@@ -38,6 +38,7 @@ struct ProcedureSteps {
 struct RehearsalPlan {
   assets::Patient patient;
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
+  bool flap_closed = false;                 ///< the patient's gum is whole, incision and flap are done by hand
   std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
   assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
   assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told

@@ -10,6 +10,7 @@
 #include "app/device/pose_source.h"
 #include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/warnings.h"
+#include "app/session/flap_event.h"
 #include "app/session/recorder.h"
 #include "app/session/socket_event.h"
 #include "app/session/soft_touches.h"
@@ -29,6 +30,7 @@ struct RehearsalFigures {
   std::string tooth;                      ///< what it has come apart into, tooth_follower.h; empty: whole
   std::string luxation;                   ///< LuxationLog::summary()
   std::string way;                        ///< what keeps it in, as looked at last; empty: nobody looked, or it is out
+  std::optional<FlapRecord> flap;         ///< none: it was raised from the beginning
   std::optional<SocketRecord> socket;     ///< none: no piece is out
   std::optional<ProcedureRun> procedure;  ///< step by step
   Prediction prediction;                  ///< nothing said without a procedure

@@ -37,7 +37,7 @@ std::optional<double> toCanal_mm(const assets::RiskStructures& risks, const hapt
 StepFollower::StepFollower(const RehearsalPlan& plan, const haptics::Bodies& bodies, EventLog& event_log)
     : plan_(plan),
       event_log_(event_log),
-      tracker_(plan.procedure_steps->plan),
+      tracker_(plan.flap_closed ? plan.procedure_steps->plan : withFlapRaised(plan.procedure_steps->plan)),
       prediction_(plan.procedure_steps->prediction) {
   if (plan.patient.site) operated_ = assets::toothName(plan.patient.site->fdi);
   if (tracker_.asksForBone() && plan.cut && plan.patient.site)
@@ -58,8 +58,10 @@ void StepFollower::predict(const std::string& difficulty, std::optional<double> 
 }
 
 void StepFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
-                          std::optional<double> bridge_mm, const std::optional<SocketRecord>& socket) {
+                          std::optional<double> bridge_mm, const std::optional<SocketRecord>& socket,
+                          const std::optional<FlapFacts>& flap) {
   StepFacts facts;
+  facts.flap = flap;
   facts.in_hand = instrumentOf(command.tool);
   facts.irrigating = command.irrigating;
   facts.bridge_mm = bridge_mm;

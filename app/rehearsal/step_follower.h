@@ -28,9 +28,9 @@ class StepFollower {
   /// The surgeon's, at that time; nothing said is no prediction.
   void predict(const std::string& difficulty, std::optional<double> minutes, double t_s);
   /// All ticks, in order, made with this command. `bridge_mm`: the thinnest bridge that holds the tooth. `socket`: once
-  /// a piece is out.
+  /// a piece is out. `flap`: where the gum was closed.
   void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::optional<double> bridge_mm,
-              const std::optional<SocketRecord>& socket);
+              const std::optional<SocketRecord>& socket, const std::optional<FlapFacts>& flap = {});
   /// A touch that ended.
   void follow(const Touch& touch);
   /// Bricks of the jaw's grid that have changed.

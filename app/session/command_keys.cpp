@@ -200,12 +200,13 @@ void visitSafety(auto& safety, Visit&& visit) {
 
 template <class Visit>
 void forEachKey(auto& command, Visit&& visit) {
-  auto& [serial, tool, drill_enabled, hands_off, irrigating, undo_serial, redo_serial, split, bridge, site, chips, law,
-         erosion, spindle, safety, rearm] = command;
+  auto& [serial, tool, drill_enabled, hands_off, irrigating, assistant_holds, flap_aside, undo_serial, redo_serial,
+         split, bridge, site, chips, law, erosion, spindle, safety, rearm] = command;
   visit("serial", serial);
   visitTool(tool, visit);
   visit("drill_enabled", drill_enabled), visit("hands_off", hands_off), visit("irrigating", irrigating),
       visit("undo_serial", undo_serial);
+  visit("assistant_holds", assistant_holds), visit("flap_aside", flap_aside);
   visit("redo_serial", redo_serial);
   visitSplit(split, visit);
   visitBridge(bridge, visit);

@@ -102,6 +102,7 @@ SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of) {
       if (!metrics.touched) metrics.touched.emplace();
       if (const auto touch = touchFrom(event.text)) countInto(*metrics.touched, *touch);
     }
+    if (event.kind == kFlapEvent) metrics.flap = flapFrom(event.text);
     if (event.kind == kSocketEvent) metrics.socket = socketFrom(event.text);
     if (event.kind == kWayEvent) metrics.way = wayFrom(event.text), ++metrics.ways_looked_at;
     if (event.kind == kStepEvent) addStepEvent(metrics.procedure, event.text);

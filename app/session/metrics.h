@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/session/flap_event.h"
 #include "app/session/measures/measure_value.h"
 #include "app/session/session_calibration.h"
 #include "app/session/session_setup.h"
@@ -55,6 +56,7 @@ struct SessionMetrics {
   std::vector<MeasuredWay> measured;
   std::vector<BridgeBreak> bridge_breaks;          ///< undone ones too
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
+  std::optional<FlapRecord> flap;                  ///< none: it was raised from the beginning
   std::optional<SocketRecord> socket;              ///< none: no piece of a tooth was out at the end
   std::size_t ways_looked_at = 0;                  ///< how often it was looked what keeps the tooth in
   std::optional<WayRecord> way;                    ///< the last of these

@@ -67,6 +67,12 @@ nlohmann::ordered_json wayJson(const WayRecord& way, std::size_t looks) {
   return {{"looks", looks}, {"asked", way.was_asked}, {"words", wayInWords(way)}, {"pieces", pieces}};
 }
 
+nlohmann::ordered_json flapJson(const FlapRecord& flap) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(flapText(flap));
+  json["kind"] = flap.incision_mm == 0.0 ? "none" : flap.limb_mm >= kLeastLimb_mm ? "triangular" : "envelope";
+  return json;
+}
+
 /// Where something is, and how much in all.
 nlohmann::ordered_json socketJson(const SocketRecord& socket) {
   const std::vector<Place> canal = socket.canal.amount > 0.0 ? std::vector{socket.canal} : std::vector<Place>();
@@ -180,6 +186,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
                                      {"bending_Nmm", broke.bending_Nmm},
                                      {"area_mm2", broke.area_mm2},
                                      {"complete", broke.is_complete}});
+  json["flap"] = metrics.flap ? flapJson(*metrics.flap) : nlohmann::ordered_json();
   json["socket"] = metrics.socket ? socketJson(*metrics.socket) : nlohmann::ordered_json();
   json["way_out"] = metrics.way ? wayJson(*metrics.way, metrics.ways_looked_at) : nlohmann::ordered_json();
   json["procedure"] = metrics.procedure ? procedureJson(*metrics.procedure) : nlohmann::ordered_json();

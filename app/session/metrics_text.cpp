@@ -73,6 +73,7 @@ std::string metricsText(const SessionMetrics& metrics) {
         fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
                     broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
   if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, metrics.endOfWork_s()) + "\n";
+  if (metrics.flap) words += "flap: " + flapInWords(*metrics.flap) + "\n";
   if (metrics.socket && !socketInWords(*metrics.socket).empty())
     words += "socket: " + socketInWords(*metrics.socket) + "\n";
   if (metrics.way) words += "last looked what keeps the tooth in: " + wayInWords(*metrics.way) + "\n";

@@ -56,7 +56,7 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
                                 length, shaft, angle, gap, ruler, slices, tool, shades, handpiece, X_PO, second, pieces,
-                                window, site, field, marks, beads, obstacles] = a;
+                                window, site, field, marks, beads, obstacles, flap, gum, flap_serial, gum_serial] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
       a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
     return false;
@@ -65,7 +65,8 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
     return false;
   if (a.slices_beside_bur_P_mm != b.slices_beside_bur_P_mm || a.face_window_mm != b.face_window_mm ||
       a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.beads != b.beads ||
-      a.obstacles != b.obstacles || a.site_P.mm != b.site_P.mm)
+      a.obstacles != b.obstacles || a.site_P.mm != b.site_P.mm || a.flap_serial != b.flap_serial ||
+      a.gum_serial != b.gum_serial)
     return false;
   if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
   if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;

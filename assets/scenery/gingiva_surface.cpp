@@ -36,8 +36,7 @@ constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
 constexpr int kSmoothingSteps = 4, kLumpSteps = 40;
 constexpr double kCrumbShare = 0.01, kCrumb_mm2 = 50.0;
-constexpr float kWetRoughness = 0.16f;  // of the flap
-constexpr double kOnFlap_mm = 0.2;      // of the surface from the folded sheet
+constexpr double kOnFlap_mm = 0.2;  // of the surface from the folded sheet
 
 bool carriesGingiva(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
 
@@ -131,27 +130,24 @@ void addFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Wound& wo
   });
 }
 
-constexpr glm::vec3 kPink(0.56f, 0.205f, 0.185f), kWound(0.30f, 0.035f, 0.03f);
+constexpr glm::vec3 kPink(0.56f, 0.205f, 0.185f);
 constexpr glm::vec3 kRaw(0.40f, 0.055f, 0.045f), kPeriosteum(0.60f, 0.27f, 0.22f);
 
 // The flap's raw underside with paler periosteum, up to the pink of its free edge.
 glm::vec3 undersideAt(const glm::dvec3& p_P, double over_mm) {
-  const double streaks = 0.5 + 0.5 * std::sin(1.3 * p_P.x + 2.9 * p_P.y + 1.8 * std::sin(1.1 * p_P.z + 0.6 * p_P.y));
   const double margin = std::clamp(1.2 + 0.8 * (over_mm - ReflectedFlap::kFolded_mm), 0.0, 1.0);
-  return glm::mix(glm::mix(kRaw, kPeriosteum, static_cast<float>(0.4 * streaks * streaks)), kPink,
-                  static_cast<float>(0.8 * margin));
+  return glm::mix(rawGumColour(p_P), kPink, static_cast<float>(0.8 * margin));
 }
 
 // Wet pink, deep red along the wound's edge and in the incision.
 glm::vec3 colourAt(const glm::dvec3& p_P, const std::optional<Wound>& wound, const std::optional<ReflectedFlap>& flap) {
-  const double speckle = 0.05 * std::sin(2.1 * p_P.x + 1.3 * std::sin(1.7 * p_P.y)) * std::sin(1.9 * p_P.z + p_P.y);
-  const glm::vec3 pink = kPink * static_cast<float>(1.0 + speckle);
+  const glm::vec3 pink = gumColour(p_P);
   if (!wound || !flap) return pink;
   const double over_mm = wound->distance_mm(p_P);
   const double edge = std::exp(-std::pow(std::max(0.0, over_mm) / 1.5, 2.0));
   const double incision = std::exp(-std::pow(std::max(0.0, flap->incision_mm(p_P)) / 0.45, 2.0));
   const double on_flap = std::clamp(1.0 - (flap->distance_mm(p_P) - 0.05) / 0.35, 0.0, 1.0);
-  const glm::vec3 gingiva = glm::mix(pink, kWound, static_cast<float>(std::max(0.85 * edge, 0.9 * incision)));
+  const glm::vec3 gingiva = glm::mix(pink, kWoundColour, static_cast<float>(std::max(0.85 * edge, 0.9 * incision)));
   return glm::mix(gingiva, undersideAt(p_P, over_mm), static_cast<float>(on_flap));
 }
 
@@ -217,12 +213,22 @@ MeshModel split(const MeshPart& whole, const IsOnFlap& is_on_flap) {
       part.triangles.push_back(moved[n][v]);
     }
   }
-  model.parts[1].material.roughness = kWetRoughness;
+  model.parts[1].material.roughness = kWetGumRoughness;
   if (model.parts[1].triangles.empty()) model.parts.pop_back();
   return model;
 }
 
 }  // namespace
+
+glm::vec3 gumColour(const glm::dvec3& p) {
+  const double speckle = 0.05 * std::sin(2.1 * p.x + 1.3 * std::sin(1.7 * p.y)) * std::sin(1.9 * p.z + p.y);
+  return kPink * static_cast<float>(1.0 + speckle);
+}
+
+glm::vec3 rawGumColour(const glm::dvec3& p) {
+  const double streaks = 0.5 + 0.5 * std::sin(1.3 * p.x + 2.9 * p.y + 1.8 * std::sin(1.1 * p.z + 0.6 * p.y));
+  return glm::mix(kRaw, kPeriosteum, static_cast<float>(0.4 * streaks * streaks));
+}
 
 Wound::Wound(const PlannedCut& cut) {
   const CutField field(cut, kWoundReach_mm, true, kWoundSpacing_mm);
@@ -262,6 +268,14 @@ double Wound::distance_mm(const glm::dvec3& p_P_mm) const {
   const glm::ivec3 base(glm::floor(grid_.indexFromPoint(p_P_mm)));
   if (!grid_.contains(base) || !grid_.contains(base + 1)) return kWoundReach_mm - kFlapMargin_mm;
   return trilinearAt(grid_, p_P_mm, [&](glm::ivec3 ijk) { return double{mm_[grid_.index(ijk)]}; });
+}
+
+MeshModel withFlapPart(const MeshModel& closed, const PlannedCut& cut) {
+  const Wound wound(cut);
+  MeshModel parts =
+      split(closed.parts.front(), [&](const glm::vec3& p_P) { return wound.distance_mm(glm::dvec3(p_P)) < 0.0; });
+  for (MeshPart& part : parts.parts) part.material = closed.parts.front().material;
+  return parts;
 }
 
 MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cut) {

@@ -38,6 +38,16 @@ class Wound {
   std::vector<float> mm_;  ///< in the order of the grid
 };
 
+/// Of wet gum at a place, and of the raw underside of a raised one; linear.
+glm::vec3 gumColour(const glm::dvec3& p_P_mm);
+glm::vec3 rawGumColour(const glm::dvec3& p_P_mm);
+/// Of the edge of a wound.
+inline constexpr glm::vec3 kWoundColour{0.30f, 0.035f, 0.03f};
+inline constexpr float kWetGumRoughness = 0.16f;
+
+/// Closed gum in two parts, the one that is raised for the cut as "Gum flap"; drawn, they are one.
+MeshModel withFlapPart(const MeshModel& closed, const PlannedCut& cut);
+
 /// "Gum" and, where there is a cut, the flap raised for it as "Gum flap"; no part where nothing is labelled gingiva.
 /// Throws LoadError if labels and grid do not fit.
 MeshModel gingivaSurface(const CtVolume& ct, const std::optional<PlannedCut>& cut);

@@ -17,11 +17,13 @@
 namespace haptics {
 
 struct Command {
-  std::uint64_t serial = 0;       ///< rises by one with every change
-  Tool tool;                      ///< for force, cutting and display
-  bool drill_enabled = true;      ///< false: the pedal has no effect
-  bool hands_off = false;         ///< as if no hand held the handle: force to zero, nothing works; then armed anew
-  bool irrigating = true;         ///< water on the bur while it turns; recorded and drawn, not felt
+  std::uint64_t serial = 0;      ///< rises by one with every change
+  Tool tool;                     ///< for force, cutting and display
+  bool drill_enabled = true;     ///< false: the pedal has no effect
+  bool hands_off = false;        ///< as if no hand held the handle: force to zero, nothing works; then armed anew
+  bool irrigating = true;        ///< water on the bur while it turns; recorded and drawn, not felt
+  bool assistant_holds = false;  ///< lip, cheek and tongue aside: they give way; and a raised flap (app/procedure/flap)
+  bool flap_aside = false;       ///< soft tissue labelled flap gives way: raised and held where the gum was closed
   std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo
   std::uint64_t redo_serial = 0;  ///< rises by one for every stroke to redo
   SplitOrder split;

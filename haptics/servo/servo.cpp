@@ -18,6 +18,21 @@ Command sanitised(const Command& command) {
   return safe;
 }
 
+/// Soft tissue that does not hold the tool off: what the assistant holds aside, and gum under blade and periosteal
+/// elevator, which cut it and lift it.
+static std::uint8_t givingWay(const Command& command) noexcept {
+  using assets::SoftTissue;
+  std::uint8_t tissues = 0;
+  if (command.assistant_holds)
+    tissues = static_cast<std::uint8_t>(bitOf(SoftTissue::lip) | bitOf(SoftTissue::cheek) | bitOf(SoftTissue::tongue) |
+                                        bitOf(SoftTissue::mucosa));
+  if (command.flap_aside) tissues = static_cast<std::uint8_t>(tissues | bitOf(SoftTissue::flap));
+  const HandInstrument in_hand = command.tool.hand_instrument;
+  if (in_hand == HandInstrument::scalpel_15 || in_hand == HandInstrument::periosteal)
+    tissues = static_cast<std::uint8_t>(tissues | bitOf(SoftTissue::gingiva) | bitOf(SoftTissue::flap));
+  return tissues;
+}
+
 Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) noexcept {
   const Command command = sanitised(requested);
   Tick tick;
@@ -73,8 +88,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
 
   // Soft tissue holds the tool off; bone contact starts from there.
-  const SoftHold::State soft =
-      soft_hold_.update(soft_tissue_, command.tool, valid.X_PT, valid.velocity_P_mm_per_s, tick.drilling);
+  const SoftHold::State soft = soft_hold_.update(soft_tissue_, command.tool, valid.X_PT, valid.velocity_P_mm_per_s,
+                                                 tick.drilling, givingWay(command));
   tick.soft = soft.touch;
 
   // Forceps are led by the piece they hold, an elevator by what its blade meets.

@@ -55,8 +55,11 @@ void SoftHold::place(const SoftTissueField& field, const Tool& tool, const ToolP
 }
 
 bool SoftHold::isFree(const SoftTissueField& field, const ToolPose& X_PT) const noexcept {
-  for (std::size_t n = 0; n < outline_.count; ++n)
-    if (field.at(centre_P(X_PT, n)).distance_mm < outline_.balls[n].radius_mm + kContactSkin_mm) return false;
+  for (std::size_t n = 0; n < outline_.count; ++n) {
+    const glm::dvec3 centre = centre_P(X_PT, n);
+    if (field.at(centre).distance_mm < outline_.balls[n].radius_mm + kContactSkin_mm && !givesWay(field, centre))
+      return false;
+  }
   return true;
 }
 
@@ -86,7 +89,7 @@ SoftHold::Contact SoftHold::pushOut(const SoftTissueField& field, bool turning) 
       const SoftTissueField::Sample at = field.at(held_.translation_mm + arm);
       const double missing_mm = outline_.balls[n].radius_mm - buried_mm_[n] - at.distance_mm;
       const double slope = glm::length(at.gradient_P);
-      if (missing_mm <= 0.0 || slope < 0.2) continue;
+      if (missing_mm <= 0.0 || slope < 0.2 || givesWay(field, held_.translation_mm + arm)) continue;
       const glm::dvec3 normal = at.gradient_P / slope, lever = glm::cross(arm, normal);
       const double push_mm = missing_mm / (1.0 + kInverseLever2 * glm::dot(lever, lever));
       held_.translation_mm += push_mm * normal;
@@ -114,6 +117,7 @@ SoftTouch SoftHold::touched(const SoftTissueField& field, const Contact& most, b
         most.push_mm > 0.0 && inside_mm > buried_mm_[n] - kContactSkin_mm && inside_mm > -kContactSkin_mm;
     if (!(is_held && !is_cut) && inside_mm < kInTissue_mm) continue;
     const SoftTissue tissue = field.tissueAt(centre);
+    if (assets::contains(passable_, tissue)) continue;
     touch.tissues = static_cast<std::uint8_t>(touch.tissues | assets::bitOf(tissue));
     if (is_cut && touch.bur_cuts == SoftTissue::none) touch.bur_cuts = tissue;
     if (inside_mm > deepest_mm) deepest_mm = inside_mm, deepest = n;
@@ -129,7 +133,9 @@ SoftTouch SoftHold::touched(const SoftTissueField& field, const Contact& most, b
 }
 
 SoftHold::State SoftHold::update(const SoftTissueField* field, const Tool& tool, const ToolPose& X_PT,
-                                 const Vector<Patient>& velocity_P_mm_per_s, bool turning) noexcept {
+                                 const Vector<Patient>& velocity_P_mm_per_s, bool turning,
+                                 std::uint8_t passable) noexcept {
+  passable_ = passable;
   if (field == nullptr || field->isEmpty()) return {X_PT, {}, 0.0};
   if (!placed_ || !(tool == tool_)) place(*field, tool, X_PT);
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "assets/soft_tissue_field.h"
 #include "haptics/contact/soft_touch.h"
@@ -38,9 +39,11 @@ class SoftHold {
     double max_stored_Nmm = 0.0;  ///< upper bound of the energy the tissue could give back
   };
 
-  /// `turning`: the bur turns. `tool` sanitised, `X_PT` finite. A field of null or without values: the hand's pose.
+  /// `turning`: the bur turns. `passable`: tissues that give way without force (assets::bitOf). `tool` sanitised,
+  /// `X_PT` finite. A field of null or without values: the hand's pose.
   State update(const assets::SoftTissueField* field, const Tool& tool, const ToolPose& X_PT,
-               const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s, bool turning) noexcept;
+               const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s, bool turning,
+               std::uint8_t passable = 0) noexcept;
 
   /// The next update() starts at the hand, whatever is there.
   void release() { placed_ = false; }
@@ -65,7 +68,12 @@ class SoftHold {
     return X_PT.translation_mm + X_PT.rotation * glm::dvec3(0.0, 0.0, outline_.balls[ball].z_mm);
   }
 
+  bool givesWay(const assets::SoftTissueField& field, const glm::dvec3& p_P_mm) const noexcept {
+    return passable_ != 0 && assets::contains(passable_, field.tissueAt(p_P_mm));
+  }
+
   Tool tool_;
+  std::uint8_t passable_ = 0;
   InstrumentOutline outline_;
   std::array<double, InstrumentOutline::kMaxBalls> buried_mm_{};  ///< a ball may be this deep inside
   ToolPose held_;

@@ -30,6 +30,6 @@ struct HandInstrumentSize {
   double tip_radius_mm = 0.5, shank_radius_mm = 0.5, length_mm = 40.0;
 };
 inline constexpr std::array<HandInstrumentSize, kHandInstrumentKeys.size()> kHandInstrumentSizes{
-    {{}, {0.3, 0.3}, {0.6, 0.6}, {1.2, 0.8}, {1.0, 1.0}, {1.5, 1.5}}};
+    {{}, {0.3, 0.15}, {0.6, 0.6}, {1.2, 0.8}, {1.0, 1.0}, {1.5, 1.5}}};
 
 }  // namespace haptics

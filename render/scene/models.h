@@ -25,6 +25,7 @@ enum class Model {
   ruler_overlay,
   beads,
   obstacles,
+  flap,
   first_piece
 };
 inline constexpr std::size_t kModels = static_cast<std::size_t>(Model::first_piece) + kMostPieces;
@@ -48,7 +49,7 @@ enum class Finish {
 constexpr Finish finishOf(Model model) {
   constexpr std::array kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
                                Finish::guide, Finish::guide,   Finish::instrument, Finish::guide,
-                               Finish::guide, Finish::tooth,   Finish::obstacle};
+                               Finish::guide, Finish::tooth,   Finish::obstacle,   Finish::gingiva};
   if (model >= Model::first_piece) return Finish::piece;
   return kFinish[static_cast<std::size_t>(model)];
 }

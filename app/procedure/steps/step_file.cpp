@@ -65,6 +65,9 @@ DoneWhen doneWhen(assets::TomlReader& keys, const std::string& table) {
   if (keys.has(table, "in_hand"))
     when.in_hand = oneOf<StepInstrument>(keys, table, "in_hand", keys.text(table, "in_hand"),
                                          std::span(kStepInstruments).first<3>());
+  when.incision_mm = numberIfGiven(keys, table, "incision_mm", {1.0, 100.0, "mm"});
+  when.flap_raised = numberIfGiven(keys, table, "flap_raised", kShare);
+  when.flap_held = keys.boolean(table, "flap_held", false);
   when.gutter_removed = numberIfGiven(keys, table, "gutter_removed", kShare);
   when.crown_bared = numberIfGiven(keys, table, "crown_bared", kShare);
   when.bone_mm3 = numberIfGiven(keys, table, "bone_mm3", kVolume);
@@ -79,9 +82,7 @@ DoneWhen doneWhen(assets::TomlReader& keys, const std::string& table) {
   when.edges_mm = numberIfGiven(keys, table, "edges_mm", {0.5, 200.0, "mm"});
   when.socket_clean = keys.boolean(table, "socket_clean", false);
   when.stitches = countIfGiven(keys, table, "stitches", 1);
-  const bool has_rule = when.in_hand || when.gutter_removed || when.crown_bared || when.bone_mm3 || when.tooth_mm3 ||
-                        when.bridge_mm || when.torn || when.pieces || when.pieces_out || when.all_out ||
-                        when.chips_mm3 || when.follicle_left || when.edges_mm || when.socket_clean || when.stitches;
+  const bool has_rule = when.hasRule();
   if (has_rule == !when.given.empty())
     keys.refuse(table, "",
                 has_rule ? "what is given is not done by hand, leave out given or the rules"
@@ -145,6 +146,17 @@ StepPlan stepPlanFromToml(const std::string& text, const std::string& where) {
   const std::size_t steps = keys.tables("step", 1, kMostSteps);
   for (std::size_t n = 1; n <= steps; ++n) plan.steps.push_back(stepAt(keys, "step." + std::to_string(n), known));
   keys.refuseUnknownKeys();
+  return plan;
+}
+
+StepPlan withFlapRaised(StepPlan plan) {
+  for (Step& step : plan.steps) {
+    DoneWhen& when = step.done_when;
+    if (!when.asksForFlap()) continue;
+    when.incision_mm.reset(), when.flap_raised.reset();
+    when.flap_held = false;
+    if (!when.hasRule()) when.given = "The flap is raised already";
+  }
   return plan;
 }
 

@@ -40,6 +40,9 @@ inline constexpr std::array<std::string_view, 5> kStepRegions = {"none", "flap",
 struct DoneWhen {
   std::string given;  ///< why it is not done by hand, for the surgeon; empty: it is
   std::optional<StepInstrument> in_hand;
+  std::optional<double> incision_mm;          ///< down to the bone, at least
+  std::optional<double> flap_raised;          ///< share of the gum over the planned cut
+  bool flap_held = false;                     ///< aside
   std::optional<double> gutter_removed;       ///< share of the planned gutter's bone
   std::optional<double> crown_bared;          ///< share of the crown that the plan lays bare
   std::optional<double> bone_mm3, tooth_mm3;  ///< removed, at least
@@ -53,6 +56,12 @@ struct DoneWhen {
   std::optional<double> edges_mm;       ///< sharp, at most
   bool socket_clean = false;            ///< as SocketRecord::isClean()
   std::optional<int> stitches;          ///< confirmed, at least
+
+  bool asksForFlap() const { return incision_mm || flap_raised || flap_held; }
+  bool hasRule() const {
+    return asksForFlap() || in_hand || gutter_removed || crown_bared || bone_mm3 || tooth_mm3 || bridge_mm || torn ||
+           pieces || pieces_out || all_out || chips_mm3 || follicle_left || edges_mm || socket_clean || stitches;
+  }
 };
 
 /// What counts as an error in a step, once each time it begins.
@@ -82,6 +91,9 @@ struct StepPlan {
   std::string title;
   std::vector<Step> steps;  ///< not empty
 };
+
+/// For a rehearsal that begins with the flap raised: steps that ask for nothing else are given.
+StepPlan withFlapRaised(StepPlan plan);
 
 /// How much of it is told: nothing; the next step; nothing but the record of errors and times.
 enum class Guidance : std::uint8_t { free, guided, assessed };

@@ -74,6 +74,14 @@ RuleState stateOf(const DoneWhen& when, const haptics::Tick& tick, const StepFac
   const int out = piecesOut(tick),
             wanted_out = when.all_out ? std::max<int>(1, tick.pieces) : when.pieces_out.value_or(0);
   if (when.in_hand) require(state, facts.in_hand == *when.in_hand, [&] { return "take the " + nameOf(*when.in_hand); });
+  const FlapFacts flap = facts.flap.value_or(FlapFacts{});
+  if (when.incision_mm)
+    require(state, flap.full_incision_mm >= *when.incision_mm, [&] {
+      return fmt::format("incision to the bone {:.0f} of {:.0f} mm", flap.full_incision_mm, *when.incision_mm);
+    });
+  requireShare(state, when.flap_raised, flap.raised_share, "flap raised");
+  if (when.flap_held)
+    require(state, flap.is_held, [] { return std::string("the flap is not held: A calls the assistant"); });
   requireShare(state, when.gutter_removed, facts.gutter_removed, "gutter");
   requireShare(state, when.crown_bared, facts.crown_bared, "crown bared");
   requireVolume(state, when.bone_mm3, boneRemoved_mm3(tick), "bone");

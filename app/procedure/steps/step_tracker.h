@@ -38,6 +38,12 @@ struct SocketFacts {
   int stitches = 0;
 };
 
+/// The flap, where the rehearsal began with the gum closed.
+struct FlapFacts {
+  double full_incision_mm = 0.0, raised_share = 0.0;
+  bool is_held = false;
+};
+
 /// What the tick alone does not say. None: not known.
 struct StepFacts {
   StepInstrument in_hand = StepInstrument::bur;
@@ -45,6 +51,7 @@ struct StepFacts {
   std::optional<double> gutter_removed, crown_bared;  ///< shares
   std::optional<double> bridge_mm;                    ///< the thinnest
   std::optional<double> nerve_mm;                     ///< of the bur to the wall of the mandibular canal
+  std::optional<FlapFacts> flap;
   std::optional<SocketFacts> socket;
 };
 
