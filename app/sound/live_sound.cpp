@@ -30,11 +30,11 @@ constexpr double kSilentAfter_s = 0.3;    ///< without a tick
 struct LiveSound::Player {
   struct Piece {
     SoundControl control;
-    Clock::time_point taken{};  ///< from the servo
+    Clock::time_point taken{};  ///< by the frame, from the servo
   };
 
   Player() : pieces(kWaiting) {
-    waiting.reserve(kWaiting + 1);
+    waiting.reserve(2 * kWaiting);  // half of it, and all that a full ring holds
     search = std::thread([this] {
       auto found = std::make_unique<SoundCard>([this](double rate_Hz) { return prepare(rate_Hz); },
                                                [this](const std::string& why) {

@@ -3,7 +3,6 @@
 // it. Without one there is silence and one line. follow() and isMuted: main thread, no allocation after construction.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,7 +26,7 @@ class LiveSound {
   bool isMuted() const;
   /// Why there is no sound, once, when that is known; else empty.
   std::string takeTrouble();
-  /// "sound: 38 ms from the tick to the ear, 20 ms of them in the card"; empty: nothing was heard.
+  /// "sound: 38 ms from the frame to the ear, 20 ms of them in the card", means; empty: nothing was heard.
   std::string latencyText() const;
 
  private:

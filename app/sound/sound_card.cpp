@@ -1,42 +1,30 @@
 #include "app/sound/sound_card.h"
 
-#include <fcntl.h>
+#include <dlfcn.h>
 #include <portaudio.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 namespace app {
 namespace {
 
-/// Suppresses stderr: sound libraries report every card they do not find.
-class SilentStderr {
- public:
-  SilentStderr() {
-    std::fflush(stderr);
-    kept_ = dup(STDERR_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
-  }
-  ~SilentStderr() {
-    if (kept_ < 0) return;
-    std::fflush(stderr);
-    dup2(kept_, STDERR_FILENO);
-    close(kept_);
-  }
-  SilentStderr(const SilentStderr&) = delete;
-  SilentStderr& operator=(const SilentStderr&) = delete;
+void dropReport(const char*, int, const char*, int, const char*, ...) {}
+void dropLine(const char*) {}
 
- private:
-  int kept_ = -1;
-};
+/// Sound libraries report every card that they do not find. They are asked to be silent, by their names, so that no
+/// header of theirs is needed; stderr itself stays open for the lines of other threads.
+void silenceLibraries() {
+  using Report = void (*)(const char*, int, const char*, int, const char*, ...);
+  using Line = void (*)(const char*);
+  if (void* const set = dlsym(RTLD_DEFAULT, "snd_lib_error_set_handler"))
+    reinterpret_cast<int (*)(Report)>(set)(dropReport);
+  for (const char* name : {"jack_set_error_function", "jack_set_info_function"})
+    if (void* const set = dlsym(RTLD_DEFAULT, name)) reinterpret_cast<void (*)(Line)>(set)(dropLine);
+}
 
 }  // namespace
 
 struct SoundCard::Stream {
   Stream(const std::function<Fill(double)>& make, const std::function<void(const std::string&)>& report) {
-    const SilentStderr silent;
+    silenceLibraries();
     PaError error = Pa_Initialize();
     is_initialised = error == paNoError;
     const PaDeviceIndex device = is_initialised ? Pa_GetDefaultOutputDevice() : paNoDevice;
@@ -58,10 +46,7 @@ struct SoundCard::Stream {
     end();
     report(error == paDeviceUnavailable ? "no sound card" : Pa_GetErrorText(error));
   }
-  ~Stream() {
-    const SilentStderr silent;
-    end();
-  }
+  ~Stream() { end(); }
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 

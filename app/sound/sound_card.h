@@ -1,6 +1,7 @@
 // The default output of the machine's sound, mono, through PortAudio. Without a card there is silence and one line that
-// says so. Construction and destruction take up to a second while cards are searched; what libraries print meanwhile is
-// suppressed. `fill` runs on PortAudio's thread: it must not wait, allocate or throw.
+// says so. Construction and destruction take up to a second while cards are searched; sound
+// libraries are silenced, stderr is not touched. `fill` runs on PortAudio's thread: it must not wait, allocate or
+// throw.
 #pragma once
 
 #include <functional>

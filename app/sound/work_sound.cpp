@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kFibre_Nmm = 2.0, kStiffness_N_per_mm = 500.0;
+constexpr double kFastest_rad_per_s = 1e5;  ///< more, or no number, is damage: silence
 
 /// The colour of a cut: the harder, the higher.
 double cutFrequency_Hz(std::uint8_t label) {
@@ -56,7 +57,8 @@ SoundWarning soundWarning(const haptics::Clearances& clearances) noexcept {
 SoundControl SoundScore::of(const haptics::Tick& tick, const haptics::Command& in_force) noexcept {
   constexpr double kLoud_mm3_per_s = 10.0, kRub_N = 4.0, kRub = 0.25, kStalled = 0.4;
   SoundControl control;
-  const double speed = std::abs(tick.spindle_rad_per_s);
+  const double recorded = std::abs(tick.spindle_rad_per_s);
+  const double speed = recorded <= kFastest_rad_per_s ? recorded : 0.0;
   control.spindle_Hz = speed / kTurn;
   const bool touches = tick.overlap_mm3 > 0.0;
   if (touches && tick.drilling && tick.dt_s > 0.0) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdio>
+#include <thread>
 #include <vector>
 
 namespace app {
@@ -27,6 +30,21 @@ TEST(LiveSound, ManyTicksWithoutACardDisturbNobodyAndTheTroubleIsToldOnce) {
     EXPECT_TRUE(trouble.starts_with("sound: ")) << trouble;
     EXPECT_TRUE(trouble.ends_with("; the rehearsal is silent")) << trouble;
   }
+}
+
+TEST(LiveSound, LinesOfTheProgramAreKeptWhileCardsAreSearched) {
+  std::string lines;
+  testing::internal::CaptureStderr();
+  {
+    LiveSound sound;
+    for (int n = 0; n < 300; ++n) {
+      const std::string line = "line " + std::to_string(n) + "\n";
+      std::fputs(line.c_str(), stderr);
+      lines += line;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), lines) << "and nothing else is said";
 }
 
 }  // namespace

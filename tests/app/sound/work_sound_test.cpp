@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -220,6 +221,22 @@ TEST(SoundScore, ReadsTheTick) {
   EXPECT_EQ(score.of(tick, command).stall, 1.0);
   tick.contact_tissue = static_cast<std::uint8_t>(assets::Tissue::mandibular_canal);
   EXPECT_EQ(score.of(tick, command).warning.alarm, SoundAlarm::canal);
+}
+
+TEST(SoundScore, ASpindleOfNoNumberIsSilentAndWhatFollowsIsHeard) {
+  SoundScore score;
+  WorkSound sound(48'000.0);
+  std::vector<float> samples(4800);
+  haptics::Tick tick;
+  tick.dt_s = 1e-3;
+  for (const double damage : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    tick.spindle_rad_per_s = damage;
+    sound.render(score.of(tick, {}), samples);
+    for (const float sample : samples) ASSERT_EQ(sample, 0.0F);
+  }
+  tick.spindle_rad_per_s = haptics::radPerSecond(40'000.0);
+  sound.render(score.of(tick, {}), samples);
+  EXPECT_GT(*std::ranges::max_element(samples), 0.05F);
 }
 
 TEST(SoundScore, AFibreForEachTwoMillijoulesAndACrackByItsForce) {
