@@ -59,6 +59,12 @@ SessionErrorKind errorKindOf(const SQLite::Exception& exception) {
   return by_bytes ? SessionErrorKind::damaged : SessionErrorKind::failed;
 }
 
+/// What a servo can have written: all that is told over time relies on it.
+bool hasTime(const haptics::Tick& tick) {
+  constexpr double kLongest_s = 1e6, kSlowest_s = 1.0;
+  return tick.t_s >= 0.0 && tick.t_s <= kLongest_s && tick.dt_s >= 0.0 && tick.dt_s <= kSlowest_s;
+}
+
 SessionError notRead(const std::string& path, const SQLite::Exception& exception) {
   const SessionErrorKind kind = errorKindOf(exception);
   const std::string what = path + ": cannot be read (" + exception.what() + "): ";
@@ -318,6 +324,7 @@ TickBlock SessionReader::nextBlock() {
         impl_->unpacker->unpack(decompress(blobOf(rows.getColumn(1)), count * impl_->unpacker->bytesPerTick()));
     if (!impl_->isPacked()) block.removed_mm3 = removedFromText(rows.getColumn(2).getString());
     for (haptics::Tick& tick : block.ticks) {
+      if (!hasTime(tick)) throw damagedSession("tick " + std::to_string(tick.index) + " has no time");
       tick.contact_tissue = impl_->label[tick.contact_tissue];
       if (tick.index > impl_->next_index) impl_->gaps += tick.index - impl_->next_index;
       impl_->next_index = tick.index + 1;

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <limits>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
@@ -187,6 +188,31 @@ TEST(SessionFile, OfAProgramAfterThisOneIsReadAsFarAsItIsKnown) {
   ASSERT_EQ(session.events().size(), 1u);
   EXPECT_EQ(session.events()[0].tick, 7u);
   EXPECT_EQ(readEverything(session), 80u);
+}
+
+TEST(SessionFile, WithATickThatHasNoTimeIsRefusedInOneLine) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [t_s, dt_s] : {std::pair(kNan, 1e-3), std::pair(0.01, kNan), std::pair(-1.0, 1e-3),
+                                  std::pair(1e30, 1e-3), std::pair(0.01, 2.0)}) {
+    const tests::ScratchFolder folder;
+    const std::string path = folder.file("s.molar");
+    {
+      SessionWriter writer(path, false, test::SmallBone().start());
+      std::vector<haptics::Tick> ticks = imaginedTicks(0, 20);
+      ticks[10].t_s = t_s;
+      ticks[10].dt_s = dt_s;
+      writer.write({{}, ticks, {}});
+      writer.seal(0);
+    }
+    SessionReader session(path);
+    EXPECT_FALSE(session.damage()) << "every byte as it was written";
+    try {
+      session.nextBlock();
+      ADD_FAILURE() << t_s << " " << dt_s;
+    } catch (const SessionError& error) {
+      EXPECT_NE(std::string(error.what()).find("tick 10 has no time"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(SessionFile, HoldsAsManyTicksAsItsSealSays) {
