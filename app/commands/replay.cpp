@@ -73,14 +73,16 @@ void addReplay(CommandLine& molar) {
   CommandLine& command = molar.command("replay", "Run a recorded session again");
   command.option("SESSION", options->session, kSessionHelp).required();
   Option check = command.flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
-  command.option("--to", options->to_s, "Stop at this time, s").from(0.0, 1e9);
+  Option to = command.option("--to", options->to_s, "Stop at this time, s");
+  to.from(0.0, 1e9);
   Option out = command.option("--volume", options->out, "Write the bone as it then was, .nrrd");
   out.excludes(check);
   command.option("--out", options->out, "Former name of --volume").hidden().excludes(check);
-  command.flag("--digest", options->digest, "Print the digest of jaw, pieces and poses as they then were")
-      .excludes(check);
+  Option digest =
+      command.flag("--digest", options->digest, "Print the digest of jaw, pieces and poses as they then were");
+  digest.excludes(check);
   Option sound = command.option("--sound-file", options->sound, "Write what was heard, .flac, in step with the ticks");
-  sound.excludes(check).excludes(out);
+  sound.excludes(check).excludes(out).excludes(to).excludes(digest);
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
     options->session = sessionNamed(options->session);

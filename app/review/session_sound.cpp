@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/session/replay.h"
+#include "app/session/session_error.h"
 #include "app/sound/sound_file.h"
 #include "app/sound/work_sound.h"
 
@@ -29,6 +30,9 @@ double writeSessionSound(const std::string& session_path, const std::string& to)
       sound.render(score.of(tick, in_force), samples);
       file.write(samples);
     }
+  if (written == 0.0)
+    throw session.missingLog() ? missingLogError(session_path, *session.missingLog())
+                               : SessionError(session_path + ": holds no tick, so that nothing was heard");
   file.close();
   return written / kSoundRate_Hz;
 }

@@ -64,6 +64,7 @@ TEST_F(SessionsCommand, TheBoneOfAnyMomentHasItsDigestAndItsSound) {
   EXPECT_EQ(sound.out, "sound of 6.000 s written\n") << sound.err;
   expectRefusal(replay + " --sound-file " + at("s.mp3"), "name it .flac");
   expectRefusal(replay + " --sound-file " + at("s.flac"), "s.flac");
+  expectRefusal(replay + " --sound-file " + at("t.flac") + " --to 1", "--to");
   expectRefusal(replay + " --to 1", "--volume");
 }
 

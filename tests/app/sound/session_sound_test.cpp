@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "app/session/session_error.h"
 #include "app/session/session_writer.h"
 #include "app/text/usage_error.h"
 #include "tests/app/session/small_session.h"
@@ -62,6 +63,16 @@ TEST(SessionSound, IsTheSameEachTime) {
   writeSessionSound(session, folder.file("a.flac"));
   writeSessionSound(session, folder.file("b.flac"));
   EXPECT_EQ(samplesOf(folder.file("a.flac")), samplesOf(folder.file("b.flac")));
+}
+
+TEST(SessionSound, OfASessionWithoutTicksIsRefused) {
+  const tests::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  {
+    SessionWriter writer(path, false, test::SmallBone().start());
+    writer.seal(0);
+  }
+  EXPECT_THROW(writeSessionSound(path, folder.file("s.flac")), SessionError);
 }
 
 TEST(SessionSound, AFolderThatIsNotThereIsToldInOneLine) {
