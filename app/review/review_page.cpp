@@ -15,16 +15,10 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::string unitWords(std::string_view unit) {
-  std::string text(unit);
-  if (const std::size_t at = text.find("mm3"); at != std::string::npos) text.replace(at, 3, "mm³");
-  return text == "deg" ? "°" : text;
-}
-
 std::string valueWords(const MeasureValue& measure) {
   if (!measure.value) return "not told: " + std::string(measure.why);
   std::string words = fixedText(*measure.value, 2);
-  if (!measure.unit.empty()) words += " " + unitWords(measure.unit);
+  if (!measure.unit.empty()) words += " " + unitText(measure.unit);
   if (measure.t_s) words += " at " + clockText(*measure.t_s);
   return words;
 }

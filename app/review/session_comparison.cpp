@@ -20,11 +20,6 @@ struct Row {
   std::optional<double> a, b;
 };
 
-std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id) {
-  const auto found = std::ranges::find(metrics.measures, id, &MeasureValue::id);
-  return found == metrics.measures.end() ? std::nullopt : found->value;
-}
-
 std::vector<Row> rowsOf(const SessionComparison& c) {
   std::vector<Row> rows;
   for (const Measure& measure : kMeasures)
@@ -84,9 +79,10 @@ std::string comparisonText(const SessionComparison& c) {
   if (!stepsOf(c).empty()) words += "\n";
   words += fmt::format("{:>11} {:>11} {:>11}\n", "first", "second", "difference");
   for (const Row& row : rowsOf(c)) {
+    if (isAmongMeasures(row.key)) continue;
     const std::string difference = row.a && row.b ? fmt::format("{:+.2f}", *row.b - *row.a + 0.0) : "-";
-    words +=
-        fmt::format("{:>11} {:>11} {:>11} {:<8} {}\n", number(row.a), number(row.b), difference, row.unit, row.name);
+    words += fmt::format("{:>11} {:>11} {:>11} {:<8} {}\n", number(row.a), number(row.b), difference,
+                         unitText(row.unit), row.name);
   }
   return words;
 }

@@ -22,17 +22,12 @@ struct Column {
   std::optional<double> (*of)(const SessionMetrics& metrics);
 };
 
-std::optional<double> measured(const SessionMetrics& metrics, std::string_view id) {
-  const auto found = std::ranges::find(metrics.measures, id, &MeasureValue::id);
-  return found == metrics.measures.end() ? std::nullopt : found->value;
-}
-
 constexpr std::array kColumns{
     Column{"minutes", "min", [](const SessionMetrics& m) { return std::optional(m.duration_s / 60.0); }},
     Column{"removed_mm3", "mm³", [](const SessionMetrics& m) { return std::optional(m.removed_mm3); }},
-    Column{"rate_mm3_per_s", "mm³/s", [](const SessionMetrics& m) { return measured(m, "M3.rate"); }},
-    Column{"painting_index", "painting", [](const SessionMetrics& m) { return measured(m, "PI"); }},
-    Column{"smoothness", "SPARC", [](const SessionMetrics& m) { return measured(m, "M5.SPARC"); }},
+    Column{"rate_mm3_per_s", "mm³/s", [](const SessionMetrics& m) { return valueOf(m, "M3.rate"); }},
+    Column{"painting_index", "painting", [](const SessionMetrics& m) { return valueOf(m, "PI"); }},
+    Column{"smoothness", "SPARC", [](const SessionMetrics& m) { return valueOf(m, "M5.SPARC"); }},
     Column{"dry_s", "dry s", [](const SessionMetrics& m) { return std::optional(m.dry_drilling_s); }},
     Column{"max_force_N", "most N", [](const SessionMetrics& m) { return std::optional(m.max_force_N); }},
 };
@@ -54,6 +49,8 @@ std::optional<Spread> spreadOf(const CaseTrend& one, const Column& column) {
 }  // namespace
 
 std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report) {
+  if (std::error_code failed; !std::filesystem::is_directory(folder, failed))
+    throw SessionError(folder.string() + ": there is no such folder, name one that molar rehearse recorded into");
   std::map<std::string, CaseTrend> by_title;
   std::vector<SessionListing> listed = listSessions(folder);
   std::ranges::reverse(listed);

@@ -112,6 +112,15 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
 using RisksOf = std::function<assets::RiskStructures(const StoredStart&)>;
 SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of = {});
 
+/// Units as people write them: mm³, °.
+std::string unitText(std::string_view unit);
+
+/// A measure's value by its id; none: the recording cannot tell.
+std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id);
+
+/// Whether kMeasures have the same measure by another name.
+bool isAmongMeasures(std::string_view id);
+
 /// The table of kMeasures for --help and the manual, and where the others are.
 std::string measuresHelp();
 

@@ -9,29 +9,15 @@
 namespace app {
 namespace {
 
-/// Units as people write them.
-std::string unitText(std::string_view unit) {
-  std::string text(unit);
-  if (const std::size_t at = text.find("mm3"); at != std::string::npos) text.replace(at, 3, "mm³");
-  return text == "deg" ? "°" : text;
-}
-
 /// A line for people, the value first, so that names of any length stand below each other.
 std::string valueLine(double value, std::string_view unit, std::string_view name) {
   return fmt::format("{:>11.2f} {:<8} {}\n", value + 0.0, unitText(unit), name);
 }
 
-/// What kMeasures have told already.
-bool isTold(std::string_view id) {
-  constexpr auto kTold =
-      std::to_array<std::string_view>({"M1.total", "M1.on", "M1.contact", "M1.drilling", "M2.path", "S10.dry"});
-  return std::ranges::find(kTold, id) != kTold.end();
-}
-
 std::string measuresText(const std::vector<MeasureValue>& measures) {
   std::string words;
   for (const MeasureValue& measure : measures) {
-    if (isTold(measure.id)) continue;
+    if (isAmongMeasures(measure.id)) continue;
     words += measure.value ? valueLine(*measure.value, measure.unit, measure.name)
                            : fmt::format("{:>11} {:<8} {}: {}\n", "-", "", measure.name, measure.why);
   }
@@ -39,6 +25,23 @@ std::string measuresText(const std::vector<MeasureValue>& measures) {
 }
 
 }  // namespace
+
+std::string unitText(std::string_view unit) {
+  std::string text(unit);
+  if (const std::size_t at = text.find("mm3"); at != std::string::npos) text.replace(at, 3, "mm³");
+  return text == "deg" ? "°" : text;
+}
+
+std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id) {
+  const auto found = std::ranges::find(metrics.measures, id, &MeasureValue::id);
+  return found == metrics.measures.end() ? std::nullopt : found->value;
+}
+
+bool isAmongMeasures(std::string_view id) {
+  constexpr auto kBoth =
+      std::to_array<std::string_view>({"M1.total", "M1.on", "M1.contact", "M1.drilling", "M2.path", "S10.dry"});
+  return std::ranges::find(kBoth, id) != kBoth.end();
+}
 
 std::string measuresHelp() {
   std::string text = "Measures (keys of --json):\n";

@@ -6,7 +6,7 @@
 
 namespace app {
 
-/// "1:05"; minutes go on beyond an hour: "61:00".
+/// "1:05", whole seconds that have passed; minutes go on beyond an hour: "61:00".
 std::string clockText(double time_s);
 
 /// "2026-11-24 15:43", local time.

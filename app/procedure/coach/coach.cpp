@@ -53,7 +53,11 @@ bool Coach::isSeen(const CoachRule& rule, const WorkSample& sample) const {
 }
 
 void Coach::add(const WorkSample& sample, std::optional<double> nearest_mm) {
-  if (!sample.valid) return;
+  if (!sample.valid) {  // a break of what is seen, and the end of a stroke
+    strokes_.add(sample);
+    std::ranges::fill(seen_s_, 0.0);
+    return;
+  }
   nearest_mm_ = nearest_mm;
   now_s_ = sample.t_s + sample.dt_s;
   deepest_ = 0.0;

@@ -38,7 +38,7 @@ class PaintingIndex {
   std::vector<double> straightness_;  ///< of strokes longer than 1 mm
 };
 
-/// Of no value none; reorders them.
+/// None: of no values.
 std::optional<double> medianOf(std::vector<double> values);
 
 }  // namespace app

@@ -50,7 +50,10 @@ TEST_F(ReportCommand, ComparesTwoRehearsalsOfACase) {
     if (measure.at("id") != "duration_s") continue;
     EXPECT_NEAR(measure.at("difference").get<double>(), 4.0, 1e-9);
   }
-  EXPECT_NE(molar("compare " + at("a.molar") + " " + at("b.molar")).out.find("bone removed: "), std::string::npos);
+  const std::string words = molar("compare " + at("a.molar") + " " + at("b.molar")).out;
+  EXPECT_NE(words.find("0:08 min and 0:12 min\nbone removed: "), std::string::npos) << words;
+  EXPECT_EQ(words.find("mm3"), std::string::npos) << "units as people write them";
+  EXPECT_EQ(words.find("length of the work"), std::string::npos) << "no measure twice";
   EXPECT_EQ(molar("report " + at("b.molar") + " --compare " + at("a.molar") + " --out " + at("c.html")).status, 0);
   EXPECT_NE(read("c.html").find("compared with"), std::string::npos);
 }
@@ -78,7 +81,7 @@ TEST_F(ReportCommand, RefusesInOneLine) {
   expectRefusal("report " + at("a.molar") + " --compare " + at("left.molar") + " --out " + at("c.html"),
                 "another case");
   expectRefusal("compare " + at("a.molar") + " " + at("left.molar"), "of one case");
-  expectRefusal("trend " + at("nowhere"), "holds no session");
+  expectRefusal("trend " + at("nowhere"), "no such folder");
   write("a.html", "mine");
   expectRefusal("report " + at("a.molar") + " --out " + at("a.html"), "a.html");
   EXPECT_EQ(read("a.html"), "mine");

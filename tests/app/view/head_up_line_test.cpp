@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "app/text/clock_text.h"
 #include "render/display/camera.h"
@@ -248,6 +249,11 @@ TEST(HeadUpLine, TimeIsMinutesAndSeconds) {
   EXPECT_EQ(clockText(0.0), "0:00");
   EXPECT_EQ(clockText(65.9), "1:05");
   EXPECT_EQ(clockText(3600.0), "60:00");
+  double sum_s = 0.0;
+  for (int n = 0; n < 3000; ++n) sum_s += 1e-3;
+  EXPECT_LT(sum_s, 3.0) << "of ticks";
+  EXPECT_EQ(clockText(sum_s), "0:03");
+  EXPECT_EQ(clockText(std::numeric_limits<double>::quiet_NaN()), "0:00");
 }
 
 }  // namespace

@@ -103,6 +103,13 @@ TEST(Coach, ForceTowardsANearStructureIsSaidBeforeAnythingElse) {
   EXPECT_EQ(all[0], "near a structure: less force");
 }
 
+TEST(Coach, AnInvalidPoseBreaksOffWhatIsSeen) {
+  std::vector<WorkSample> samples;
+  for (int n = 0; n < 2000; ++n) samples.push_back(sampleAt(n * 1e-3, {0.0, 0.0, 0.0}));
+  samples[1000].valid = false;
+  EXPECT_TRUE(said(samples).empty()) << "twice a second at rest, not once two";
+}
+
 TEST(Coach, OffTheBoneNothingIsSaid) {
   std::vector<WorkSample> samples = goodWork(6.0);
   for (WorkSample& sample : samples) {
