@@ -13,6 +13,7 @@ namespace app {
 double writeSessionSound(const std::string& session_path, const std::string& to) {
   SessionReader session(session_path);
   refuseDamaged(session, session_path);
+  if (const auto log = session.missingLog()) throw missingLogError(session_path, *log);
   const std::vector<SessionCommand> commands = session.commands();
   auto next = commands.begin();
   haptics::Command in_force;
@@ -30,9 +31,7 @@ double writeSessionSound(const std::string& session_path, const std::string& to)
       sound.render(score.of(tick, in_force), samples);
       file.write(samples);
     }
-  if (written == 0.0)
-    throw session.missingLog() ? missingLogError(session_path, *session.missingLog())
-                               : SessionError(session_path + ": holds no tick, so that nothing was heard");
+  if (written == 0.0) throw SessionError(session_path + ": holds no tick, so that nothing was heard");
   file.close();
   return written / kSoundRate_Hz;
 }
