@@ -388,6 +388,9 @@ int run(RehearseOptions& options) {
   if (options.flap == "closed") {
     if (!options.continued.empty())
       throw UsageError("--flap closed: a rehearsal that goes on begins with the flap raised, leave it out");
+    if (isShown(options))
+      throw UsageError(
+          "--flap closed: the shown operation begins with the flap raised, leave out --flap or --procedure");
     if (plan.device == "scripted") plan.device = kShownFlap;
   }
   std::optional<Continuation> former;
@@ -472,7 +475,7 @@ int run(RehearseOptions& options) {
   if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
   // An assistant holds cheek and flap aside.
-  if (isShown(options) && options.flap != "closed") plan.soft_tissue = {};
+  if (isShown(options)) plan.soft_tissue = {};
   if (options.flap == "closed") closeFlap(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.

@@ -136,16 +136,15 @@ class Rehearsal {
             frame_.gap, rulerText(frame_.ruler),   ways_->line(), clearance_.now()};
   }
 
-  bool isWholeOperation() const { return plan_.device != std::string("scripted:") + std::string(kFlapScript); }
   void beginOperation() {
     demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
                            *equipment_.led());
   }
   void beginFlap() {
     const haptics::TroughPath path(*plan_.cut, cuttingMotion(*plan_.cut, plan_.rig));
-    flap_shown_.emplace(
-        flap_->flap().chart(), flap_->flap().plan(), *plan_.cut, active_command_.tray(), *equipment_.led(),
-        haptics::LedPath{[path](double t_s) { return path.at(t_s); }, path.duration_s()}, !isWholeOperation());
+    flap_shown_.emplace(flap_->flap().chart(), flap_->flap().plan(), *plan_.cut, active_command_.tray(),
+                        *equipment_.led(),
+                        haptics::LedPath{[path](double t_s) { return path.at(t_s); }, path.duration_s()});
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -207,9 +206,9 @@ class Rehearsal {
   }
 
   bool isProcedureOver() const {
-    const bool is_flap_all = flap_shown_ && flap_shown_->isOver() && !demonstration_;
+    const bool is_flap_over = flap_shown_ && flap_shown_->isOver();
     return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver()) ||
-           is_flap_all;
+           is_flap_over;
   }
 
   /// 1: the tooth could not be taken out.
@@ -355,8 +354,6 @@ class Rehearsal {
     if (const auto request = flap_shown_->follow({newest_, command.tool, station().isApplied(newest_), is_aside}))
       active_command_.execute(*request);
     while (const auto line = flap_shown_->news()) tellStep(*line);
-    if (flap_shown_->isOver() && flap_shown_->failure().empty() && isWholeOperation() && !demonstration_)
-      beginOperation();
   }
 
   void tellStep(const std::string& line) {

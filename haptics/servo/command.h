@@ -23,7 +23,7 @@ struct Command {
   bool hands_off = false;        ///< as if no hand held the handle: force to zero, nothing works; then armed anew
   bool irrigating = true;        ///< water on the bur while it turns; recorded and drawn, not felt
   bool assistant_holds = false;  ///< lip, cheek and tongue aside: they give way; and a raised flap (app/procedure/flap)
-  bool flap_aside = false;       ///< soft tissue labelled flap gives way: raised and held where the gum was closed
+  bool flap_aside = false;       ///< raised from closed gum and held: gum gives way, a bur on its edge is still told
   std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo
   std::uint64_t redo_serial = 0;  ///< rises by one for every stroke to redo
   SplitOrder split;

@@ -18,15 +18,16 @@ Command sanitised(const Command& command) {
   return safe;
 }
 
-/// Soft tissue that does not hold the tool off: what the assistant holds aside, and gum under blade and periosteal
-/// elevator, which cut it and lift it.
+/// Soft tissue that does not hold the tool off: what the assistant holds aside, with a flap the wound's edge, and gum
+/// under blade and periosteal elevator, which cut it and lift it.
 static std::uint8_t givingWay(const Command& command) noexcept {
   using assets::SoftTissue;
   std::uint8_t tissues = 0;
   if (command.assistant_holds)
     tissues = static_cast<std::uint8_t>(bitOf(SoftTissue::lip) | bitOf(SoftTissue::cheek) | bitOf(SoftTissue::tongue) |
                                         bitOf(SoftTissue::mucosa));
-  if (command.flap_aside) tissues = static_cast<std::uint8_t>(tissues | bitOf(SoftTissue::flap));
+  if (command.flap_aside)
+    tissues = static_cast<std::uint8_t>(tissues | bitOf(SoftTissue::flap) | bitOf(SoftTissue::gingiva));
   const HandInstrument in_hand = command.tool.hand_instrument;
   if (in_hand == HandInstrument::scalpel_15 || in_hand == HandInstrument::periosteal)
     tissues = static_cast<std::uint8_t>(tissues | bitOf(SoftTissue::gingiva) | bitOf(SoftTissue::flap));

@@ -54,10 +54,11 @@ void SoftHold::place(const SoftTissueField& field, const Tool& tool, const ToolP
     buried_mm_[n] = std::max(0.0, outline_.balls[n].radius_mm - field.at(centre_P(held_, n)).distance_mm);
 }
 
-bool SoftHold::isFree(const SoftTissueField& field, const ToolPose& X_PT) const noexcept {
+bool SoftHold::isFree(const SoftTissueField& field, const ToolPose& X_PT, bool turning) const noexcept {
   for (std::size_t n = 0; n < outline_.count; ++n) {
     const glm::dvec3 centre = centre_P(X_PT, n);
-    if (field.at(centre).distance_mm < outline_.balls[n].radius_mm + kContactSkin_mm && !givesWay(field, centre))
+    if (field.at(centre).distance_mm < outline_.balls[n].radius_mm + kContactSkin_mm &&
+        !givesWay(field.tissueAt(centre), turning && n < outline_.head_count))
       return false;
   }
   return true;
@@ -89,7 +90,7 @@ SoftHold::Contact SoftHold::pushOut(const SoftTissueField& field, bool turning) 
       const SoftTissueField::Sample at = field.at(held_.translation_mm + arm);
       const double missing_mm = outline_.balls[n].radius_mm - buried_mm_[n] - at.distance_mm;
       const double slope = glm::length(at.gradient_P);
-      if (missing_mm <= 0.0 || slope < 0.2 || givesWay(field, held_.translation_mm + arm)) continue;
+      if (missing_mm <= 0.0 || slope < 0.2 || givesWay(field.tissueAt(held_.translation_mm + arm), false)) continue;
       const glm::dvec3 normal = at.gradient_P / slope, lever = glm::cross(arm, normal);
       const double push_mm = missing_mm / (1.0 + kInverseLever2 * glm::dot(lever, lever));
       held_.translation_mm += push_mm * normal;
@@ -117,7 +118,7 @@ SoftTouch SoftHold::touched(const SoftTissueField& field, const Contact& most, b
         most.push_mm > 0.0 && inside_mm > buried_mm_[n] - kContactSkin_mm && inside_mm > -kContactSkin_mm;
     if (!(is_held && !is_cut) && inside_mm < kInTissue_mm) continue;
     const SoftTissue tissue = field.tissueAt(centre);
-    if (assets::contains(passable_, tissue)) continue;
+    if (givesWay(tissue, is_cut)) continue;
     touch.tissues = static_cast<std::uint8_t>(touch.tissues | assets::bitOf(tissue));
     if (is_cut && touch.bur_cuts == SoftTissue::none) touch.bur_cuts = tissue;
     if (inside_mm > deepest_mm) deepest_mm = inside_mm, deepest = n;
@@ -144,7 +145,7 @@ SoftHold::State SoftHold::update(const SoftTissueField* field, const Tool& tool,
   const glm::dvec3 turn = turnBetween_rad(held_.rotation, X_PT.rotation);
   const bool is_near = glm::length(shift) + kEnd_mm * glm::length(turn) < kFreeStep_mm;
   Contact most;
-  if (is_near && isFree(*field, X_PT)) {
+  if (is_near && isFree(*field, X_PT, turning)) {
     held_ = X_PT;
     buried_mm_.fill(0.0);
     settle(X_PT, {}, 0.0);

@@ -56,7 +56,7 @@ class SoftHold {
   };
 
   void place(const assets::SoftTissueField& field, const Tool& tool, const ToolPose& X_PT) noexcept;
-  bool isFree(const assets::SoftTissueField& field, const ToolPose& X_PT) const noexcept;
+  bool isFree(const assets::SoftTissueField& field, const ToolPose& X_PT, bool turning) const noexcept;
   void moveTowards(const ToolPose& X_PT) noexcept;
   Contact pushOut(const assets::SoftTissueField& field, bool turning) noexcept;
   SoftTouch touched(const assets::SoftTissueField& field, const Contact& most, bool turning) noexcept;
@@ -68,8 +68,9 @@ class SoftHold {
     return X_PT.translation_mm + X_PT.rotation * glm::dvec3(0.0, 0.0, outline_.balls[ball].z_mm);
   }
 
-  bool givesWay(const assets::SoftTissueField& field, const glm::dvec3& p_P_mm) const noexcept {
-    return passable_ != 0 && assets::contains(passable_, field.tissueAt(p_P_mm));
+  /// Gum that a turning head cuts is told, also where it holds nothing.
+  bool givesWay(assets::SoftTissue tissue, bool is_cut) const noexcept {
+    return assets::contains(passable_, tissue) && !(is_cut && tissue == assets::SoftTissue::gingiva);
   }
 
   Tool tool_;

@@ -30,15 +30,14 @@ std::size_t placeOf(const std::vector<haptics::Tool>& tray, haptics::HandInstrum
 
 FlapDemonstration::FlapDemonstration(const GumChart& chart, const FlapPlan& plan, const assets::PlannedCut& cut,
                                      const std::vector<haptics::Tool>& tray, haptics::LedHand& hand,
-                                     const haptics::LedPath& cutting, bool and_cuts)
+                                     const haptics::LedPath& cutting)
     : chart_(chart),
       plan_(plan),
       tools_(tray),
       blade_(placeOf(tray, haptics::HandInstrument::scalpel_15, "scalpel:15")),
       elevator_(placeOf(tray, haptics::HandInstrument::periosteal, "periosteal")),
       hand_(hand),
-      cutting_(cutting),
-      and_cuts_(and_cuts) {
+      cutting_(cutting) {
   const glm::dvec3 way = glm::length(cut.sight_P) > 0.0 ? cut.sight_P : cut.outward_P;
   outside_P_mm_ = cut.surface_P_mm + kFlapOutside_mm * glm::normalize(way);
   R_PT_ = cutting_.script(0.0).rotation;
@@ -160,8 +159,7 @@ std::optional<ControlRequest> FlapDemonstration::follow(const Frame& frame) {
     }
     case Phase::nearing:
       if (!hand_.hasArrived()) return {};
-      phase_ = and_cuts_ ? Phase::drilling : Phase::over;
-      if (!and_cuts_) return {};
+      phase_ = Phase::drilling;
       news_.push_back("bare the crown");
       lead(cutting_);
       return {};

@@ -1,6 +1,6 @@
 // Incision and flap by a scripted hand, where the rehearsal begins with the gum closed: the blade along the planned
 // incision, down to the bone; the periosteal elevator under the gum from the incision to the base, strip by strip; then
-// the bur before the planned cut, once the assistant holds the flap aside. By hand and change of tool alone. Frame P is
+// the planned cut, once the assistant holds the flap aside. By hand and change of tool alone. Frame P is
 // the device's frame D; mm, s. Main thread, once a frame; microseconds.
 #pragma once
 
@@ -20,10 +20,9 @@ namespace app {
 class FlapDemonstration {
  public:
   /// Borrows chart, plan and hand, before the first tick. `tray`: the first tool is the bur; throws UsageError without
-  /// blade or elevator. `start`: of the bur's way, where it waits in the end. `and_cuts`: it then goes the bur's way.
+  /// blade or elevator. `cutting`: the bur's way.
   FlapDemonstration(const GumChart& chart, const FlapPlan& plan, const assets::PlannedCut& cut,
-                    const std::vector<haptics::Tool>& tray, haptics::LedHand& hand, const haptics::LedPath& cutting,
-                    bool and_cuts);
+                    const std::vector<haptics::Tool>& tray, haptics::LedHand& hand, const haptics::LedPath& cutting);
 
   struct Frame {
     haptics::Tick newest;
@@ -66,7 +65,6 @@ class FlapDemonstration {
   std::size_t blade_ = 0, elevator_ = 0;
   haptics::LedHand& hand_;
   haptics::LedPath cutting_;
-  bool and_cuts_;
   glm::dvec3 outside_P_mm_, shaft_P_;
   glm::dquat R_PT_;
   Phase phase_ = Phase::beginning;
