@@ -150,13 +150,13 @@ Voxels nerveVoxels(const CtVolume& ct, const LingualSite& site) {
     std::map<int, double> plate_mm;  ///< by height in voxels: towards the tongue
   };
   std::map<int, Station> stations;
-  const auto stationOf = [](double along_mm) { return static_cast<int>(std::floor(along_mm / kNerveStation_mm)); };
-  const auto levelOf = [&](double height_mm) { return static_cast<int>(std::floor(height_mm / ct.grid.spacing_mm)); };
+  const auto station_of = [](double along_mm) { return static_cast<int>(std::floor(along_mm / kNerveStation_mm)); };
+  const auto level_of = [&](double height_mm) { return static_cast<int>(std::floor(height_mm / ct.grid.spacing_mm)); };
   for (const OuterVoxel& outer : lingualSurface(ct, site)) {
     if (std::abs(outer.along_mm) > kNerveAlong_mm) continue;
-    Station& station = stations[stationOf(outer.along_mm)];
+    Station& station = stations[station_of(outer.along_mm)];
     station.crest_mm = std::max(station.crest_mm, outer.height_mm);
-    double& plate = station.plate_mm.try_emplace(levelOf(outer.height_mm), outer.lingual_mm).first->second;
+    double& plate = station.plate_mm.try_emplace(level_of(outer.height_mm), outer.lingual_mm).first->second;
     plate = std::max(plate, outer.lingual_mm);
   }
   Voxels band(ct.label.size(), 0);
@@ -176,9 +176,9 @@ Voxels nerveVoxels(const CtVolume& ct, const LingualSite& site) {
     const std::size_t v = ct.grid.index(ijk);
     if (assets::isHard(ct.label[v])) return;
     const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
-    const auto station = stations.find(stationOf(site.along_mm(p)));
+    const auto station = stations.find(station_of(site.along_mm(p)));
     if (station == stations.end()) return;
-    const auto plate = station->second.plate_mm.find(levelOf(station->second.crest_mm - kUnderCrest_mm));
+    const auto plate = station->second.plate_mm.find(level_of(station->second.crest_mm - kUnderCrest_mm));
     if (plate == station->second.plate_mm.end()) return;
     const double off_mm = glm::dot(p - site.centre_P_mm, site.lingual_P) - plate->second;
     const double under_mm = station->second.crest_mm - p.z;
