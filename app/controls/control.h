@@ -91,8 +91,7 @@ inline constexpr std::array<ControlMeaning, 26> kControls = {{
     {Control::way, "way", "W", "what keeps the tooth or piece in", ControlValue::none, false},
     {Control::ring, "ring", "Shift+T", "ring of instruments; again takes", ControlValue::on_or_off, true},
     {Control::sound, "sound", "S", "sound on or off", ControlValue::on_or_off, false},
-    {Control::assistant, "assistant", "A", "assistant holds cheek and flap aside, or not", ControlValue::on_or_off,
-     true},
+    {Control::assistant, "assistant", "A", "assistant holds cheek and flap aside", ControlValue::on_or_off, true},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

@@ -63,13 +63,13 @@ TEST(LuxationLog, TellsQuartersOfTheLigamentThenWhatCameOut) {
   told.tick.grip_force_P_N.xyz = {};
   EXPECT_EQ(told.lines(1000), Lines{"the piece is loose"});
   EXPECT_EQ(told.log.summary(),
-            "nothing taken out, held for 0:02, pulled with 120 N at most (model), 100 % of the ligament torn");
+            "nothing taken out, held for 0:03, pulled with 120 N at most (model), 100 % of the ligament torn");
   told.tick.gripped = 0;
   told.tick.pieces = 2;
   told.tick.X_PQ[1].translation_mm = glm::dvec3(10'000.0);
   told.tick.hand.drill_pedal = false;
   EXPECT_EQ(told.lines(), Lines{"out: a piece of 412 mm³"});
-  EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out, held for 0:02", 0), 0u) << told.log.summary();
+  EXPECT_EQ(told.log.summary().rfind("412 mm³ taken out, held for 0:03", 0), 0u) << told.log.summary();
 }
 
 TEST(LuxationLog, TakesBackWhatIsUndone) {
