@@ -24,11 +24,11 @@ int report(const ReportOptions& options) {
   calibration::OutputFile out(options.out, options.force);
   const std::string patient = options.patient.empty() ? "" : patientNamed(options.patient);
   const SessionReview review = reviewOf(sessionNamed(options.session), patient);
-  std::optional<SessionReview> other;
+  std::optional<SessionMetrics> other;
   if (!options.compare.empty()) {
-    other = reviewOf(sessionNamed(options.compare), patient);
-    if (other->metrics.patient_title != review.metrics.patient_title)
-      throw UsageError("--compare " + options.compare + ": is of another case (" + other->metrics.patient_title +
+    other = metricsOf(sessionNamed(options.compare));
+    if (other->patient_title != review.metrics.patient_title)
+      throw UsageError("--compare " + options.compare + ": is of another case (" + other->patient_title +
                        "), name a session of " + review.metrics.patient_title);
   }
   out.commit(reviewHtml(review, other ? &*other : nullptr));

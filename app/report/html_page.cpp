@@ -19,7 +19,6 @@ table { border-collapse: collapse; width: 100%; font-size: 14px; }
 th { text-align: left; font-weight: normal; color: #666; }
 th, td { padding: 3px 10px 3px 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
 td:nth-child(2) { white-space: normal; }
-.figure { text-align: right; font-variant-numeric: tabular-nums; }
 code { font-size: 11px; overflow-wrap: anywhere; }
 .green { color: #00704f; } .amber { color: #9a5b00; } .red { color: #b03a00; font-weight: bold; }
 figure { margin: 8px 0; break-inside: avoid; }

@@ -124,7 +124,7 @@ std::string removedSection(const SessionReview& review) {
   return tableMarkup({}, rows) + figureMarkup(picturesFigure(review.pictures), caption);
 }
 
-std::string handSection(const SessionReview& review, const SessionReview* other) {
+std::string handSection(const SessionReview& review, const SessionMetrics* other) {
   // What is judged first: the painting index, with what it is made of.
   std::vector<MeasureValue> measures = review.metrics.measures;
   std::ranges::stable_partition(measures, [](const MeasureValue& measure) { return measure.id.starts_with("PI"); });
@@ -133,8 +133,8 @@ std::string handSection(const SessionReview& review, const SessionReview* other)
     if (isSafety(measure)) continue;
     std::vector<std::string> row{std::string(measure.name), valueWords(measure)};
     if (other != nullptr) {
-      const auto same = std::ranges::find(other->metrics.measures, measure.id, &MeasureValue::id);
-      row.push_back(same == other->metrics.measures.end() ? "" : valueWords(*same));
+      const auto same = std::ranges::find(other->measures, measure.id, &MeasureValue::id);
+      row.push_back(same == other->measures.end() ? "" : valueWords(*same));
     }
     rows.push_back(std::move(row));
   }
@@ -177,7 +177,7 @@ std::string conditionsSection(const SessionReview& review) {
 
 }  // namespace
 
-std::string reviewHtml(const SessionReview& review, const SessionReview* other) {
+std::string reviewHtml(const SessionReview& review, const SessionMetrics* other) {
   std::string below = clockText(review.metrics.duration_s) + " min";
   if (!review.started_utc.empty()) below = timeText(review.started_utc) + " \u00b7 " + below;
   HtmlPage page("Rehearsal: " + review.metrics.patient_title, below);

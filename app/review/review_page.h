@@ -10,7 +10,7 @@
 
 namespace app {
 
-/// `other`: of the same case, or null.
-std::string reviewHtml(const SessionReview& review, const SessionReview* other);
+/// `other`: of a rehearsal of the same case, or null.
+std::string reviewHtml(const SessionReview& review, const SessionMetrics* other);
 
 }  // namespace app

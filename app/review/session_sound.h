@@ -1,5 +1,5 @@
 // The sound of a recorded rehearsal, made again from its ticks: sample n is heard n / kSoundRate_Hz after the start, to
-// a tick. For `molar replay --sound-file`. Any thread; some seconds for ten minutes.
+// a tick. For `molar replay --sound-file`. Any thread; some ten seconds for ten minutes.
 #pragma once
 
 #include <string>

@@ -70,17 +70,19 @@ void HandWork::add(const WorkSample& sample) {
 
 void HandWork::add(const Stroke& stroke) {
   painting_.add(stroke);
-  ++turns_;
   duration_s_.push_back(stroke.duration_s);
   length_mm_.push_back(stroke.length_mm);
   straightness_.push_back(stroke.straightness);
+  stroke_speed_mm_per_s_.push_back(stroke.mean_speed_mm_per_s);
+  if (stroke.normal_P != glm::dvec3(0.0)) stroke_force_N_.push_back(stroke.mean_normal_force_N);
   if (const auto value = spectralArcLength(stroke.speed_mm_per_s, stroke.dt_s)) smoothness_.push_back(*value);
   if (const auto value = logDimensionlessJerk(stroke.speed_mm_per_s, stroke.dt_s)) jerk_.push_back(*value);
 }
 
 std::vector<MeasureValue> HandWork::values() const {
   const PaintingParts painting = painting_.parts();
-  const auto stroke_rate = turns_ > 0 ? ratio(turns_, drilling_s_) : std::nullopt;
+  const auto strokes = static_cast<double>(duration_s_.size());
+  const auto stroke_rate = strokes > 0.0 ? ratio(strokes, drilling_s_) : std::nullopt;
   std::optional<double> curved;
   if (!straightness_.empty())
     curved = static_cast<double>(std::ranges::count_if(straightness_, [](double s) { return s < kCurved; })) /
@@ -116,6 +118,13 @@ std::vector<MeasureValue> HandWork::values() const {
       {"M7.rate", "strokes for each second of drilling", "1/s", stroke_rate, kNoStroke, {}},
       {"M7.duration", "duration of a stroke, median", "s", medianOf(duration_s_), kNoStroke, {}},
       {"M7.length", "length of a stroke, median", "mm", medianOf(length_mm_), kNoStroke, {}},
+      {"M7.speed", "mean speed of a stroke, median", "mm/s", medianOf(stroke_speed_mm_per_s_), kNoStroke, {}},
+      {"M7.force",
+       "mean force of a stroke along the surface's normal, median",
+       "N",
+       medianOf(stroke_force_N_),
+       kNoStroke,
+       {}},
       {"M7.straightness", "chord over length of a stroke, median", "", medianOf(straightness_), kNoStroke, {}},
       {"M7.curved", "share of strokes with chord over length below 0.9", "", curved, kNoStroke, {}},
       {"M8.angle",

@@ -1,5 +1,5 @@
 // How smooth a movement is, from its speed. Two measures of the literature and the share of tremor. No units but as
-// said. Pure; any thread; a movement of n samples costs n times the frequencies below 10 Hz (0.3 ms for a second at
+// said. Pure; any thread; a movement of n samples costs n times the frequencies below 10 Hz (0.4 ms for a second at
 // 1 kHz).
 //   dimensionless jerk DJ = T^3 / v_peak^2 * integral of (d2v/dt2)^2 dt, LDLJ = -ln DJ        minimum jerk: -5.32
 //   SPARC: arc length of the spectrum of the speed, normalised in amplitude and frequency, up to 10 Hz or where it

@@ -15,15 +15,6 @@ std::size_t armOf(const std::vector<WorkSample>& samples) {
 
 }  // namespace
 
-double Stroke::azimuth_rad() const {
-  const glm::dvec3 left(1.0, 0.0, 0.0), back(0.0, 1.0, 0.0);
-  glm::dvec3 u = left - glm::dot(left, normal_P) * normal_P;
-  if (glm::length(u) < 0.1) u = back - glm::dot(back, normal_P) * normal_P;
-  const glm::dvec3 v = glm::cross(normal_P, u);
-  const double angle_rad = std::atan2(glm::dot(chord_P_mm, v), glm::dot(chord_P_mm, u));
-  return angle_rad < 0.0 ? angle_rad + 2.0 * std::numbers::pi : angle_rad;
-}
-
 double grooveDepth_mm(double section_mm2, double radius_mm) {
   const double R = radius_mm, half_mm2 = 0.5 * std::numbers::pi * R * R;
   if (!(section_mm2 > 0.0) || !(R > 0.0)) return 0.0;

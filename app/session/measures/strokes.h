@@ -24,9 +24,6 @@ struct Stroke {
   double dt_s = 0.0;       ///< of its samples
   glm::dvec3 middle_P_mm{0.0}, chord_P_mm{0.0}, normal_P{0.0};
   std::vector<double> speed_mm_per_s;  ///< of the hand, at each tick
-
-  /// Of the chord about the normal, from the patient's left towards the back, 0 to 2 pi.
-  double azimuth_rad() const;
 };
 
 class StrokeFinder {

@@ -70,8 +70,8 @@ TEST(ReviewPage, WhatIsNotKnownSaysWhy) {
 }
 
 TEST(ReviewPage, AnotherRehearsalStandsBeside) {
-  SessionReview other = someReview();
-  other.metrics.measures[0].value = 77.7;
+  SessionMetrics other = someReview().metrics;
+  other.measures[0].value = 77.7;
   const std::string page = reviewHtml(someReview(), &other);
   EXPECT_NE(page.find("<td>31.40 mm</td><td>77.70 mm</td>"), std::string::npos);
 }

@@ -79,6 +79,8 @@ TEST(HandWork, VolumeForTimeAndWay) {
   EXPECT_NEAR(valueOf(work, "M3.per_way"), per_mm, 0.01 * per_mm);
   EXPECT_NEAR(valueOf(work, "M3.rate"), per_mm * 30.0, 0.01 * per_mm * 30.0);
   EXPECT_GE(valueOf(work, "PI"), 0.9);
+  EXPECT_NEAR(valueOf(work, "M7.speed"), 30.0, 0.5);
+  EXPECT_NEAR(valueOf(work, "M7.force"), 2.0, 1e-9);
   EXPECT_NEAR(valueOf(work, "M8.angle"), 90.0, 1e-6);
   EXPECT_EQ(valueOf(work, "M8.steep"), 1.0);
 }
