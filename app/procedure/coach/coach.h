@@ -1,7 +1,6 @@
 // Says one thing at a time about how the hand works, by rules in a file that a supervisor can edit
 // (reference/product 4.5). Rules look at the samples of measures and at the strokes found in them; what is said has a
-// pause before it, and the same is not said again soon. Never in assessment. A stream: one thread; a microsecond a
-// tick.
+// pause before it, and the same is not said again soon. Never in assessment. A stream: one thread; 0.1 µs a tick.
 #pragma once
 
 #include <array>
