@@ -5,17 +5,13 @@
 
 #include <fmt/core.h>
 
-#include "app/case/case.h"
 #include "app/case/clearance_source.h"
-#include "app/case/patient_source.h"
 #include "app/commands/command.h"
+#include "app/commands/patient_or_case.h"
 #include "app/device/pose_csv.h"
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
-#include "app/station/patient_list.h"
 #include "app/text/command_line.h"
-#include "app/text/usage_error.h"
-#include "assets/patient/patient_folder.h"
 #include "calibration/output_file.h"
 #include "haptics/tool/clearance.h"
 
@@ -23,7 +19,8 @@ namespace app {
 namespace {
 
 struct ClearanceOptions {
-  std::string patient, case_name, tool, shaft = "none", poses, out;
+  PatientOrCase patient;
+  std::string tool, shaft = "none", poses, out;
   bool force = false;
 };
 
@@ -32,16 +29,13 @@ using assets::RiskStructure;
 constexpr std::array kColumns{RiskStructure::canal, RiskStructure::lingual, RiskStructure::second_molar};
 
 int clearance(const ClearanceOptions& options) {
-  if (options.patient.empty() == options.case_name.empty())
-    throw UsageError("clearance: give exactly one of PATIENT and --case NAME");
+  options.patient.refuseUnlessOne("clearance");
   const haptics::Tool tool = haptics::sanitised({headFrom(options.tool), shaftFrom(options.shaft)});
   refuseSameFile(options.out, {options.poses});
   calibration::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   refuseControls(poses, options.poses);
-  const assets::Patient patient = options.patient.empty() ? builtInPatient(caseNamed(options.case_name)->jaw)
-                                                          : assets::loadPatient(patientNamed(options.patient));
-  const assets::RiskStructures structures = cachedRiskStructures(patient);
+  const assets::RiskStructures structures = cachedRiskStructures(options.patient.load());
 
   std::string csv = "t_s,canal_mm,lingual_mm,second_molar_mm\n";
   for (const TimedPose& pose : poses) {
@@ -63,9 +57,7 @@ void addClearance(CommandLine& molar) {
   auto options = std::make_shared<ClearanceOptions>();
   CommandLine& command =
       molar.command("clearance", "How near a tool comes to canal, lingual surface and second molar on given poses");
-  command.option("PATIENT", options->patient, kPatientHelp);
-  command.option("--case", options->case_name, "A case of the built-in patient, see molar rehearse --cases")
-      .oneOf(caseNames());
+  options->patient.addTo(command);
   command.option("--tool", options->tool, headHelp()).required();
   command.option("--shaft", options->shaft, kShaftHelp).showsDefault();
   command.option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz (X_PT)").required();

@@ -6,20 +6,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/case/case.h"
 #include "app/case/extraction_plan.h"
-#include "app/case/patient_source.h"
 #include "app/commands/command.h"
-#include "app/station/patient_list.h"
+#include "app/commands/patient_or_case.h"
 #include "app/text/command_line.h"
-#include "app/text/usage_error.h"
-#include "assets/patient/patient_folder.h"
 
 namespace app {
 namespace {
 
 struct PlanOptions {
-  std::string patient, case_name;
+  PatientOrCase patient;
   bool json = false;
 };
 
@@ -40,12 +36,8 @@ nlohmann::ordered_json jsonOf(const ExtractionPlan& plan) {
 }
 
 int plan(const PlanOptions& options) {
-  if (options.patient.empty() == options.case_name.empty())
-    throw UsageError("plan: give exactly one of PATIENT and --case NAME");
-  const bool built_in = !options.case_name.empty();
-  const assets::Patient patient =
-      built_in ? builtInPatient(caseNamed(options.case_name)->jaw) : assets::loadPatient(patientNamed(options.patient));
-  const ExtractionPlan found = extractionPlan(patient, built_in ? "--case " + options.case_name : options.patient);
+  options.patient.refuseUnlessOne("plan");
+  const ExtractionPlan found = extractionPlan(options.patient.load(), options.patient.name());
   std::fputs((options.json ? jsonOf(found).dump(2) + "\n" : planTable(found)).c_str(), stdout);
   return 0;
 }
@@ -56,9 +48,7 @@ void addPlan(CommandLine& molar) {
   auto options = std::make_shared<PlanOptions>();
   CommandLine& command =
       molar.command("plan", "What the scan tells of an impacted third molar: classes, distances, difficulty");
-  command.option("PATIENT", options->patient, kPatientHelp);
-  command.option("--case", options->case_name, "A case of the built-in patient, see molar rehearse --cases")
-      .oneOf(caseNames());
+  options->patient.addTo(command);
   command.flag("--json", options->json, "All of it as JSON");
   command.footer(
       "Measured on labels and numbers of the teeth. What the scan does not show is \"not known\", with the reason.\n"

@@ -1,0 +1,26 @@
+// The patient that a command reads: PATIENT, a folder or its name, or --case, of the built-in patient. Start-up only.
+#pragma once
+
+#include <string>
+
+#include "assets/patient.h"
+
+namespace app {
+
+class CommandLine;
+
+class PatientOrCase {
+ public:
+  void addTo(CommandLine& command);
+  /// Throws UsageError unless exactly one was given; `command` begins its line.
+  void refuseUnlessOne(const std::string& command) const;
+  /// As given, for messages: "--case usual".
+  std::string name() const;
+  /// Some seconds where the built-in patient has to be made. Throws UsageError, assets::LoadError.
+  assets::Patient load() const;
+
+ private:
+  std::string patient_, case_name_;
+};
+
+}  // namespace app
