@@ -132,18 +132,21 @@ glm::dvec3 handpieceDirection_P(const assets::PlannedCut& cut, const assets::CtV
     glm::dvec3 direction_P{0.0};
     double cost_mm = 1e9;
   };
-  const auto weigh = [&](const glm::dvec3& direction) {
-    const HandpieceRoom room = mouth.room(direction);
-    double cost_mm = std::max(0.0, kFreeOfSoftTissue_mm - room.soft_mm) + kInBone_mm * room.in_bone_share +
-                     kPerDegreeFromWayIn_mm * angle_deg(direction, outward);
+  // Its angles alone, which cost less time than what it meets.
+  const auto angles_mm = [&](const glm::dvec3& direction) {
+    double cost_mm = kPerDegreeFromWayIn_mm * angle_deg(direction, outward);
     if (sight_length > 0.0)
       cost_mm += kPerDegreeHidden_mm * std::max(0.0, kHides_deg - angle_deg(direction, cut.sight_P));
-    return Choice{direction, cost_mm};
+    return cost_mm;
   };
   Choice best;
   const auto keep_better = [&](const glm::dvec3& direction) {
     if (glm::dot(direction, outward) < kLeastOutward) return;
-    if (const Choice choice = weigh(direction); choice.cost_mm < best.cost_mm) best = choice;
+    double cost_mm = angles_mm(direction);
+    if (cost_mm >= best.cost_mm) return;
+    const HandpieceRoom room = mouth.room(direction);
+    cost_mm += std::max(0.0, kFreeOfSoftTissue_mm - room.soft_mm) + kInBone_mm * room.in_bone_share;
+    if (cost_mm < best.cost_mm) best = {direction, cost_mm};
   };
   // A Fibonacci lattice, then rings around the best of it.
   const double golden_rad = calibration::kPi * (3.0 - std::sqrt(5.0));

@@ -51,28 +51,32 @@ BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& 
     return kTissueAppearance[tissue < kTissueAppearance.size() ? tissue : 0];
   };
   const auto blend_brick = [&](glm::ivec3 brick) {
-    // The brick and its border; unlabelled air needs no colour.
-    const glm::ivec3 first = kCore * brick;
-    bool any = false;
+    // The brick and its border. Of one tissue alone, most of them, there is nothing to blend.
+    const glm::ivec3 first = kCore * brick, extent = glm::min(glm::ivec3(kCore), size - first);
+    const glm::ivec3 low = glm::max(first - 1, 0), high = glm::min(first + kCore + 1, size);
+    const TissueAppearance& one = tissue_at(low);
+    bool is_one = true;
+    for (int k = low.z; k < high.z && is_one; ++k)
+      for (int j = low.y; j < high.y && is_one; ++j)
+        for (int i = low.x; i < high.x && is_one; ++i) is_one = &tissue_at({i, j, k}) == &one;
+    if (is_one) {
+      const std::uint32_t colour = packed(one.albedo, one.finish);
+      if (&one != &plain) forEachIn({first, extent}, [&](glm::ivec3 v) { *field.at(v) = colour; });
+      return;
+    }
     Block block{};
-    for (int k = 0; k < kWide; ++k)
-      for (int j = 0; j < kWide; ++j)
-        for (int i = 0; i < kWide; ++i) {
-          const glm::ivec3 v = first + glm::ivec3(i, j, k) - 1;
-          if (glm::any(glm::lessThan(v, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(v, size))) continue;
-          const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
-          const TissueAppearance& appearance = tissue_at(v);
-          any = any || filled > 0.0f || &appearance != &plain;
-          const float weight = (filled * filled + 1e-4f) * appearance.colour_weight;
-          block[at(i, j, k)] = {weight * appearance.albedo.r, weight * appearance.albedo.g,
-                                weight * appearance.albedo.b, weight * appearance.finish, weight};
-        }
-    if (!any) return;
+    forEachIn({low, high - low}, [&](glm::ivec3 v) {
+      const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
+      const TissueAppearance& appearance = tissue_at(v);
+      const float weight = (filled * filled + 1e-4f) * appearance.colour_weight;
+      const glm::ivec3 in = v - first + 1;
+      block[at(in.x, in.y, in.z)] = {weight * appearance.albedo.r, weight * appearance.albedo.g,
+                                     weight * appearance.albedo.b, weight * appearance.finish, weight};
+    });
 
     smoothAxis(block, at(1, 0, 0));
     smoothAxis(block, at(0, 1, 0));
     smoothAxis(block, at(0, 0, 1));
-    const glm::ivec3 extent = glm::min(glm::ivec3(kCore), size - first);
     forEachIn({glm::ivec3(0), extent}, [&](glm::ivec3 v) {
       const Share& share = block[at(v.x + 1, v.y + 1, v.z + 1)];
       *field.at(first + v) = packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
