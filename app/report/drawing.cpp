@@ -266,6 +266,15 @@ void Drawing::show(PangoLayout* layout, const glm::dvec2& corner, Align align, c
   } while (pango_layout_iter_next_line(at.get()));
 }
 
+void Drawing::hint(const glm::dvec2& corner, const glm::dvec2& size, const std::string& words, const std::string& id) {
+  if (!isSvg()) return;
+  const std::string place = fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+      "fill=\"transparent\"><title>{}</title></rect>",
+      corner.x, corner.y, size.x, size.y, escaped(words));
+  hints_ += id.empty() ? place + "\n" : "<a href=\"#" + id + "\">" + place + "</a>\n";
+}
+
 std::string Drawing::markup(std::string_view description) {
   assert(isSvg());
   cairo_surface_finish(cairo_get_target(pen()));
@@ -278,7 +287,7 @@ std::string Drawing::markup(std::string_view description) {
              "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{:.2f}\" "
              "height=\"{:.2f}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" aria-label=\"",
              size_.x, size_.y, size_.x, size_.y) +
-         escaped(description) + "\">" + drawn + words_ + "</svg>\n";
+         escaped(description) + "\">" + drawn + words_ + hints_ + "</svg>\n";
 }
 
 void Drawing::save(calibration::OutputFile& file) const {

@@ -80,6 +80,9 @@ class Drawing {
   double paragraph(const std::string& words, const glm::dvec2& top, double width, double height, const Ink& ink,
                    Align align = Align::centre) const;
 
+  /// SVG only: shows `words` under the pointer; a click leads to the page's element with this id, empty: nowhere.
+  void hint(const glm::dvec2& corner, const glm::dvec2& size, const std::string& words, const std::string& id = "");
+
   /// Pixels only: a copy, premultiplied by its alpha.
   render::Image picture() const;
   /// SVG only, called once: the element for a page. `description`: its label for screen readers.
@@ -99,6 +102,7 @@ class Drawing {
   glm::dvec2 size_{0.0};
   std::string svg_;            ///< output of Cairo
   mutable std::string words_;  ///< text elements of SVG, above all shapes
+  std::string hints_;          ///< of SVG, above its text
   std::unique_ptr<_cairo, void (*)(_cairo*)> pen_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/report/axes.h"
 #include "app/report/drawing.h"
 #include "app/text/clock_text.h"
@@ -21,8 +23,8 @@ Axis timeAxis(double duration_s) {
   return axis;
 }
 
-/// A row of bars, with its name to the left.
-void drawSpans(const Drawing& drawing, const Axes& axes, const std::vector<TimeSpan>& spans, const std::string& name,
+/// A row of bars, with its name to the left; the pointer tells what each is.
+void drawSpans(Drawing& drawing, const Axes& axes, const std::vector<TimeSpan>& spans, const std::string& name,
                double top, bool with_words) {
   constexpr double kHeight = 18.0;
   drawing.text(name, {kLeft - 8.0, top + 0.5 * kHeight}, kNumberLine, paper::kInk, Align::right);
@@ -34,6 +36,9 @@ void drawSpans(const Drawing& drawing, const Axes& axes, const std::vector<TimeS
     odd = !odd;
     if (with_words && drawing.textWidth(span.what, kNumberLine) < to - from - 6.0)
       drawing.text(span.what, {from + 4.0, top + 0.5 * kHeight}, kNumberLine, paper::kInk, Align::left);
+    drawing.hint({from, top}, {to - from, kHeight},
+                 fmt::format("{}: {} to {}", span.what.empty() ? name : span.what, clockText(span.from_s),
+                             clockText(span.to_s)));
   }
 }
 
@@ -54,6 +59,20 @@ std::vector<glm::dvec2> stepsOf(const Axes& axes, const std::vector<double>& val
   return points;
 }
 
+/// What each half second was, under the pointer; nothing where nothing was felt or removed.
+void hintBins(Drawing& drawing, const Axes& above, const Axes& below, const SessionCourse& course) {
+  for (std::size_t n = 0; n < course.most_force_N.size(); ++n) {
+    const double from_s = static_cast<double>(n) * SessionCourse::kBin_s;
+    const double removed_mm3 = n < course.removed_mm3.size() ? course.removed_mm3[n] : 0.0;
+    if (!(course.most_force_N[n] > 0.0) && !(removed_mm3 > 0.0)) continue;
+    const double x = above.at({from_s, 0.0}).x;
+    drawing.hint({x, above.corner.y},
+                 {above.at({from_s + SessionCourse::kBin_s, 0.0}).x - x, below.foot().y - above.corner.y},
+                 fmt::format("{}: {:.1f} N, {:.1f} mm³/s", clockText(from_s), course.most_force_N[n],
+                             removed_mm3 / SessionCourse::kBin_s));
+  }
+}
+
 std::vector<TimeSpan> stepsAsSpans(const ProcedureRun& run) {
   std::vector<TimeSpan> spans;
   for (const StepRecord& step : run.steps)
@@ -63,6 +82,8 @@ std::vector<TimeSpan> stepsAsSpans(const ProcedureRun& run) {
 }
 
 }  // namespace
+
+std::string markId(int number) { return fmt::format("moment-{}", number); }
 
 std::string timelineFigure(const SessionCourse& course, const std::optional<ProcedureRun>& procedure) {
   const Axis time = timeAxis(course.duration_s);
@@ -83,6 +104,7 @@ std::string timelineFigure(const SessionCourse& course, const std::optional<Proc
   removed.draw(drawing);
   drawing.path(stepsOf(removed, rate, SessionCourse::kBin_s), 1.2, paper::kBlue);
 
+  hintBins(drawing, force, removed, course);
   // What happened, numbered, over both plots.
   int number = 0;
   double last_x = -1e9;
@@ -90,6 +112,8 @@ std::string timelineFigure(const SessionCourse& course, const std::optional<Proc
     const double x = force.at({mark.t_s, 0.0}).x;
     drawing.line({x, force.corner.y}, {x, removed.foot().y}, 0.8, paper::kQuiet, {3.0, 3.0});
     ++number;
+    drawing.hint({x - 3.0, force.corner.y}, {6.0, removed.foot().y - force.corner.y},
+                 fmt::format("{}: {} at {}", number, mark.what, clockText(mark.t_s)), markId(number));
     if (x - last_x < 18.0) continue;
     drawing.text(std::to_string(number), {x + 3.0, force.corner.y + 8.0}, kNumberLine, paper::kInk, Align::left, true);
     last_x = x;
@@ -114,8 +138,11 @@ std::string forceFigure(const SessionCourse& course) {
     const double from_N = SessionCourse::kForceBin_N * static_cast<double>(n);
     const glm::dvec2 top = axes.at({from_N, course.force_s[n]}),
                      foot = axes.at({from_N + SessionCourse::kForceBin_N, 0.0});
-    if (course.force_s[n] > 0.0)
-      drawing.box(top + glm::dvec2(1.0, 0.0), foot - top - glm::dvec2(2.0, 0.0), paper::kBlue);
+    if (!(course.force_s[n] > 0.0)) continue;
+    drawing.box(top + glm::dvec2(1.0, 0.0), foot - top - glm::dvec2(2.0, 0.0), paper::kBlue);
+    drawing.hint(
+        {top.x, axes.corner.y}, {foot.x - top.x, axes.size.y},
+        fmt::format("{:.2f} to {:.2f} N: {:.1f} s", from_N, from_N + SessionCourse::kForceBin_N, course.force_s[n]));
   }
   return drawing.markup("Histogram of the force while drilling in bone");
 }

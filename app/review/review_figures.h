@@ -7,7 +7,10 @@
 
 namespace app {
 
-/// Instruments, drilling, force, bone removed and marks over one axis of time.
+/// The page's element that tells of the mark of this number, from 1.
+std::string markId(int number);
+/// Instruments, drilling, force, bone removed and marks over one axis of time. The pointer tells values, a click on a
+/// mark leads to it.
 std::string timelineFigure(const SessionCourse& course, const std::optional<ProcedureRun>& procedure);
 /// Time drilling in bone by force. Empty: there was none.
 std::string forceFigure(const SessionCourse& course);

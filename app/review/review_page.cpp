@@ -151,8 +151,9 @@ std::string courseSection(const SessionReview& review) {
                                      "Instruments, drilling, force and removal; the numbers are those of the list.");
   if (!review.course.marks.empty()) {
     content += "<ol>\n";
+    int number = 0;
     for (const TimeMark& mark : review.course.marks)
-      content += "<li>" + clockText(mark.t_s) + " " + escaped(mark.what) + "</li>\n";
+      content += "<li id=\"" + markId(++number) + "\">" + clockText(mark.t_s) + " " + escaped(mark.what) + "</li>\n";
     content += "</ol>\n";
   }
   if (!review.metrics.procedure) return content;
