@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -26,7 +25,8 @@ namespace {
 
 using Requests = std::vector<ControlRequest>;
 
-constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 202;
+constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52;
+constexpr int kKeyColumn_px = 280, kKeyRow_px = 17, kMostKeyColumns = 3;
 constexpr double kPanoramicShare = 0.3;  ///< of the window's height
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
@@ -124,8 +124,17 @@ void drawTool(const RehearsalStatus& s) {
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
   if (!s.ruler.empty()) textIn(text_font, kAccent, s.ruler);
   if (!s.way.empty()) wrappedIn(text_font, kAccent, s.way);
-  const auto& removed_mm3 = s.tick.removed_total_mm3;
-  row("Removed", fixedText(std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0), 1) + " mm³");
+  // As in the summary: without what the scan has of the gum in the voxels of the bone's surface.
+  double bone_mm3 = 0.0, tooth_mm3 = 0.0;
+  for (std::size_t l = 0; l < s.tick.removed_total_mm3.size(); ++l) {
+    const auto label = static_cast<std::uint8_t>(l);
+    if (assets::isTooth(label))
+      tooth_mm3 += s.tick.removed_total_mm3[l];
+    else if (assets::isHard(label))
+      bone_mm3 += s.tick.removed_total_mm3[l];
+  }
+  row("Bone removed", fixedText(bone_mm3, 1) + " mm³");
+  row("Tooth removed", fixedText(tooth_mm3, 1) + " mm³");
   const std::string dry = s.dry_s >= 1.0 ? ", " + clockText(s.dry_s) + " dry" : "";
   row("Cutting", clockText(s.cutting_s) + dry, dry.empty() ? kInk : kWarn);
 }
@@ -292,18 +301,31 @@ void drawHeader(const RehearsalStatus& s, float width_px) {
   ImGui::SetNextWindowPos({0.0f, 0.0f});
   ImGui::SetNextWindowSize({width_px, static_cast<float>(kHeader_px)});
   ImGui::Begin("##header", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
-  textIn(heading_font, kInk, s.patient_title);
-  ImGui::SameLine();
-  textIn(text_font, kQuiet, "   what the surgeon sees");
+  const bool is_narrow = width_px < static_cast<float>(kKeyColumn_px);
+  wrappedIn(is_narrow ? small_font : heading_font, kInk, s.patient_title);
+  if (!is_narrow) {
+    ImGui::SameLine();
+    textIn(text_font, kQuiet, "   what the surgeon sees");
+  }
   ImGui::End();
 }
 
-void drawKeys(float top_px, float width_px) {
+/// As many as fit with their meanings; 0: there is no room for one.
+int keyColumns(int width_px) { return std::min(kMostKeyColumns, width_px / kKeyColumn_px); }
+
+int keysHeight_px(int width_px) {
+  const int columns = keyColumns(width_px), keys = static_cast<int>(keyMeanings().size());
+  return 2 * kMargin_px + kKeyRow_px * (columns == 0 ? 1 : (keys + columns - 1) / columns);
+}
+
+void drawKeys(float top_px, int width_px) {
   ImGui::SetNextWindowPos({0.0f, top_px});
-  ImGui::SetNextWindowSize({width_px, static_cast<float>(kKeys_px)});
+  ImGui::SetNextWindowSize({static_cast<float>(width_px), static_cast<float>(keysHeight_px(width_px))});
   ImGui::Begin("##keys", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
   ImGui::PushFont(font(small_font));
-  if (ImGui::BeginTable("keys", 3)) {
+  const int columns = keyColumns(width_px);
+  if (columns == 0) ImGui::TextColored(kQuiet, "F1 shows the keys");
+  if (columns > 0 && ImGui::BeginTable("keys", columns)) {
     for (const KeyMeaning& key : keyMeanings()) {
       ImGui::TableNextColumn();
       ImGui::TextColored(kInk, "%s", key.key.data());
@@ -363,14 +385,14 @@ PanelContext::~PanelContext() { ImGui::DestroyContext(); }
 
 ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px) {
   const glm::ivec2 free =
-      window_px -
-      glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kKeys_px + static_cast<int>(kPanoramicShare * window_px.y));
+      window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + keysHeight_px(window_px.x - kPanel_px) +
+                                                             static_cast<int>(kPanoramicShare * window_px.y));
   return largestIn({kMargin_px, kHeader_px}, free, surgeon_px);
 }
 
 ImageArea panoramicArea(glm::ivec2 window_px, glm::ivec2 surgeon_px, glm::ivec2 panoramic_px) {
   const ImageArea above = imageArea(window_px, surgeon_px);
-  const glm::ivec2 corner{kMargin_px, above.corner_px.y + above.size_px.y + kKeys_px};
+  const glm::ivec2 corner{kMargin_px, above.corner_px.y + above.size_px.y + keysHeight_px(window_px.x - kPanel_px)};
   return largestIn(corner, window_px - corner - glm::ivec2(kPanel_px + kMargin_px, kMargin_px), panoramic_px);
 }
 
@@ -380,7 +402,7 @@ std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, g
   const auto left_px = static_cast<float>(window_px.x - kPanel_px), height_px = static_cast<float>(window_px.y);
   drawHeader(status, left_px);
   const ImageArea area = imageArea(window_px, surgeon_px);
-  drawKeys(static_cast<float>(area.corner_px.y + area.size_px.y + 4), left_px);
+  drawKeys(static_cast<float>(area.corner_px.y + area.size_px.y + 4), window_px.x - kPanel_px);
   ImGui::SetNextWindowPos({left_px, 0.0f});
   ImGui::SetNextWindowSize({static_cast<float>(kPanel_px), height_px});
   ImGui::Begin("##panel", nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar));

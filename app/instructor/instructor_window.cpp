@@ -50,6 +50,9 @@ bool isOnAMonitor(const render::DesktopBox& place) {
 struct InstructorWindow::Open {
   Open(const render::Window& surgeons, std::optional<int> monitor, const std::optional<render::DesktopBox>& place)
       : window(optionsFor(surgeons, monitor, place)) {
+    // Until the rehearsal begins it would show whatever its memory holds.
+    render::clearWindow();
+    window.present();
     ImGui::GetIO().KeyMap[ImGuiKey_Escape] = kEscape;
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
       throw render::GpuError("instructor's window: OpenGL cannot draw its panel, continue without --instructor");

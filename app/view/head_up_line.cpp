@@ -271,29 +271,35 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
   }
 
   if (!c.keys.empty()) {
+    // Two columns of keys and meanings, all in one size: the largest that fits.
     const std::size_t rows = (c.keys.size() + 1) / 2;
-    const double letters = std::min(1.05 * text, 0.9 * place.screen_px.y / (1.75 * (static_cast<double>(rows) + 4.0)));
-    const double row_px = 1.75 * letters;
-    const glm::dvec2 size = glm::floor(
-        glm::dvec2(std::min(46.0 * letters, 0.97 * place.screen_px.x), row_px * (static_cast<double>(rows) + 3.6)));
+    const double usual = std::min(1.05 * text, 0.9 * place.screen_px.y / (1.75 * (static_cast<double>(rows) + 4.0)));
+    const Drawing measure(glm::ivec2(1), 1.0);
+    double key_px = 0.0;
+    glm::dvec2 meaning_px(0.0);
+    for (std::size_t n = 0; n < c.keys.size(); ++n) {
+      key_px = std::max(key_px, measure.textWidth(c.keys[n].first, usual, true) + usual);
+      double& wide_px = n < rows ? meaning_px.x : meaning_px.y;
+      wide_px = std::max(wide_px, measure.textWidth(c.keys[n].second, usual, true));
+    }
+    const double margin = 1.2 * usual, between = 2.0 * usual;
+    const double wide_px = 2.0 * (margin + key_px) + between + meaning_px.x + meaning_px.y;
+    const double fits = std::min(1.0, 0.97 * place.screen_px.x / wide_px), letters = fits * usual;
+    const double row_px = 1.75 * letters, second_px = fits * (key_px + meaning_px.x + between);
+    const glm::dvec2 size = glm::ceil(glm::dvec2(fits * wide_px, row_px * (static_cast<double>(rows) + 3.6)));
     const glm::ivec2 corner(0.5 * (glm::dvec2(place.screen_px) - size));
     std::string content = "keys";
     for (const auto& [key, does] : c.keys) content += "\n" + key + "\t" + does;
     cells.push_back(
         {content, corner, glm::ivec2(size), [=, keys = c.keys](const Drawing& to) {
            plate(to, size, 0.8 * letters, kSheet);
-           to.text("Keys and mouse", {1.2 * letters, 1.3 * row_px}, 1.25 * letters, kWhite, Align::left, true);
-           to.text("F1 or Esc closes", {size.x - 1.2 * letters, 1.3 * row_px}, letters, kDim, Align::right, true);
-           double key_px = 0.0;
-           for (const auto& key : keys) key_px = std::max(key_px, to.textWidth(key.first, letters, true) + letters);
+           to.text("Keys and mouse", {fits * margin, 1.3 * row_px}, 1.25 * letters, kWhite, Align::left, true);
+           to.text("F1 or Esc closes", {size.x - fits * margin, 1.3 * row_px}, letters, kDim, Align::right, true);
            for (std::size_t n = 0; n < keys.size(); ++n) {
-             const double left = (n < rows ? 0.0 : 0.5 * size.x) + 1.2 * letters;
+             const double left = fits * margin + (n < rows ? 0.0 : second_px);
              const double middle = (static_cast<double>(n % rows) + 2.8) * row_px;
              to.text(keys[n].first, {left, middle}, letters, kBlueWater, Align::left, true);
-             const double room = 0.5 * size.x - key_px - 2.2 * letters;
-             const double wide = to.textWidth(keys[n].second, letters, true);
-             to.text(keys[n].second, {left + key_px, middle}, letters * std::min(1.0, room / wide), kWhite, Align::left,
-                     true);
+             to.text(keys[n].second, {left + fits * key_px, middle}, letters, kWhite, Align::left, true);
            }
          }});
   }
