@@ -84,7 +84,7 @@ struct SessionReader::Impl {
   std::optional<FileSeal> trailer;
   std::optional<TickUnpacker> unpacker;
   std::optional<SQLite::Statement> blocks;
-  std::uint64_t next_index = 0, gaps = 0;  // of the tick indices read so far
+  SessionReader::BlockPlace place;  // gaps of the tick indices read so far
 
   /// Runs `work` and reports database errors as one line on this file.
   template <class Work>
@@ -103,7 +103,10 @@ struct SessionReader::Impl {
     sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     database.exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
     checkSchema();
-    reading([&] { isPacked() ? readPackedTables() : readTables(); });
+    reading([&] {
+      isPacked() ? readPackedTables() : readTables();
+      blocks->bind(1, place.after_row);
+    });
   }
 
   bool isPacked() const { return schema < session_format::kSchema; }
@@ -133,7 +136,7 @@ struct SessionReader::Impl {
     if (closed) end = {countOf(seal.getColumn(0)), countOf(seal.getColumn(1)), {}};
     label = old_formats::packedLabels();
     unpacker.emplace(old_formats::packedTickColumns());
-    blocks.emplace(database, "SELECT count, ticks FROM tick_block ORDER BY row");
+    blocks.emplace(database, "SELECT count, ticks, row FROM tick_block WHERE row > ? ORDER BY row");
   }
 
   void readTables() {
@@ -147,7 +150,7 @@ struct SessionReader::Impl {
       columns.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
                          rows.getColumn(3).getString(), ""});
     unpacker.emplace(columns);
-    blocks.emplace(database, "SELECT count, ticks, removed_mm3 FROM tick_block ORDER BY row");
+    blocks.emplace(database, "SELECT count, ticks, row, removed_mm3 FROM tick_block WHERE row > ? ORDER BY row");
   }
 
   /// Hashes the file once.
@@ -251,7 +254,7 @@ SessionReader::SessionReader(const std::string& named) {
 SessionReader::~SessionReader() = default;
 
 bool SessionReader::closed() const { return impl_->closed; }
-std::uint64_t SessionReader::lost() const { return std::max(impl_->end.lost, impl_->gaps); }
+std::uint64_t SessionReader::lost() const { return std::max(impl_->end.lost, impl_->place.gaps); }
 std::optional<std::string> SessionReader::missingLog() const {
   return impl_->isPacked() && impl_->closed ? std::nullopt : impl_->missingLog();
 }
@@ -318,24 +321,33 @@ TickBlock SessionReader::nextBlock() {
     SQLite::Statement& rows = *impl_->blocks;
     if (rows.isDone() || !rows.executeStep()) return block;
     const std::uint64_t count = countOf(rows.getColumn(0));
+    BlockPlace& place = impl_->place;
+    place.after_row = rows.getColumn(2).getInt64();
     if (count < 1 || count > session_format::kTicksPerBlock)
       throw damagedSession("a block says it holds " + std::to_string(count) + " ticks");
     block.ticks =
         impl_->unpacker->unpack(decompress(blobOf(rows.getColumn(1)), count * impl_->unpacker->bytesPerTick()));
-    if (!impl_->isPacked()) block.removed_mm3 = removedFromText(rows.getColumn(2).getString());
+    if (!impl_->isPacked()) block.removed_mm3 = removedFromText(rows.getColumn(3).getString());
     for (haptics::Tick& tick : block.ticks) {
       if (!hasTime(tick)) throw damagedSession("tick " + std::to_string(tick.index) + " has no time");
       tick.contact_tissue = impl_->label[tick.contact_tissue];
-      if (tick.index > impl_->next_index) impl_->gaps += tick.index - impl_->next_index;
-      impl_->next_index = tick.index + 1;
+      if (tick.index > place.next_index) place.gaps += tick.index - place.next_index;
+      place.next_index = tick.index + 1;
     }
     return block;
   });
 }
 
-void SessionReader::rewind() {
-  impl_->reading([&] { impl_->blocks->reset(); });
-  impl_->next_index = impl_->gaps = 0;
+void SessionReader::rewind() { continueAt({}); }
+
+SessionReader::BlockPlace SessionReader::place() const { return impl_->place; }
+
+void SessionReader::continueAt(const BlockPlace& place) {
+  impl_->reading([&] {
+    impl_->blocks->reset();
+    impl_->blocks->bind(1, place.after_row);
+  });
+  impl_->place = place;
 }
 
 std::optional<SessionReader::FinalBone> SessionReader::finalBone(const StoredStart& start) {

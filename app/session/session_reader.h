@@ -3,6 +3,7 @@
 // the servo. Ticks are streamed in blocks, so memory use is that of the bone.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,14 @@ class SessionReader {
   TickBlock nextBlock();
   /// Back to the first block.
   void rewind();
+  /// Between two blocks of this reader, plain values.
+  struct BlockPlace {
+    std::int64_t after_row = -1;  ///< the last one read
+    std::uint64_t next_index = 0, gaps = 0;
+  };
+  BlockPlace place() const;
+  /// The next block is that after the place; some microseconds.
+  void continueAt(const BlockPlace& place);
 
   struct FinalBone {
     std::vector<std::uint8_t> solid;  ///< in the order of the grid

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -28,6 +29,8 @@ class BrickUploader {
  public:
   /// The bricks that have changed since the last call, also those uploaded meanwhile; the others are uploaded later.
   std::vector<glm::ivec3> takeChanged(haptics::Bodies& from);
+  /// Bricks of the jaw's grid that someone else has found changed, for the next upload.
+  void tell(std::span<const glm::ivec3> changed) { waiting_.insert(changed.begin(), changed.end()); }
   /// Bricks changed since the last call, and those of pieces that have left rest or come back. `pieces`: of the frame
   /// to draw. Returns their number.
   std::size_t upload(haptics::Bodies& from, const render::MovedPieces& pieces, render::FrameRenderer& to);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <utility>
 
 #include "calibration/random.h"
 #include "haptics/bone/block_kernels.h"
@@ -36,6 +38,7 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
                 blockDigest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
   }
   history_of_.assign(blocks, 0);
+  written_.assign((blocks + 63) / 64, 0);
   const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks));
   histories_most_ = std::min(with_bone, std::max(share, kMinHistories));
   histories_.resize(histories_most_);
@@ -71,6 +74,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
   saveTo(strokes, block);
+  markWritten(block);
 
   alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
   alignas(64) std::array<std::uint8_t, kBlockVoxels> after;
@@ -192,6 +196,7 @@ BlockState CarvedBone::stateOf(std::size_t block) const {
 }
 
 std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state) {
+  markWritten(block);
   const BlockState now = stateOf(block);
   const BlockDigest from = blockDigest(now.solid.data(), now.reach.data(), now.dose.data());
   const BlockDigest to = blockDigest(state.solid.data(), state.reach.data(), state.dose.data());
@@ -217,6 +222,12 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
   const auto rows = static_cast<int>(block / static_cast<std::size_t>(at.blocks.x));
   dirty_.mark(glm::ivec3(at_x, rows % at.blocks.y, rows / at.blocks.y) * kBlockEdge / assets::kBrickVoxels);
   return steps;
+}
+
+void CarvedBone::takeWritten(std::vector<std::size_t>& out) {
+  for (std::size_t word = 0; word < written_.size(); ++word)
+    for (std::uint64_t bits = std::exchange(written_[word], 0); bits != 0; bits &= bits - 1)
+      out.push_back(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 std::array<double, assets::kTissueCount> CarvedBone::removedByTissue_mm3() const noexcept {

@@ -51,6 +51,7 @@ static_assert(sizeof(BlockState) == 256);
 ///                (half of mixedBits(b + 1) | 1) x sum over v of weight(v) x (solid << 24 | reach << 16 | dose),
 ///                so a cut updates it by the difference of one block and order does not matter
 ///   dirty_       one bit per brick of 8x8x8 voxels (2x2x2 blocks)
+///   written_     one bit per block, at bit b % 64 of word b / 64: state changed, though it may be no solid
 class CarvedBone {
  public:
   /// `solid` and `label` in the order of `grid`; label may be empty (all unlabelled). Copies both.
@@ -96,6 +97,9 @@ class CarvedBone {
   std::uint64_t digest() const { return digest_; }
 
   DirtyBricks& dirtyBricks() { return dirty_; }
+  /// Appends the blocks of which solid, reach or dose may have changed since the last call. Allocates; writing thread,
+  /// not in a step.
+  void takeWritten(std::vector<std::size_t>& out);
 
   /// Volume removed since construction, by assets::Tissue; unknown labels count as 0. Writing thread, or without a
   /// writer.
@@ -124,6 +128,7 @@ class CarvedBone {
     std::array<std::uint16_t, kBlockVoxels> dose;
   };
   History* historyOf(std::size_t block);
+  void markWritten(std::size_t block) { written_[block / 64] |= std::uint64_t{1} << block % 64; }
   void saveTo(StrokeHistory* strokes, std::size_t block) const;
   void addToDigest(std::uint64_t block_key, const BlockDigest& change);
 
@@ -137,6 +142,7 @@ class CarvedBone {
   std::int64_t solid_steps_ = 0;
   std::uint64_t digest_ = 0;
   DirtyBricks dirty_;
+  std::vector<std::uint64_t> written_;
 };
 
 }  // namespace haptics

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "haptics/bone/carved_bone.h"
@@ -76,13 +77,24 @@ class StrokeHistory {
   Restored redo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept;
   Restored redo(CarvedBone& bone, std::size_t max_blocks) noexcept { return redo(std::span(&bone, 1), max_blocks); }
 
-  std::size_t bytes() const { return saved_.size() * sizeof(Saved) + saved_in_.size() * sizeof(std::uint32_t); }
-
- private:
+  /// The arrays, for a copy without them (servo/servo.h): while they are out, nothing else may be called.
   struct Saved {
     BlockState state;
     std::uint32_t block = 0;
   };
+  struct Memory {
+    std::vector<Saved> saved;
+    std::vector<std::uint32_t> saved_in;
+  };
+  Memory takeMemory() noexcept { return {std::move(saved_), std::move(saved_in_)}; }
+  void giveMemory(Memory&& memory) noexcept {
+    saved_ = std::move(memory.saved);
+    saved_in_ = std::move(memory.saved_in);
+  }
+
+  std::size_t bytes() const { return saved_.size() * sizeof(Saved) + saved_in_.size() * sizeof(std::uint32_t); }
+
+ private:
   struct Stroke {
     std::size_t first = 0, blocks = 0, undone = 0;
     bool marked = false;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "haptics/bone/stroke_history.h"
@@ -41,11 +42,15 @@ class LuxationStrokes {
 
   std::size_t bytes() const;
 
- private:
   struct Kept {
     std::size_t piece = 0;
     PieceMemory before, after;
   };
+  /// What is kept, for a copy without it (servo.h): while it is out, nothing else may be called.
+  std::vector<Kept> takeMemory() noexcept { return std::move(kept_); }
+  void giveMemory(std::vector<Kept>&& kept) noexcept { kept_ = std::move(kept); }
+
+ private:
   struct Stroke {
     std::size_t first = 0, pieces = 0;  ///< numbers of its pieces, counting on; piece n is at kept_[n % size]
     double torn_before_Nmm = 0.0, torn_after_Nmm = 0.0;

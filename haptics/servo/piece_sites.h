@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "haptics/body/bodies.h"
@@ -58,6 +59,12 @@ class PieceSites {
   SiteAnswer answer() const { return answer_; }
   /// A part of `from` becomes piece `to`: as much of its ligament is torn.
   void part(const Bodies& bodies, std::size_t from, std::size_t to) noexcept;
+
+  /// What waits, for a copy without it (servo.h): while it is out, nothing else may be called.
+  std::vector<PieceMemory> takeMemory() noexcept { return std::move(waiting_); }
+  void giveMemory(std::vector<PieceMemory>&& waiting) noexcept { waiting_ = std::move(waiting); }
+  /// The site in force of a piece; null: none.
+  PieceSite* inForce(std::size_t piece) const noexcept { return sites_[piece]; }
 
   /// Neither it nor bone was cut, restored or split since its site was made, and no other piece has moved.
   bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;

@@ -3,6 +3,9 @@
 // proxy and law (at most 6 evaluations), delivery, carving; costs in haptics/README.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "haptics/body/bodies.h"
 #include "haptics/safety/safety_layer.h"
 #include "haptics/servo/chip_removal.h"
@@ -34,6 +37,23 @@ class Servo {
 
   /// One tick of length `dt_s`. Invalid input is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
+
+  /// All that is large: what undo and ligaments remember. A copy made while it is taken out costs 20 kB and goes on
+  /// where this one was, once it is given the same bytes; bodies, sites and plans are shared with it. Not in a step.
+  struct Memory {
+    StrokeHistory::Memory strokes;
+    std::vector<LuxationStrokes::Kept> luxations;
+    std::vector<PieceMemory> waiting;
+  };
+  Memory takeMemory() noexcept {
+    return {undo_.strokes().takeMemory(), undo_.luxations().takeMemory(), sites_.takeMemory()};
+  }
+  void giveMemory(Memory&& memory) noexcept {
+    undo_.strokes().giveMemory(std::move(memory.strokes));
+    undo_.luxations().giveMemory(std::move(memory.luxations));
+    sites_.giveMemory(std::move(memory.waiting));
+  }
+  const PieceSites& sites() const { return sites_; }
 
  private:
   Bodies& bodies_;

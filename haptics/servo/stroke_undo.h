@@ -46,6 +46,7 @@ class StrokeUndo {
   DrillInhibit inhibitFor(bool pedal) noexcept;
 
   StrokeHistory& strokes() { return strokes_; }
+  LuxationStrokes& luxations() { return luxations_; }
   const StrokeHistory& strokes() const { return strokes_; }
   /// Restored since the start by undo, less what was redone, mm3.
   double restoredTotal_mm3() const { return restored_total_mm3_; }

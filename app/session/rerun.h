@@ -1,0 +1,104 @@
+// The servo on the initial bone of a session, driven by its recorded hand and commands, tick by tick. No clock, device
+// or thread; takes the CPU time of the recorded steps. Frame P. Any one thread but the servo. What orders of a session
+// need beside the command (plans of splits and breaks, sites, chips) is made again from the bodies as they are: an
+// order holds for these or not at all. With Keeping::all they are kept, 5 to 10 MB a site, so that state() can be
+// restored.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/session_text.h"
+#include "haptics/body/bodies.h"
+#include "haptics/body/chip_search.h"
+#include "haptics/ligament/piece_site.h"
+#include "haptics/servo/servo.h"
+
+namespace app {
+
+/// The first quantity in which a replayed tick differs from the recorded one; none: every bit is the same.
+std::optional<std::string> differenceOf(const haptics::Tick& recorded, const haptics::Tick& again);
+
+class Rerun {
+ public:
+  enum class Keeping { what_is_in_use, all };
+
+  /// Borrows bodies and soft tissue.
+  Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands,
+        Keeping keeping = Keeping::what_is_in_use);
+
+  /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
+  std::optional<std::string> prepare(const haptics::Tick& recorded);
+  haptics::Tick step(const haptics::Tick& recorded);
+  const haptics::Command& command() const { return command_; }
+
+  /// All but the bodies and Servo::Memory. Holds for this rerun alone.
+  struct State {
+    haptics::Servo servo;  ///< without its memory
+    haptics::Command command;
+    std::size_t next = 0;
+    std::uint64_t next_index = 0;
+    bool grips = false;
+    /// Of the sites in force.
+    std::array<std::optional<haptics::PieceState>, haptics::kMaxPieces> pieces;
+  };
+  State state();
+  void restore(const State& state);
+  /// Calls `work` with the arrays of the servo's memory as bytes.
+  template <class Work>
+  void withMemory(const Work& work) {
+    haptics::Servo::Memory memory = servo_->takeMemory();
+    const std::array arrays{std::as_writable_bytes(std::span(memory.strokes.saved)),
+                            std::as_writable_bytes(std::span(memory.strokes.saved_in)),
+                            std::as_writable_bytes(std::span(memory.luxations)),
+                            std::as_writable_bytes(std::span(memory.waiting))};
+    work(arrays);
+    servo_->giveMemory(std::move(memory));
+  }
+
+  /// Bricks of the jaw's grid that have changed since the last call, also those that a search for chips has taken from
+  /// the bodies; only with Keeping::all.
+  std::vector<glm::ivec3> takeChanged();
+  std::size_t sites() const { return made_sites_; }
+
+ private:
+  struct MadeSite {
+    std::unique_ptr<haptics::PieceSite> site;
+    haptics::PieceState first;  ///< when it was made
+  };
+  const haptics::SplitPlan* planFor(const haptics::SplitOrder& order);
+  const haptics::BreakPlan* breakFor(const haptics::BreakOrder& order);
+  const haptics::ChipPlan* chipsFor(const haptics::ChipOrder& order);
+  haptics::PieceSite* siteFor(const haptics::SiteOrder& order);
+  std::unique_ptr<haptics::PieceSite> newSite(const haptics::SiteOrder& order);
+  void collectChanged();
+
+  haptics::Bodies& bodies_;
+  Keeping keeping_;
+  haptics::SocketSource sockets_;
+  std::optional<haptics::DistanceField> first_socket_;  ///< none: not needed yet
+  std::optional<haptics::Servo> servo_;
+  std::vector<SessionCommand> commands_;
+  // By the number of the command with the order; null: it does not hold.
+  std::map<std::size_t, std::unique_ptr<haptics::SplitPlan>> splits_;
+  std::map<std::size_t, std::unique_ptr<haptics::BreakPlan>> breaks_;
+  std::map<std::size_t, std::unique_ptr<haptics::ChipPlan>> chips_;
+  std::map<std::size_t, MadeSite> kept_sites_;                                                   ///< with Keeping::all
+  std::array<std::deque<std::unique_ptr<haptics::PieceSite>>, haptics::kMaxPieces> used_sites_;  ///< else
+  std::size_t made_sites_ = 0;
+  std::optional<haptics::FirstBytes> first_;  ///< none: no chips are looked for, or search_ has them
+  std::optional<haptics::ChipSearch> search_;
+  std::vector<glm::ivec3> unsearched_, changed_;  ///< bricks of the jaw's grid
+  haptics::Command command_;
+  std::size_t next_ = 0;
+  std::uint64_t next_index_ = 0;
+  bool grips_ = false;
+};
+
+}  // namespace app
