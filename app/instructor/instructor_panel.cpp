@@ -25,7 +25,7 @@ namespace {
 
 using Requests = std::vector<ControlRequest>;
 
-constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52;
+constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kStrokes_px = 64;
 constexpr int kKeyColumn_px = 280, kKeyRow_px = 17, kMostKeyColumns = 3;
 constexpr double kPanoramicShare = 0.3;  ///< of the window's height
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -338,6 +338,51 @@ void drawKeys(float top_px, int width_px) {
   ImGui::End();
 }
 
+/// A click on a stroke brings the bone to its end, one before the first to where all are undone.
+void drawStrokes(const RehearsalStatus& s, float top_px, float width_px, Requests& requests) {
+  ImGui::SetNextWindowPos({0.0f, top_px});
+  ImGui::SetNextWindowSize({width_px, static_cast<float>(kStrokes_px)});
+  ImGui::Begin("##strokes", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
+  const std::vector<double>& begun_s = s.strokes.begun_s();
+  const double now_s = std::max(1e-3, s.tick.t_s + s.tick.dt_s);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, static_cast<float>(kStrokes_px) - 36.0f};
+  ImGui::InvisibleButton("strokes", size);
+  const auto x_of = [&](double t_s) { return corner.x + static_cast<float>(t_s / now_s) * size.x; };
+  const bool is_pointed = ImGui::IsItemHovered(), is_clicked = ImGui::IsItemClicked();
+  const double pointed_s = static_cast<double>((ImGui::GetIO().MousePos.x - corner.x) / size.x) * now_s;
+  const auto before =
+      static_cast<std::size_t>(std::ranges::upper_bound(begun_s, pointed_s + 0.004 * now_s) - begun_s.begin());
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(30, 33, 39, 255), 4.0f);
+  for (std::size_t n = 0; n < begun_s.size(); ++n) {
+    const bool is_done = n < s.strokes.done(), is_last = n + 1 == s.strokes.done();
+    const float x = x_of(begun_s[n]), height = is_last ? 0.0f : 4.0f;
+    draw.AddRectFilled({x - 1.5f, corner.y + height}, {x + 1.5f, corner.y + size.y - height},
+                       is_last   ? IM_COL32(235, 238, 242, 255)
+                       : is_done ? IM_COL32(92, 168, 242, 255)
+                                 : IM_COL32(92, 98, 110, 255));
+  }
+  ImGui::PushFont(font(small_font));
+  if (is_pointed && !begun_s.empty()) {
+    ImGui::SetTooltip("%s", before == s.strokes.done() ? "the bone as it is"
+                            : before == 0              ? "before all strokes"
+                                          : ("to the stroke of " + clockText(begun_s[before - 1])).c_str());
+    draw.AddRect({x_of(before == 0 ? 0.0 : begun_s[before - 1]) - 3.0f, corner.y},
+                 {x_of(before == 0 ? 0.0 : begun_s[before - 1]) + 3.0f, corner.y + size.y},
+                 IM_COL32(250, 186, 71, 255));
+  }
+  ImGui::TextColored(kQuiet, "%s",
+                     begun_s.empty() ? "Strokes: none yet"
+                                     : fmt::format("Strokes: {} done, {} to redo; a click goes there", s.strokes.done(),
+                                                   begun_s.size() - s.strokes.done())
+                                           .c_str());
+  ImGui::PopFont();
+  ImGui::End();
+  if (is_clicked && !begun_s.empty())
+    for (const ControlRequest& request : requestsForStrokes(s.strokes.done(), before)) requests.push_back(request);
+}
+
 /// The largest area of a shape in a box, centred at its upper edge.
 ImageArea largestIn(glm::ivec2 corner_px, glm::ivec2 box_px, glm::ivec2 shape_px) {
   const glm::dvec2 box = glm::max(box_px, glm::ivec2(1)), shape = glm::max(shape_px, glm::ivec2(1));
@@ -385,14 +430,16 @@ PanelContext::~PanelContext() { ImGui::DestroyContext(); }
 
 ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px) {
   const glm::ivec2 free =
-      window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + keysHeight_px(window_px.x - kPanel_px) +
+      window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kStrokes_px +
+                                                             keysHeight_px(window_px.x - kPanel_px) +
                                                              static_cast<int>(kPanoramicShare * window_px.y));
   return largestIn({kMargin_px, kHeader_px}, free, surgeon_px);
 }
 
 ImageArea panoramicArea(glm::ivec2 window_px, glm::ivec2 surgeon_px, glm::ivec2 panoramic_px) {
   const ImageArea above = imageArea(window_px, surgeon_px);
-  const glm::ivec2 corner{kMargin_px, above.corner_px.y + above.size_px.y + keysHeight_px(window_px.x - kPanel_px)};
+  const glm::ivec2 corner{kMargin_px, above.corner_px.y + above.size_px.y + kStrokes_px +
+                                          keysHeight_px(window_px.x - kPanel_px)};
   return largestIn(corner, window_px - corner - glm::ivec2(kPanel_px + kMargin_px, kMargin_px), panoramic_px);
 }
 
@@ -402,7 +449,9 @@ std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, g
   const auto left_px = static_cast<float>(window_px.x - kPanel_px), height_px = static_cast<float>(window_px.y);
   drawHeader(status, left_px);
   const ImageArea area = imageArea(window_px, surgeon_px);
-  drawKeys(static_cast<float>(area.corner_px.y + area.size_px.y + 4), window_px.x - kPanel_px);
+  const int below_px = area.corner_px.y + area.size_px.y + 4;
+  drawStrokes(status, static_cast<float>(below_px), left_px, requests);
+  drawKeys(static_cast<float>(below_px + kStrokes_px), window_px.x - kPanel_px);
   ImGui::SetNextWindowPos({left_px, 0.0f});
   ImGui::SetNextWindowSize({static_cast<float>(kPanel_px), height_px});
   ImGui::Begin("##panel", nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/instructor/stroke_times.h"
 #include "app/session/session_calibration.h"
 #include "app/view/motion_to_photon.h"
 #include "haptics/loop/loop_statistics.h"
@@ -48,6 +49,7 @@ struct RehearsalStatus {
   std::string way;                      ///< what keeps the tooth in; empty: not known
   RecordingState recording = RecordingState::none;
   std::string recording_path;
+  StrokeTimes strokes;                    ///< that can be undone and redone
   std::string to_surgeon, to_instructor;  ///< messages of a procedure; a question to the surgeon
 };
 

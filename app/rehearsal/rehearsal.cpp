@@ -132,8 +132,8 @@ class Rehearsal {
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
-    return {newest_,    active_command_.inForce(), frame_.layers, head_up_,        router_.question(),
-            frame_.gap, rulerText(frame_.ruler),   ways_->line(), clearance_.now()};
+    return {newest_,    active_command_.inForce(), frame_.layers, head_up_,         router_.question(),
+            frame_.gap, rulerText(frame_.ruler),   ways_->line(), clearance_.now(), stroke_times_};
   }
 
   void beginOperation() {
@@ -241,6 +241,7 @@ class Rehearsal {
     if (sound_)
       sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
     if (coach_) coach_->follow(ticks, command, clearance_.now());
+    stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
     if (flap_) flap_->follow(ticks, command, station().commandSerial());
@@ -474,6 +475,7 @@ class Rehearsal {
   ControlRouter router_;
   SoftTouchCounter soft_touches_;
   SoftMarkTrail soft_marks_;
+  StrokeTimes stroke_times_;
   std::optional<StereoSnapshot> first_, last_;
   LiveView view_;
   Pace pace_;

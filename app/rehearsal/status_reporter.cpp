@@ -38,6 +38,7 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
   s.ruler = state.ruler;
   s.clearances = state.clearances;
   s.way = state.way;
+  s.strokes = state.strokes;
   if (state.gap) s.gap_mm = state.gap->mm;
   if (plan_.procedure) {
     const ProcedureMessages messages = plan_.procedure->messages();

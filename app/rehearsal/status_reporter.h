@@ -35,6 +35,7 @@ class StatusReporter {
     std::string ruler;  ///< rulerText()
     std::string way;    ///< WayFollower::line()
     haptics::Clearances clearances = {};
+    StrokeTimes strokes = {};
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

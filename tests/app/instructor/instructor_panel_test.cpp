@@ -126,6 +126,33 @@ TEST_F(InstructorPanel, AClickIsOneRequest) {
   EXPECT_TRUE(draw().empty());
 }
 
+/// Four strokes at 1, 3, 5 and 7 s of 10, the last one undone.
+TEST_F(InstructorPanel, GoesToTheStrokeThatIsClicked) {
+  for (std::uint8_t n = 1; n <= 4; ++n) {
+    haptics::Tick tick;
+    tick.t_s = 2.0 * n - 1.0;
+    tick.strokes = n;
+    tick.removed_mm3 = 0.1;
+    status_.strokes.follow(std::span(&tick, 1));
+  }
+  haptics::Tick undone;
+  undone.strokes = 3, undone.undone_strokes = 1;
+  undone.restored_total_mm3 = 0.5;
+  status_.strokes.follow(std::span(&undone, 1));
+  status_.tick.t_s = 10.0;
+  ASSERT_EQ(status_.strokes.done(), 3u);
+  // The strip below the picture: its middle, as wide as what is left of the panel without its margins.
+  const ImageArea picture = imageArea(kWindow_px, kPicture_px);
+  const float y = static_cast<float>(picture.corner_px.y + picture.size_px.y) + 26.0f;
+  const auto at = [&](double t_s) {
+    return ImVec2{16.0f + static_cast<float>(t_s / 10.0) * static_cast<float>(kWindow_px.x - 420 - 32), y};
+  };
+  EXPECT_EQ(click(at(1.8)), (std::vector<ControlRequest>(2, {Control::undo})));
+  EXPECT_EQ(click(at(0.3)), (std::vector<ControlRequest>(3, {Control::undo})));
+  EXPECT_EQ(click(at(8.5)), (std::vector<ControlRequest>{{Control::redo}}));
+  EXPECT_TRUE(click(at(5.5)).empty()) << "there it is";
+}
+
 TEST_F(InstructorPanel, ArmsAgainOnlyAfterAFault) { EXPECT_FALSE(allRequests().contains(asked("arm"))); }
 
 TEST_F(InstructorPanel, UnlocksALockedDrill) {
