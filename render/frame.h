@@ -64,13 +64,14 @@ enum class BeadKind : std::uint8_t {
   mark,      ///< a place to look at, seen as it is, unlit
   chip,      ///< loose bone or tooth
   follicle,  ///< soft
-  stitch
+  stitch,
+  trail  ///< of a tool's way, unlit; its colour by number: 0 green, 1 yellow, 2 orange, 3 red
 };
 struct Bead {
   calibration::Point<calibration::Patient> at_P;
   double radius_mm = 0.3;
   BeadKind kind = BeadKind::mark;
-  std::uint64_t number = 0;  ///< gives a chip its form
+  std::uint64_t number = 0;  ///< gives a chip its form, a trail its colour
   glm::dvec3 thin_P{0.0};    ///< unit: flat across it, a patch on a wall; 0: a ball
 };
 inline bool operator==(const Bead& a, const Bead& b) {

@@ -23,6 +23,7 @@ void addDevices(CommandLine& molar);
 void addDoctor(CommandLine& molar);
 void addReplay(CommandLine& molar);
 void addMetrics(CommandLine& molar);
+void addDebrief(CommandLine& molar);
 void addReport(CommandLine& molar);
 void addCompare(CommandLine& molar);
 void addTrend(CommandLine& molar);
@@ -36,10 +37,10 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse, addStart,     addImport,  addInspect, addPlan,          addClearance,
-                                   addFeel,     addCarve,     addSee,     addDisplay, addCalibrate,     addDevices,
-                                   addDoctor,   addReplay,    addMetrics, addReport,  addCompare,       addTrend,
-                                   addSessions, addExport,    addPieces,  addLaws,    addPsychophysics, addHelp,
-                                   addManual,   addCompletion};
+inline constexpr auto kCommands = {addRehearse, addStart,    addImport,    addInspect, addPlan,      addClearance,
+                                   addFeel,     addCarve,    addSee,       addDisplay, addCalibrate, addDevices,
+                                   addDoctor,   addDebrief,  addReplay,    addMetrics, addReport,    addCompare,
+                                   addTrend,    addSessions, addExport,    addPieces,  addLaws,      addPsychophysics,
+                                   addHelp,     addManual,   addCompletion};
 
 }  // namespace app

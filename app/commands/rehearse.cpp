@@ -9,8 +9,8 @@
 
 #include "app/case/case.h"
 #include "app/case/clearance_source.h"
+#include "app/case/closed_gum.h"
 #include "app/case/extraction_plan.h"
-#include "app/case/gutter_plan.h"
 #include "app/case/handpiece_direction.h"
 #include "app/case/impaction_class.h"
 #include "app/case/patient_placement.h"
@@ -45,7 +45,6 @@
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
 #include "assets/patient/patient_folder.h"
-#include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
@@ -134,15 +133,6 @@ void placePatient(RehearsalPlan& plan, const std::string& position, const std::o
   plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
 }
 
-/// With the site's part a tissue of its own, which gives way once it is raised.
-assets::MeshModel closedGum(const assets::Patient& patient, const std::string& flap) {
-  const auto cut = planGutter(patient, kUsualBurRadius_mm);
-  assets::MeshModel gum = assets::gingivaSurface(patient.ct, std::nullopt);
-  if (gum.parts.empty() || !cut)
-    throw UsageError("--flap " + flap + ": no gum is labelled over a planned cut in this patient, leave it out");
-  return assets::withFlapPart(gum, *cut);
-}
-
 struct PreparedCase {
   assets::Patient patient;
   assets::FacePose X_PF = assets::kFaceAxes_PF;
@@ -174,7 +164,13 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   const auto load = assets::sectionOf(report, 0.0, kPatientShare);
   one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
-  if (options.flap == "closed") one.patient.gingiva = closedGum(one.patient, options.flap);
+  if (options.flap == "closed") {
+    auto gum = closedGum(one.patient);
+    if (!gum)
+      throw UsageError("--flap " + options.flap +
+                       ": no gum is labelled over a planned cut in this patient, leave it out");
+    one.patient.gingiva = std::move(*gum);
+  }
   auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
   auto computed = std::async(std::launch::async, [&] {
     const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;

@@ -429,17 +429,16 @@ PanelContext::PanelContext() {
 PanelContext::~PanelContext() { ImGui::DestroyContext(); }
 
 ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px) {
-  const glm::ivec2 free =
-      window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kStrokes_px +
-                                                             keysHeight_px(window_px.x - kPanel_px) +
-                                                             static_cast<int>(kPanoramicShare * window_px.y));
+  const glm::ivec2 free = window_px - glm::ivec2(kPanel_px + 2 * kMargin_px,
+                                                 kHeader_px + kStrokes_px + keysHeight_px(window_px.x - kPanel_px) +
+                                                     static_cast<int>(kPanoramicShare * window_px.y));
   return largestIn({kMargin_px, kHeader_px}, free, surgeon_px);
 }
 
 ImageArea panoramicArea(glm::ivec2 window_px, glm::ivec2 surgeon_px, glm::ivec2 panoramic_px) {
   const ImageArea above = imageArea(window_px, surgeon_px);
-  const glm::ivec2 corner{kMargin_px, above.corner_px.y + above.size_px.y + kStrokes_px +
-                                          keysHeight_px(window_px.x - kPanel_px)};
+  const glm::ivec2 corner{kMargin_px,
+                          above.corner_px.y + above.size_px.y + kStrokes_px + keysHeight_px(window_px.x - kPanel_px)};
   return largestIn(corner, window_px - corner - glm::ivec2(kPanel_px + kMargin_px, kMargin_px), panoramic_px);
 }
 

@@ -4,26 +4,15 @@
 
 #include "app/case/gutter_plan.h"
 #include "app/case/operated_crown.h"
-#include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
 #include "app/options/law_text.h"
 #include "app/session/replay.h"
+#include "app/station/session_patient.h"
 #include "app/station/session_risks.h"
-#include "app/text/usage_error.h"
 #include "assets/cut_field.h"
-#include "assets/patient/patient_folder.h"
 
 namespace app {
 namespace {
-
-/// The patient with its bone before the first cut; none: it is not known.
-std::optional<assets::Patient> patientOf(const StoredStart& start, const std::string& folder) {
-  if (folder.empty() && !start.setup.built_in) return {};
-  assets::Patient patient = folder.empty() ? builtInPatient(*start.setup.built_in) : assets::loadPatient(folder);
-  if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;
-  if (!folder.empty()) throw UsageError(folder + ": is not the patient of this session, name another folder");
-  return {};
-}
 
 /// Where no patient tells: the middle of the tooth, or of what was removed.
 SiteView siteFromBone(const StoredStart& start, std::span<const std::uint8_t> after) {
@@ -73,7 +62,7 @@ SessionReview reviewOf(const std::string& path, const std::string& patient_folde
   // As recorded; which pieces are out is the replay's.
   const std::vector<std::uint8_t> in_mouth = end.bodies.solidInMouth(), whole = boneAtTime(path, {}).solid;
 
-  const std::optional<assets::Patient> patient = patientOf(start, patient_folder);
+  const std::optional<assets::Patient> patient = patientOfSession(start, patient_folder);
   std::optional<assets::PlannedCut> cut;
   if (patient && patient->site) {
     review.plan = extractionPlan(*patient, patient->title);

@@ -11,10 +11,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "app/session/session_text.h"
+#include "app/session/session_writer.h"
 #include "haptics/body/bodies.h"
 #include "haptics/body/chip_search.h"
 #include "haptics/ligament/piece_site.h"

@@ -1,18 +1,13 @@
 #include "app/station/session_risks.h"
 
 #include "app/case/clearance_source.h"
+#include "app/station/session_patient.h"
 #include "assets/synthetic/jaw.h"
 
 namespace app {
 
 assets::RiskStructures risksOfSession(const StoredStart& start) {
-  assets::Patient patient;
-  patient.ct.grid = start.grid;
-  patient.ct.label = start.label;
-  patient.ct.tooth = start.teeth;
-  patient.site = start.setup.site;
-  patient.mandibular_canal_P_mm = start.setup.canal_P_mm;
-  if (!start.setup.canal_P_mm.empty()) patient.mandibular_canal_radius_mm = start.setup.canal_radius_mm;
+  const assets::Patient patient = patientWithinSession(start);
   const bool is_old = start.teeth.empty() && !start.setup.site;
   if (is_old && start.setup.built_in) {
     const assets::Patient again = assets::syntheticJaw(*start.setup.built_in);

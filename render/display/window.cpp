@@ -172,6 +172,9 @@ void Window::Impl::listen() {
     of(w).events.push_back(KeyPressed{static_cast<Key>(key), action != GLFW_RELEASE, action == GLFW_REPEAT,
                                       (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
   });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned letter) {
+    of(w).events.push_back(LetterTyped{static_cast<char32_t>(letter)});
+  });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).events.push_back(CloseRequested{}); });
 }
 

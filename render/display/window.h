@@ -64,9 +64,13 @@ struct KeyPressed {
   bool repeated = false;
   bool shift = false, control = false;
 };
+/// What a key or several of them write.
+struct LetterTyped {
+  char32_t letter = 0;
+};
 struct CloseRequested {};
 
-using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, CloseRequested>;
+using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, LetterTyped, CloseRequested>;
 
 /// On the desktop, px from its top left.
 struct DesktopBox {

@@ -1,5 +1,6 @@
 #include "render/scene/bead_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -78,15 +79,24 @@ struct Look {
   const char* name;
   assets::Material material;
 };
-constexpr std::size_t kKinds = 4;
-/// By BeadKind; linear colours.
+constexpr std::size_t kTrailColours = 4, kKinds = 4 + kTrailColours;
+/// By BeadKind, trails by colour; linear colours.
 const std::array<Look, kKinds>& looks() {
   static const std::array<Look, kKinds> kLooks{
       {{kMarksPart, {.base_colour = {0.95F, 0.72F, 0.04F, 1.0F}}},
        {kChipsPart, {.base_colour = {0.74F, 0.62F, 0.44F, 1.0F}}},
        {kFolliclePart, {.base_colour = {0.46F, 0.16F, 0.13F, 1.0F}, .roughness = 0.3F}},
-       {kStitchesPart, {.base_colour = {0.02F, 0.03F, 0.12F, 1.0F}}}}};
+       {kStitchesPart, {.base_colour = {0.02F, 0.03F, 0.12F, 1.0F}}},
+       {kMarksPart, {.base_colour = {0.06F, 0.55F, 0.16F, 1.0F}}},
+       {kMarksPart, {.base_colour = {0.75F, 0.62F, 0.05F, 1.0F}}},
+       {kMarksPart, {.base_colour = {0.85F, 0.27F, 0.02F, 1.0F}}},
+       {kMarksPart, {.base_colour = {0.72F, 0.02F, 0.02F, 1.0F}}}}};
   return kLooks;
+}
+
+std::size_t lookOf(const Bead& bead) {
+  const auto kind = static_cast<std::size_t>(bead.kind);
+  return bead.kind == BeadKind::trail ? kind + std::min<std::size_t>(bead.number, kTrailColours - 1) : kind;
 }
 
 }  // namespace
@@ -98,7 +108,7 @@ assets::MeshModel beadMesh(std::span<const Bead> beads) {
     part.name = looks()[kind].name;
     part.material = looks()[kind].material;
     for (const Bead& bead : beads) {
-      if (static_cast<std::size_t>(bead.kind) != kind) continue;
+      if (lookOf(bead) != kind) continue;
       if (bead.kind == BeadKind::chip)
         addSplinter(part, bead, bead.number);
       else

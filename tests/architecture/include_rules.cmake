@@ -4,7 +4,7 @@
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
 #   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
 #     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
-#     | start_screen | review }.
+#     | start_screen | review }; before commands, after rehearsal and review: debrief.
 #   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -55,6 +55,7 @@ set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
 foreach(room pattern doctor calibrate psychophysics start_screen review)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
+set(app/debrief ${seen} app/procedure/ app/rehearsal/ app/review/ app/debrief/)
 set(app/commands ${floors} app/)
 set(app_root ${floors} app/commands/ app/text/command_line.h app/text/message.h app/text/version.h)
 set(tests ${floors} app/ tests/)

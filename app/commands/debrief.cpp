@@ -1,0 +1,91 @@
+// `molar debrief SESSION [SESSION]`: a recorded rehearsal played, looked at from any side, and exported.
+
+#include <memory>
+#include <optional>
+
+#include "app/commands/command.h"
+#include "app/debrief/debrief_keys.h"
+#include "app/debrief/debrief_plan.h"
+#include "app/options/picture_option.h"
+#include "app/options/settings_text.h"
+#include "app/options/view_option.h"
+#include "app/session/session_folder.h"
+#include "app/station/patient_list.h"
+#include "app/text/command_line.h"
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+constexpr double kLongest_s = 1e6;
+
+struct DebriefOptions {
+  DebriefPlan plan;
+  DebriefExport wanted;
+  PictureOption picture;
+  std::string first, second, patient, size, trail = "none", display = "mono";
+  bool headless = false, no_line = false;
+};
+
+int debrief(DebriefOptions options) {
+  DebriefPlan& plan = options.plan;
+  const bool exports = !options.wanted.snapshot.empty() || !options.wanted.clip.empty();
+  if (exports && !options.headless) throw UsageError("--snapshot, --clip: they need no window, add --headless");
+  if (options.headless && !exports) throw UsageError("--headless: nothing is asked for, add --snapshot or --clip");
+  if (!options.wanted.clip.empty() && !(options.wanted.to_s > options.wanted.from_s))
+    throw UsageError("--clip: say which part, --from and a later --to in s");
+  plan.sessions.push_back(sessionNamed(options.first));
+  if (!options.second.empty()) plan.sessions.push_back(sessionNamed(options.second));
+  if (!options.patient.empty()) plan.patient = patientNamed(options.patient);
+  if (!options.size.empty()) plan.size_px = imageSize(options.size);
+  render::Frame frame;
+  options.picture.apply(frame);
+  plan.backend = options.picture.backend();
+  plan.choice.mode = frame.mode;
+  plan.choice.layers = frame.layers;
+  plan.choice.trail = options.trail == "force"       ? TrailColour::force
+                      : options.trail == "clearance" ? TrailColour::clearance
+                                                     : TrailColour::none;
+  plan.choice.display = render::displayModeNamed(options.display).value_or(render::DisplayMode::mono);
+  plan.choice.has_line = !options.no_line;
+  return options.headless ? exportDebrief(plan, options.wanted) : showDebrief(plan);
+}
+
+}  // namespace
+
+void addDebrief(CommandLine& molar) {
+  auto options = std::make_shared<DebriefOptions>();
+  CommandLine& command = molar.command("debrief", "Play a recorded session, look at it from any side, set bookmarks");
+  command.option("SESSION", options->first, kSessionHelp).required();
+  command.option("SECOND", options->second, "Another of the same case, beside it and in step");
+  command.option("--at", options->plan.at_s, "Begin at this time, s").from(0.0, kLongest_s);
+  command.option("--patient", options->patient, "Of an imported patient: its folder, for face and gum");
+  command.option("--size", options->size, "Of the window or the pictures, px").valueNamed("WxH");
+  command.option("--loupes", options->plan.loupes, "Magnification").from(1.0, 16.0).showsDefault();
+  command.option("--trail", options->trail, "Way of the tool in the last 3 s, coloured")
+      .oneOf({"none", "force", "clearance"});
+  // Those that fill a part of a window like any other.
+  command.option("--display", options->display, "In stereo, within the picture")
+      .oneOf({"mono", "side-by-side", "top-bottom", "anaglyph", "anaglyph-red-cyan"});
+  command.flag("--no-line", options->no_line, "Without the line of text in the picture");
+  options->picture.addTo(command);
+  command.optionGroup("Without a window");
+  Option headless = command.flag("--headless", options->headless, "Write pictures, open no window");
+  command.option("--snapshot", options->wanted.snapshot, "Picture at --at, .png").valueNamed("FILE").needs(headless);
+  Option clip = command.option("--clip", options->wanted.clip, "Pictures of a part, frame_00000.png and on");
+  clip.valueNamed("FOLDER").needs(headless);
+  command.option("--from", options->wanted.from_s, "Start of the part, s").from(0.0, kLongest_s).needs(clip);
+  command.option("--to", options->wanted.to_s, "End of the part, s").from(0.0, kLongest_s).needs(clip);
+  command.option("--rate", options->wanted.frames_per_s, "Pictures a second")
+      .from(0.1, 100.0)
+      .showsDefault()
+      .needs(clip);
+  command.flag("--force", options->wanted.overwrite, "Replace the output if it exists");
+  command.example("molar debrief last", "the newest session");
+  command.example("molar debrief last --headless --clip FOLDER --from 10 --to 20",
+                  "as a film: ffmpeg -framerate 25 -i FOLDER/frame_%05d.png film.webm");
+  command.footer(debriefKeyHelp());
+  command.does([options] { return debrief(*options); });
+}
+
+}  // namespace app

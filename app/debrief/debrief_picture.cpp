@@ -1,0 +1,84 @@
+#include "app/debrief/debrief_picture.h"
+
+#include <chrono>
+
+#include "app/case/patient_placement.h"
+#include "app/rehearsal/frame_builder.h"
+#include "app/view/patient_renderer.h"
+
+namespace app {
+
+bool PictureChoice::operator==(const PictureChoice& other) const {
+  const render::Layers &a = layers, &b = other.layers;
+  return mode == other.mode && display == other.display && trail == other.trail && has_line == other.has_line &&
+         a.face_opacity == b.face_opacity && a.gingiva == b.gingiva && a.mandibular_canal == b.mandibular_canal &&
+         a.clearance == b.clearance && a.planned_cut == b.planned_cut && a.ghost_tool == b.ghost_tool &&
+         a.slices == b.slices && a.gap_ring == b.gap_ring && a.obstacles == b.obstacles;
+}
+
+DebriefPicture::DebriefPicture(DebriefRun& run, const render::RenderOptions& options)
+    : run_(run), clearance_(run.risks()), head_up_(true, false) {
+  const assets::Patient& patient = run.patient();
+  renderer_ = patientRenderer(patient, run.moments().command().tool, run.cut(), patient.ct.solid, options);
+  frame_.site_P = {patient.focus_P_mm()};
+  frame_.X_PT.translation_mm = frame_.site_P.mm;
+}
+
+calibration::Rig DebriefPicture::firstRig(const DebriefRun& run, glm::ivec2 px, double loupes) {
+  // A narrow picture shows the same site, not less of it.
+  constexpr double kUsualShape = 1.6;
+  const double shape = static_cast<double>(px.x) / std::max(1, px.y);
+  calibration::Rig rig =
+      calibration::desktopRig(px, calibration::kDeskMonitorWidth_mm / loupes * std::max(0.6, shape / kUsualShape));
+  rig.X_WP = placePatientAtSite(run.patient(), assets::kFaceAxes_PF);
+  return rig;
+}
+
+void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm) {
+  SessionMoments& moments = run_.moments();
+  const haptics::Tick& tick = moments.tick();
+  const haptics::Command& command = moments.command();
+  if (!shown_tool_ || !(*shown_tool_ == command.tool)) {
+    shown_tool_ = command.tool;
+    showInstrument(*renderer_, command.tool);
+  }
+  frame_ = nextFrame(frame_, tick, command);
+  frame_.rig = rig;
+  frame_.display = choice.display;
+  frame_.face_window_mm = face_window_mm;
+  frame_.mode = choice.mode;
+  frame_.layers = choice.layers;
+  frame_.field = surgicalField(moments.clarity());
+  frame_.pieces = movedPieces(tick);
+  frame_.beads = trailOf(run_.story().samplesBefore(tick.t_s, DebriefPicture::kTrail_s), choice.trail);
+  if (run_.flap() != nullptr) run_.flap()->show(tick.t_s + tick.dt_s, frame_);
+  uploader_.tell(moments.takeChangedBricks());
+  uploader_.upload(moments.bodies(), frame_.pieces, *renderer_);
+  frame_.gap = frame_.tool_visible ? renderer_->gap(frame_) : std::nullopt;
+
+  std::vector<render::OverlayPanel> panels;
+  if (choice.has_line) {
+    clearance_.update(tick, command.tool);
+    Situation situation = situationOf(tick, command, run_.patient(), false, false);
+    situation.canal_mm = clearance_.canal_mm();
+    HeadUp::Values values{situation,
+                          frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
+                          "",
+                          "",
+                          tick.site == haptics::SiteAnswer::ready,
+                          ""};
+    values.clearances = clearance_.ruler();
+    line_.update(head_up_.content(values, std::chrono::steady_clock::now()),
+                 headUpPlace(frame_.rig, frame_.display, frame_));
+    panels = line_.panels();
+  }
+  renderer_->setOverlay(std::move(panels));
+}
+
+void DebriefPicture::draw(const render::Quality& quality) {
+  frame_.quality = quality;
+  renderer_->render(frame_);
+  renderer_->throwIfError();
+}
+
+}  // namespace app

@@ -1,0 +1,53 @@
+// A moment of a session as a picture: the surgeon's view or a free one, with layers, the way of the tool, and the line
+// that the surgeon read. Render thread, with the context current of the back-end it was made for; the cost of drawing.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/debrief/debrief_run.h"
+#include "app/rehearsal/clearance_watch.h"
+#include "app/rehearsal/head_up.h"
+#include "app/view/brick_upload.h"
+#include "app/view/head_up_line.h"
+#include "render/frame_renderer.h"
+
+namespace app {
+
+struct PictureChoice {
+  render::ViewMode mode = render::ViewMode::iso;
+  render::Layers layers;
+  render::DisplayMode display = render::DisplayMode::mono;
+  TrailColour trail = TrailColour::none;
+  bool has_line = true;  ///< of text
+
+  bool operator==(const PictureChoice& other) const;
+};
+
+class DebriefPicture {
+ public:
+  static constexpr double kTrail_s = 3.0;
+
+  /// Borrows the run.
+  DebriefPicture(DebriefRun& run, const render::RenderOptions& options);
+
+  /// The run's moment seen with a rig: its `screen.px` is the size of the picture.
+  void update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm);
+  void draw(const render::Quality& quality);
+  render::FrameRenderer& renderer() { return *renderer_; }
+
+  /// Where the patient lies before the surgeon; `px`: of the picture.
+  static calibration::Rig firstRig(const DebriefRun& run, glm::ivec2 px, double loupes);
+
+ private:
+  DebriefRun& run_;
+  std::unique_ptr<render::FrameRenderer> renderer_;
+  BrickUploader uploader_;
+  std::optional<haptics::Tool> shown_tool_;
+  render::Frame frame_;
+  ClearanceWatch clearance_;
+  HeadUp head_up_;
+  HeadUpLine line_;
+};
+
+}  // namespace app

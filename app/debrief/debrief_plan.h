@@ -1,0 +1,36 @@
+// What a debrief is to show, as plain values. Made by a command before anything runs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/debrief/debrief_picture.h"
+#include "render/render_options.h"
+
+namespace app {
+
+struct DebriefPlan {
+  std::vector<std::string> sessions;  ///< one, or two that are shown side by side
+  std::string patient;                ///< folder of an imported one; empty: not named
+  glm::ivec2 size_px{1280, 900};      ///< of the window, or of the pictures
+  std::optional<render::Backend> backend;
+  PictureChoice choice;
+  double loupes = 4.0;
+  double at_s = 0.0;
+};
+
+struct DebriefExport {
+  std::string snapshot;  ///< PNG file; empty: none
+  std::string clip;      ///< folder of PNG files; empty: none
+  double from_s = 0.0, to_s = 0.0, frames_per_s = 25.0;
+  bool overwrite = false;
+};
+
+/// Plays in a window until it is closed. Throws GpuError without one.
+int showDebrief(const DebriefPlan& plan);
+
+/// Without a window. Progress goes to stderr, figures to stdout.
+int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted);
+
+}  // namespace app

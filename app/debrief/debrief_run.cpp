@@ -1,0 +1,81 @@
+#include "app/debrief/debrief_run.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/core.h>
+
+#include "app/case/closed_gum.h"
+#include "app/case/gutter_plan.h"
+#include "app/case/patient_placement.h"
+#include "app/case/trough_plan.h"
+#include "app/session/flap_event.h"
+#include "app/station/session_patient.h"
+#include "app/station/session_risks.h"
+
+namespace app {
+DebriefRun::DebriefRun(const std::string& session, const std::string& patient_folder)
+    : path_(session),
+      bookmarks_(Bookmarks::fileFor(session)),
+      moments_(session),
+      risks_(risksOfSession(moments_.start())),
+      story_(moments_.events(), risks_) {
+  const StoredStart& start = moments_.start();
+  std::optional<assets::Patient> known = patientOfSession(start, patient_folder);
+  has_patient_ = known.has_value();
+  patient_ = known ? std::move(*known) : patientWithinSession(start);
+  const double bur_mm = start.setup.tray.empty() ? kUsualBurRadius_mm : start.setup.tray.front().head.radius_mm;
+  if (has_patient_ && patient_.site)
+    if (const auto planned = plannedCut(patient_, bur_mm); planned && planned->kind == CutKind::gutter)
+      cut_ = planned->cut;
+  for (const SessionEvent& event : moments_.events())
+    if (event.kind == kFlapEvent) recorded_flap_ = flapFrom(event.text);
+  if (recorded_flap_ && has_patient_ && cut_) beginFlap(start);
+  // A continued rehearsal began with what was left.
+  patient_.ct.solid = start.solid;
+}
+
+/// As the patient lay where nothing else was asked for.
+void DebriefRun::beginFlap(const StoredStart& start) {
+  auto gum = closedGum(patient_);
+  if (!gum) return;
+  patient_.gingiva = std::move(*gum);
+  const auto X_WP = placePatientAtSite(patient_, assets::kFaceAxes_PF);
+  flap_.emplace(patient_, *cut_, patient_.gingiva, start.soft_tissue,
+                glm::conjugate(X_WP.rotation) * glm::dvec3(0.0, -1.0, 0.0));
+}
+
+bool DebriefRun::prepare(double most_s) {
+  return moments_.index(most_s, [this](const haptics::Tick& tick, const haptics::Command& command) {
+    story_.follow(tick, command);
+    if (flap_) flap_->follow(tick, command);
+    prepared_s_ = tick.t_s + tick.dt_s;
+  });
+}
+
+std::string DebriefRun::name() const { return std::filesystem::path(path_).filename().string(); }
+
+std::vector<SessionMark> DebriefRun::marks() const {
+  std::vector<SessionMark> marks = story_.marks();
+  for (const Bookmark& one : bookmarks_.all())
+    marks.push_back({one.t_s, MarkKind::bookmark, one.note.empty() ? "bookmark" : one.note});
+  std::ranges::stable_sort(marks, {}, &SessionMark::t_s);
+  return marks;
+}
+
+std::vector<std::string> DebriefRun::remarks() const {
+  std::vector<std::string> remarks;
+  if (!has_patient_)
+    remarks.push_back(moments_.start().setup.built_in
+                          ? "of another version of the built-in patient: jaw and teeth alone are shown"
+                          : "imported patient: jaw and teeth alone are shown, --patient FOLDER adds face and gum");
+  if (recorded_flap_ && !flap_) remarks.push_back("incision and flap are not shown: they need the patient's folder");
+  if (flap_ && isPrepared() && flap_->digest() != recorded_flap_->digest)
+    remarks.push_back("the flap lies otherwise than it was recorded, as the patient was placed otherwise");
+  if (const auto& difference = moments_.difference())
+    remarks.push_back(fmt::format("from tick {} on {}: bone and forces are as run again by this version",
+                                  difference->tick, difference->what));
+  return remarks;
+}
+
+}  // namespace app

@@ -1,0 +1,70 @@
+// A recorded session made ready to be looked at: its patient, any moment of it, what happened when. Frame P. One thread
+// at a time. Construction takes seconds (patient, structures), prepare() runs the session once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/debrief/bookmarks.h"
+#include "app/debrief/flap_film.h"
+#include "app/debrief/session_story.h"
+#include "app/session/session_moments.h"
+#include "assets/patient.h"
+#include "assets/planned_cut.h"
+#include "assets/risk_structures.h"
+
+namespace app {
+
+class DebriefRun {
+ public:
+  /// `patient_folder`: of an imported patient; empty: the built-in one, or only what the session itself holds. Throws
+  /// SessionError, UsageError, LoadError.
+  DebriefRun(const std::string& session, const std::string& patient_folder);
+  DebriefRun(const DebriefRun&) = delete;
+  DebriefRun& operator=(const DebriefRun&) = delete;
+
+  /// Runs about `most_s` more of the session. False: all of it has been.
+  bool prepare(double most_s);
+  bool isPrepared() const { return moments_.isIndexed(); }
+  double preparedTo_s() const { return prepared_s_; }
+  double length_s() const { return moments_.length_s(); }
+
+  /// As far as it is prepared.
+  void goTo(double t_s) { moments_.goTo(t_s); }
+  SessionMoments& moments() { return moments_; }
+  const SessionMoments& moments() const { return moments_; }
+
+  const std::string& path() const { return path_; }
+  /// File without its folder.
+  std::string name() const;
+  const assets::Patient& patient() const { return patient_; }
+  bool hasPatient() const { return has_patient_; }
+  const std::optional<assets::PlannedCut>& cut() const { return cut_; }
+  const assets::RiskStructures& risks() const { return risks_; }
+  const SessionStory& story() const { return story_; }
+  /// None: the session began with the flap raised, or its patient is not known.
+  const FlapFilm* flap() const { return flap_ ? &*flap_ : nullptr; }
+  Bookmarks& bookmarks() { return bookmarks_; }
+  /// Of story and bookmarks, in order of time.
+  std::vector<SessionMark> marks() const;
+  /// For people: what is not as it was.
+  std::vector<std::string> remarks() const;
+
+ private:
+  void beginFlap(const StoredStart& start);
+
+  std::string path_;
+  Bookmarks bookmarks_;
+  SessionMoments moments_;
+  bool has_patient_ = false;
+  assets::Patient patient_;
+  std::optional<assets::PlannedCut> cut_;
+  assets::RiskStructures risks_;
+  SessionStory story_;
+  std::optional<FlapFilm> flap_;
+  std::optional<FlapRecord> recorded_flap_;
+  double prepared_s_ = 0.0;
+};
+
+}  // namespace app

@@ -1,0 +1,31 @@
+#include "app/station/session_patient.h"
+
+#include "app/case/patient_source.h"
+#include "app/text/usage_error.h"
+#include "assets/patient/patient_folder.h"
+
+namespace app {
+
+std::optional<assets::Patient> patientOfSession(const StoredStart& start, const std::string& folder) {
+  if (folder.empty() && !start.setup.built_in) return {};
+  assets::Patient patient = folder.empty() ? builtInPatient(*start.setup.built_in) : assets::loadPatient(folder);
+  if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;
+  if (!folder.empty()) throw UsageError(folder + ": is not the patient of this session, name another folder");
+  return {};
+}
+
+assets::Patient patientWithinSession(const StoredStart& start) {
+  assets::Patient patient;
+  patient.title = start.patient_title;
+  patient.ct.grid = start.grid;
+  patient.ct.solid = start.solid;
+  patient.ct.label = start.label;
+  patient.ct.tooth = start.teeth;
+  patient.site = start.setup.site;
+  patient.jaw_P_mm = start.grid.centre_P_mm(start.grid.size / 2);
+  patient.mandibular_canal_P_mm = start.setup.canal_P_mm;
+  if (!start.setup.canal_P_mm.empty()) patient.mandibular_canal_radius_mm = start.setup.canal_radius_mm;
+  return patient;
+}
+
+}  // namespace app
