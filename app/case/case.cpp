@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "app/case/impaction_class.h"
+#include "assets/synthetic/practice_block.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -47,6 +48,19 @@ std::vector<std::string> caseNames() {
   std::vector<std::string> names;
   for (const Case& one : kCases) names.emplace_back(one.name);
   return names;
+}
+
+std::vector<std::string> rehearsalNames() {
+  std::vector<std::string> names = caseNames();
+  for (const assets::PracticeText& block : assets::kPracticeTasks) names.emplace_back(block.key);
+  return names;
+}
+
+std::string practiceList() {
+  std::string text;
+  for (const assets::PracticeText& block : assets::kPracticeTasks)
+    text += fmt::format("{:<16} {}, round bur of {:g} mm\n", block.key, block.instruction, 2.0 * block.bur_radius_mm);
+  return text;
 }
 
 const Case* caseNamed(std::string_view name) {

@@ -25,6 +25,8 @@ struct Case {
 std::span<const Case> cases();
 
 std::vector<std::string> caseNames();
+/// With the practice blocks (assets/synthetic/practice_block): what can be rehearsed.
+std::vector<std::string> rehearsalNames();
 
 /// For --opening, which any of them can have.
 inline constexpr const char* kOpeningHelp =
@@ -51,5 +53,7 @@ std::string_view difficultyText(const Case& one);
 
 /// The list for people, one line a case and one for what is hard about it.
 std::string caseList();
+/// Of the practice blocks.
+std::string practiceList();
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/commands/command.h"
 #include "app/review/session_comparison.h"
@@ -33,19 +34,22 @@ void addCompare(CommandLine& molar) {
 
 void addTrend(CommandLine& molar) {
   struct Options {
-    std::string folder;
+    std::string folder, reference;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CommandLine& command =
-      molar.command("trend", "The rehearsals of a folder over time, by case: median and range, no grade");
+  CommandLine& command = molar.command("trend", "The rehearsals of a folder over time, by case: median and range");
   command.option("FOLDER", options->folder, "Of recorded sessions (default: the data folder)");
+  command.option("--reference", options->reference, kReferenceHelp).valueNamed("SET");
   command.flag("--json", options->json, "All of it as JSON");
   command.does([options] {
+    std::optional<ReferenceSet> set;
+    if (!options->reference.empty()) set = loadReference(options->reference);
     const std::filesystem::path folder =
         options->folder.empty() ? usualSessionFolder() : std::filesystem::path(options->folder);
     const std::vector<CaseTrend> cases = trendOf(folder, printMessage);
-    std::fputs((options->json ? trendJson(cases) : trendText(cases)).c_str(), stdout);
+    const ReferenceSet* const against = set ? &*set : nullptr;
+    std::fputs((options->json ? trendJson(cases, against) : trendText(cases, against)).c_str(), stdout);
     return 0;
   });
 }

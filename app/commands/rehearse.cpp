@@ -45,6 +45,7 @@
 #include "app/text/usage_error.h"
 #include "app/view/preparation.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/synthetic/practice_block.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
@@ -58,6 +59,11 @@ constexpr double kForeignFaceWindow_mm = 24.0;
 constexpr const char* kShownOperation = "scripted:third-molar";
 constexpr const char* kShownFlap = "scripted:flap";  ///< incision, flap and the planned cut
 bool isShown(const RehearseOptions& options) { return options.plan.device == kShownOperation; }
+
+/// The block to practise on; none: a patient.
+std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options) {
+  return assets::practiceTaskOf(options.case_name);
+}
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
@@ -162,6 +168,15 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   PreparedCase one;
   constexpr double kPatientShare = 0.75, kSoftTissueShare = 0.9;
   const auto load = assets::sectionOf(report, 0.0, kPatientShare);
+  if (const auto task = practiceOf(options)) {
+    static const RehearseOptions kAsked;
+    one.patient = options.jaw.spacing_mm == kAsked.jaw.spacing_mm
+                      ? assets::practiceBlock(*task)
+                      : assets::practiceBlock(*task, options.jaw.spacing_mm);
+    one.cut = CutPlan{assets::practiceCut(*task, tool.head.radius_mm), CutKind::gutter};
+    one.cut->cut.shaft_P = one.cut->cut.outward_P;
+    return one;
+  }
   one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
   if (options.flap == "closed") {
@@ -266,11 +281,20 @@ void reserveCoreForServo() {
 assets::JawParameters jawOf(const RehearseOptions& options) {
   assets::JawParameters jaw = options.jaw;
   jaw.right_side = options.side == "right";
-  if (options.case_name.empty()) return jaw;
+  if (options.case_name.empty() || practiceOf(options)) return jaw;
   jaw = caseNamed(options.case_name)->jaw;
   jaw.spacing_mm = options.jaw.spacing_mm;
   jaw.seed = options.jaw.seed;
   return jaw;
+}
+
+/// What a block has none of.
+void refuseUnlessForBlock(const RehearseOptions& options) {
+  const std::string on = " needs a patient, leave it or --case " + options.case_name + " out";
+  if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + on);
+  if (options.flap == "closed") throw UsageError("--flap closed:" + on);
+  if (!options.face.empty()) throw UsageError("--face " + options.face + ":" + on);
+  if (options.opening_mm) throw UsageError("--opening:" + on);
 }
 
 /// "replay:last" with the file.
@@ -340,6 +364,7 @@ void chooseProcedure(RehearseOptions& options) {
   if (plan.device == "scripted" && options.procedure == "third-molar") plan.device = kShownOperation;
   const auto named = std::ranges::find(kGuidances, std::string_view(options.guidance));
   steps.guidance = named != kGuidances.end() ? static_cast<Guidance>(named - kGuidances.begin())
+                   : options.assess          ? Guidance::assessed
                    : isShown(options)        ? Guidance::free
                                              : Guidance::guided;
   if (!options.predict.empty()) {
@@ -351,10 +376,29 @@ void chooseProcedure(RehearseOptions& options) {
   plan.procedure_steps = std::move(steps);
 }
 
+/// Whatever would help, or leave something unrecorded.
+void refuseUnlessAssessable(const RehearseOptions& options) {
+  const auto refuse = [](const std::string& what, const char* why) {
+    throw UsageError("--assess: " + what + " contradicts it (" + why + "), leave one of them out");
+  };
+  if (!options.coach.empty() && options.coach != "off") refuse("--coach " + options.coach, "nothing is said");
+  if (!options.clearance.empty() && options.clearance != "off")
+    refuse("--clearance " + options.clearance, "clearances are not told");
+  if (!options.guidance.empty() && options.guidance != "assessed")
+    refuse("--guidance " + options.guidance, "steps are recorded and not told");
+  if (options.no_record) refuse("--no-record", "everything is recorded");
+  if (!options.continued.empty()) refuse("--continue " + options.continued, "it begins with the untouched patient");
+  if (!options.plan.parameters.empty()) refuse("--parameters " + options.plan.parameters, "its conditions stay");
+  if (isShown(options) || options.plan.device == "scripted:flap")
+    refuse("an operation that is shown", "somebody is to be assessed");
+  if (const std::string layer = options.picture.help(); !layer.empty())
+    refuse("--layers " + layer, "it shows what nobody sees");
+}
+
 /// Never in assessment.
 void chooseCoach(RehearseOptions& options) {
   const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
-  const bool is_assessed = steps && steps->guidance == Guidance::assessed;
+  const bool is_assessed = options.assess || (steps && steps->guidance == Guidance::assessed);
   if (is_assessed && !options.coach.empty() && options.coach != "off")
     throw UsageError("--coach " + options.coach + ": nothing is said in assessment, leave it out");
   const bool is_guided = steps && steps->guidance == Guidance::guided;
@@ -364,7 +408,9 @@ void chooseCoach(RehearseOptions& options) {
 
 int run(RehearseOptions& options) {
   if (options.list_cases) {
-    std::fputs((caseList() + importedList()).c_str(), stdout);
+    std::fputs(
+        (caseList() + "\npractice blocks, to learn the hand's work:\n" + practiceList() + importedList()).c_str(),
+        stdout);
     return 0;
   }
   RehearsalPlan& plan = options.plan;
@@ -373,7 +419,18 @@ int run(RehearseOptions& options) {
   plan.second_hand.device = withSessionNamed(plan.second_hand.device);
   if (plan.device.starts_with("scripted:"))
     throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
+  if (const auto task = practiceOf(options)) {
+    refuseUnlessForBlock(options);
+    plan.instruction = assets::textOf(*task).instruction;
+    // The burs that it is made for, where nothing else was asked for.
+    static const RehearseOptions kAsked;
+    if (options.tools == kAsked.tools)
+      options.tools = *task == assets::PracticeTask::plate ? std::vector<std::string>{"round:3.0", "round:2.0"}
+                                                           : std::vector<std::string>{"round:2.0", "round:3.0"};
+  }
   chooseProcedure(options);
+  if (options.assess) refuseUnlessAssessable(options);
+  plan.is_assessed = options.assess;
   chooseCoach(options);
   if (isShown(options)) {
     // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
@@ -429,7 +486,8 @@ int run(RehearseOptions& options) {
   plan.display = options.display.mode();
   plan.head_up_line = !options.no_line;
   plan.sound = !options.no_sound;
-  const bool is_assessed = plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed;
+  const bool is_assessed =
+      plan.is_assessed || (plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed);
   plan.shows_clearance = options.clearance.empty() ? !is_assessed : options.clearance == "view";
   plan.sounds_clearance = options.clearance == "sound";
   if (plan.sounds_clearance && (options.no_sound || plan.headless))
@@ -449,12 +507,17 @@ int run(RehearseOptions& options) {
   if (!options.continued.empty()) {
     former = continuationOf(sessionNamed(options.continued));
     goOn(options, *former);
+    if (!former->setup.practice.empty()) {
+      options.case_name = former->setup.practice;
+      options.jaw.spacing_mm = former->grid.spacing_mm;
+      plan.instruction = assets::textOf(*practiceOf(options)).instruction;
+    }
   }
 
   assets::JawParameters jaw = jawOf(options);
   if (former && former->setup.built_in) jaw = *former->setup.built_in;
   if (options.opening_mm) jaw.opening_mm = *options.opening_mm;
-  if (former && !former->setup.built_in && options.patient.empty())
+  if (former && former->setup.isImported() && options.patient.empty())
     throw UsageError("--continue " + former->path +
                      ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +
                      options.continued);
@@ -487,7 +550,8 @@ int run(RehearseOptions& options) {
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) {
     SessionSetup& setup = plan.recording->setup;
-    if (options.patient.empty()) setup.built_in = jaw;
+    setup.practice = practiceOf(options) ? options.case_name : "";
+    if (options.patient.empty() && setup.practice.empty()) setup.built_in = jaw;
     setup.tray = plan.other_tools;
     setup.tray.insert(setup.tray.begin(), plan.command.tool);
     if (former) setup.former = former->setup.former;

@@ -26,9 +26,10 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.optionGroup("Patient");
   Option patient = command.option("PATIENT", options.patient, std::string(kPatientHelp) + " [the built-in patient]");
   command.flag("--cases", options.list_cases,
-               "List the named cases of the built-in patient and the imported patients, and end");
-  Option named = command.option("--case", options.case_name, "Built-in patient: a case by its name, see --cases");
-  named.oneOf(caseNames()).excludes(patient);
+               "List the named cases of the built-in patient, the practice blocks and the imported patients, and end");
+  Option named = command.option("--case", options.case_name,
+                                "Built-in patient: a case, or a practice block, by its name, see --cases");
+  named.oneOf(rehearsalNames()).excludes(patient);
   const auto built_in = [&](const std::string& name, auto& value, const std::string& help) {
     return command.option(name, value, "Built-in patient: " + help).showsDefault().excludes(patient);
   };
@@ -103,6 +104,9 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
               "Says one thing at a time about how you work: on, off, or a supervisor's own FILE.toml of rules "
               "(app/procedure/coach) [on where a procedure is guided, else off; never in assessment]")
       .valueNamed("RULES");
+  command.flag("--assess", options.assess,
+               "An assessment: no coach, no clearances in view, no undo, no plan, steps in any order; all is recorded, "
+               "and the session says that it was assessed");
   command
       .option(
           "--flap", options.flap,

@@ -23,7 +23,7 @@ struct RehearseOptions {
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string pace = "real";
   std::string side = "right", second_tool = "mirror", case_name, procedure, guidance, predict, coach, flap = "raised";
-  bool list_cases = false;
+  bool list_cases = false, assess = false;
   PictureOption picture;
   std::vector<std::string> settings;
   DisplayOption display;

@@ -8,11 +8,12 @@
 #include <fmt/core.h>
 
 #include "app/commands/command.h"
+#include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
-#include "app/station/session_risks.h"
+#include "app/station/session_case.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -100,10 +101,19 @@ void addMetrics(CommandLine& molar) {
   auto as_json = std::make_shared<bool>(false);
   CommandLine& command = molar.command("metrics", "Measures of a recorded session, as text or JSON");
   command.option("SESSION", *session, kSessionHelp).required();
+  auto reference = std::make_shared<std::string>();
   command.flag("--json", *as_json, "All measures as JSON");
+  command.option("--reference", *reference, kReferenceHelp).valueNamed("SET");
   command.footer(measuresHelp());
-  command.does([session, as_json] {
-    const SessionMetrics metrics = metricsOf(sessionNamed(*session), risksOfSession);
+  command.does([session, as_json, reference] {
+    std::optional<ReferenceSet> set;
+    if (!reference->empty()) set = loadReference(*reference);
+    SessionMetrics metrics = metricsOf(sessionNamed(*session), caseOfSession);
+    if (set) {
+      tellAgainst(metrics, *set);
+      std::fputs((*as_json ? scoresJson(metrics, *set) : scoresText(metrics, *set)).c_str(), stdout);
+      return 0;
+    }
     std::fputs((*as_json ? metricsJson(metrics) + "\n" : metricsText(metrics)).c_str(), stdout);
     return 0;
   });

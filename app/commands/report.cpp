@@ -7,6 +7,7 @@
 #include "app/review/review_page.h"
 #include "app/session/session_folder.h"
 #include "app/station/patient_list.h"
+#include "app/station/session_case.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/output_file.h"
@@ -15,7 +16,7 @@ namespace app {
 namespace {
 
 struct ReportOptions {
-  std::string session, out, patient, compare;
+  std::string session, out, patient, compare, reference;
   bool force = false;
 };
 
@@ -23,15 +24,18 @@ int report(const ReportOptions& options) {
   if (!options.out.ends_with(".html")) throw UsageError("--out " + options.out + ": a report is a page, name it .html");
   calibration::OutputFile out(options.out, options.force);
   const std::string patient = options.patient.empty() ? "" : patientNamed(options.patient);
-  const SessionReview review = reviewOf(sessionNamed(options.session), patient);
+  std::optional<ReferenceSet> set;
+  if (!options.reference.empty()) set = loadReference(options.reference);
+  SessionReview review = reviewOf(sessionNamed(options.session), patient);
+  if (set) tellAgainst(review.metrics, *set);
   std::optional<SessionMetrics> other;
   if (!options.compare.empty()) {
-    other = metricsOf(sessionNamed(options.compare));
+    other = metricsOf(sessionNamed(options.compare), caseOfSession);
     if (other->patient_title != review.metrics.patient_title)
       throw UsageError("--compare " + options.compare + ": is of another case (" + other->patient_title +
                        "), name a session of " + review.metrics.patient_title);
   }
-  out.commit(reviewHtml(review, other ? &*other : nullptr));
+  out.commit(reviewHtml(review, other ? &*other : nullptr, set ? &*set : nullptr));
   return 0;
 }
 
@@ -45,6 +49,7 @@ void addReport(CommandLine& molar) {
   command.option("--out", options->out, "The page, .html; it needs no other file").required();
   command.option("--patient", options->patient, "Of an imported patient: its folder, for plan and pictures");
   command.option("--compare", options->compare, "A session of the same case, its measures beside");
+  command.option("--reference", options->reference, kReferenceHelp).valueNamed("SET");
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] { return report(*options); });
 }

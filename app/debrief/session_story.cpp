@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/options/bur_name.h"
-#include "app/procedure/coach/coach.h"
+#include "app/session/coach_event.h"
 #include "app/session/measures/clearance_measures.h"
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"

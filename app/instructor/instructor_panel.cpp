@@ -154,6 +154,31 @@ void drawClearances(const RehearsalStatus& s) {
   }
 }
 
+/// By the library that measures the recording later.
+void drawMeasures(const RehearsalStatus& s) {
+  if (s.measures.empty()) return;
+  heading("Measures so far");
+  const auto text_of = [&](std::string_view id, const char* unit, int digits) {
+    const auto found = std::ranges::find(s.measures, id, &MeasureValue::id);
+    const bool is_told = found != s.measures.end() && found->value;
+    return is_told ? fixedText(*found->value, digits) + unit : std::string("–");
+  };
+  row("Drill on, drilling", text_of("M1.on", "", 0) + " s, " + text_of("M1.drilling", " s", 0));
+  row("Dry", text_of("S10.dry", " s", 1));
+  row("Removed for each second on", text_of("M3.rate", " mm³", 2));
+  row("Painting index", text_of("PI", "", 2));
+  row("Way in over way along", text_of("PI.plunge", "", 2));
+  for (std::size_t n = 0; n < s.least.size(); ++n) {
+    if (!s.least[n]) continue;
+    const assets::RiskLevel level = assets::riskLevel(n, s.least[n]->mm);
+    row(("Nearest to " + std::string(assets::kRiskTexts[n].name)).c_str(),
+        fixedText(s.least[n]->mm, 1) + " mm at " + clockText(s.least[n]->t_s),
+        level == assets::RiskLevel::red     ? kBad
+        : level == assets::RiskLevel::amber ? kWarn
+                                            : kInk);
+  }
+}
+
 /// "stiffness_N_per_mm" as "stiffness": the unit stands behind the value.
 std::string nameWithoutUnit(std::string_view key) {
   std::string name(key.substr(0, key.find("_N")));
@@ -459,6 +484,7 @@ std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, g
   drawHand(status, requests);
   drawTool(status);
   drawClearances(status);
+  drawMeasures(status);
   drawLaw(status, requests);
   drawView(status);
   drawServo(status);

@@ -2,11 +2,13 @@
 // instructor ten times. Pure; any thread.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/instructor/stroke_times.h"
+#include "app/session/measures/clearance_measures.h"
 #include "app/session/session_calibration.h"
 #include "app/view/motion_to_photon.h"
 #include "haptics/loop/loop_statistics.h"
@@ -45,8 +47,11 @@ struct RehearsalStatus {
   std::string said;                     ///< to the surgeon, last
   std::optional<double> gap_mm;  ///< from the bur to tooth or bone as drawn; none: farther than render::kMaxGap_mm
   haptics::Clearances clearances = {};  ///< of the tool now
-  std::string ruler;                    ///< between two touches; empty: none
-  std::string way;                      ///< what keeps the tooth in; empty: not known
+  /// The main ones so far (rehearsal/live_measures), and the least clearance of the turning bur.
+  std::vector<MeasureValue> measures = {};
+  std::array<std::optional<ClearanceMeasures::Least>, assets::kRiskStructures> least = {};
+  std::string ruler;  ///< between two touches; empty: none
+  std::string way;    ///< what keeps the tooth in; empty: not known
   RecordingState recording = RecordingState::none;
   std::string recording_path;
   StrokeTimes strokes;                    ///< that can be undone and redone

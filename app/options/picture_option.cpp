@@ -1,5 +1,6 @@
 #include "app/options/picture_option.h"
 
+#include <algorithm>
 #include <map>
 
 #include "app/text/command_line.h"
@@ -63,6 +64,12 @@ std::optional<Backend> PictureOption::backend() const {
   const std::optional<Backend> requested = kBackends.at(renderer_);
   // Triangles of bone are OpenGL's.
   return !requested && kModes.at(mode_) == ViewMode::mesh ? Backend::gl_fragment : requested;
+}
+
+std::string PictureOption::help() const {
+  for (const PictureLayer& layer : kPictureLayers)
+    if (isHelp(layer) && std::ranges::find(layers_, layer.name) != layers_.end()) return std::string(layer.name);
+  return "";
 }
 
 void PictureOption::apply(render::Frame& frame) const {

@@ -33,6 +33,11 @@ inline constexpr std::array<PictureLayer, 8> kPictureLayers = {{
     {"obstacles", "Bone in the way", &render::Layers::obstacles},
 }};
 
+/// Layers that show what a surgeon cannot see: not in an assessment.
+constexpr bool isHelp(const PictureLayer& layer) {
+  return layer.name == "canal" || layer.name == "clearance" || layer.name == "plan" || layer.name == "obstacles";
+}
+
 class PictureOption {
  public:
   explicit PictureOption(render::Antialias antialias = render::Antialias::none);
@@ -42,6 +47,8 @@ class PictureOption {
   std::optional<render::Backend> backend() const;
   /// Sets view mode, layers and quality. Throws UsageError.
   void apply(render::Frame& frame) const;
+  /// The first of those asked for that isHelp(); empty: none.
+  std::string help() const;
 
  private:
   std::string renderer_ = "auto", mode_ = "iso", antialias_;

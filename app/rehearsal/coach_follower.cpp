@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "app/session/coach_event.h"
+
 namespace app {
 
 CoachFollower::CoachFollower(CoachRules rules, const assets::Patient& patient, EventLog& event_log, bool waits)

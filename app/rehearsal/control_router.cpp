@@ -5,8 +5,10 @@
 #include <exception>
 #include <filesystem>
 
+#include "app/options/picture_option.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/ruler.h"
+#include "app/session/assessment_event.h"
 #include "app/session/data_folder.h"
 #include "app/session/session_writer.h"
 #include "app/text/message.h"
@@ -147,6 +149,7 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (head_up_.execute(request)) return;
   if (request.control == Control::end) return monitor_.endByUser();
   if (plan_.procedure && plan_.procedure->take(request)) return;
+  if (isHelpRefused(request)) return;
   if (request.control == Control::tool && ring_.isOpen()) closeRing();
   if (active_command_.execute(request, where)) return;
   if (request.control == Control::ring)
@@ -165,6 +168,23 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
     equipment_.workstation().setHome();
     head_up_.say("the handle is at home");
   }
+}
+
+/// In an assessment; who asked is recorded.
+bool ControlRouter::isHelpRefused(const ControlRequest& request) {
+  if (!plan_.is_assessed) return false;
+  const bool is_layer = request.control == Control::layer && request.value >= 0 &&
+                        static_cast<std::size_t>(request.value) < kPictureLayers.size();
+  const PictureLayer* const layer = is_layer ? &kPictureLayers[static_cast<std::size_t>(request.value)] : nullptr;
+  const std::string help = request.control == Control::undo     ? "undo"
+                           : request.control == Control::redo   ? "redo"
+                           : request.control == Control::way    ? "what keeps the tooth in"
+                           : layer != nullptr && isHelp(*layer) ? "layer " + std::string(layer->name)
+                                                                : "";
+  if (help.empty()) return false;
+  head_up_.say(help + ": not in an assessment");
+  event_log_.note(kAssessmentEvent, std::string(kHelpRefused) + help);
+  return true;
 }
 
 /// The wheel over a CT slice; in mono, where the pointer is on the picture that both eyes see.

@@ -68,6 +68,7 @@ class ControlRouter {
   void executeScript(const haptics::Tick& newest, render::Frame& frame);
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
   void stopMotors();
+  bool isHelpRefused(const ControlRequest& request);
   void takeSnapshot(const render::Frame& frame);
   void markRuler(render::Frame& frame);
   void followToolButton(const haptics::Tick& newest, render::Frame& frame);

@@ -21,6 +21,7 @@
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/flap_follower.h"
 #include "app/rehearsal/frame_builder.h"
+#include "app/rehearsal/live_measures.h"
 #include "app/rehearsal/luxation_log.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
@@ -32,6 +33,8 @@
 #include "app/rehearsal/tooth_follower.h"
 #include "app/rehearsal/touches.h"
 #include "app/rehearsal/way_follower.h"
+#include "app/session/assessment_event.h"
+#include "app/session/eyes_event.h"
 #include "app/session/soft_touches.h"
 #include "app/sound/live_sound.h"
 #include "assets/scan/tooth_division.h"
@@ -88,6 +91,7 @@ class Rehearsal {
     ways_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.flap_closed) flap_.emplace(plan_, event_log_);
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
+    if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
     if (equipment_.led() != nullptr && flap_) beginFlap();
     if (equipment_.led() != nullptr && !flap_) beginOperation();
@@ -123,6 +127,7 @@ class Rehearsal {
       followTooth();
       followDemonstration();
       draw();
+      updateMeasures();
       status_reporter_->update(pace_.now(), state());
       router_.handleInstructorInput(status_reporter_->updateInstructor(state()), frame_);
     }
@@ -132,8 +137,9 @@ class Rehearsal {
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
-    return {newest_,    active_command_.inForce(), frame_.layers, head_up_,         router_.question(),
-            frame_.gap, rulerText(frame_.ruler),   ways_->line(), clearance_.now(), stroke_times_};
+    return {newest_,    active_command_.inForce(),    frame_.layers, head_up_,         router_.question(),
+            frame_.gap, rulerText(frame_.ruler),      ways_->line(), clearance_.now(), stroke_times_,
+            measured_,  clearance_.measures().least()};
   }
 
   void beginOperation() {
@@ -186,8 +192,27 @@ class Rehearsal {
     event_log_.recordInto(station());
     event_log_.note("quality", view_.qualityText());
     event_log_.note(kTouchEvent, kTouchCounting);
+    noteEyes();
+    if (plan_.is_assessed) {
+      event_log_.note(kAssessmentEvent, std::string(kAssessmentRules));
+      head_up_.say("assessment: " + std::string(kAssessmentRules));
+    }
     if (steps_) steps_->start();
     if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace();
+  }
+
+  /// Where the work is seen from: of one picture for both eyes, from between them.
+  void noteEyes() {
+    const auto X_PW = frame_.rig.X_WP.inverse();
+    const bool in_stereo = plan_.display != render::DisplayMode::mono;
+    const calibration::Point<calibration::World> between_W = frame_.rig.cyclopeanEye();
+    const EyesPlace eyes{(X_PW * (in_stereo ? frame_.rig.left_eye : between_W)).mm,
+                         (X_PW * (in_stereo ? frame_.rig.right_eye : between_W)).mm, in_stereo};
+    if (eyes_ && glm::distance(eyes_->left_P_mm, eyes.left_P_mm) < kEyesMoved_mm &&
+        glm::distance(eyes_->right_P_mm, eyes.right_P_mm) < kEyesMoved_mm)
+      return;
+    eyes_ = eyes;
+    event_log_.note(kEyesEvent, eyesText(eyes));
   }
 
   void followSound() {
@@ -240,6 +265,7 @@ class Rehearsal {
     followLuxation(ticks);
     if (sound_)
       sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
+    if (measures_) measures_->follow(ticks, command);
     if (coach_) coach_->follow(ticks, command, clearance_.now());
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
@@ -251,6 +277,14 @@ class Rehearsal {
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  /// For the instructor, twice a second.
+  void updateMeasures() {
+    constexpr std::chrono::milliseconds kBetween{500};
+    if (!measures_ || pace_.now() - measured_at_ < kBetween) return;
+    measured_at_ = pace_.now();
+    measured_ = measures_->values();
   }
 
   void noteTouch(const Touch& touch) {
@@ -415,10 +449,12 @@ class Rehearsal {
   std::string task() const {
     if (plan_.procedure) return plan_.procedure->messages().to_surgeon;
     const std::string question = router_.question();
-    return question.empty() && steps_ ? steps_->task() : question;
+    if (!question.empty()) return question;
+    return steps_ ? steps_->task() : plan_.instruction;
   }
 
   void draw() {
+    noteEyes();
     // Also without display: warnings are counted.
     view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
     if (pace_.isRealTime()) view_.show(frame_, pace_.now());
@@ -434,6 +470,10 @@ class Rehearsal {
     socket_->finish(view_.takeChangedBricks(), station().newestTick());
     if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())
       event_log_.note("sound", latency);
+    if (measures_) {
+      measures_->finish();
+      event_log_.note(kMeasuresEvent, measures_->text());
+    }
     if (const std::string least = clearanceText(clearance_.measures()); least != "{}")
       event_log_.note(kClearanceEvent, least);
     status_reporter_->reportEnd(ending);
@@ -491,7 +531,11 @@ class Rehearsal {
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;
   std::optional<CoachFollower> coach_;
+  std::optional<LiveMeasures> measures_;
+  std::vector<MeasureValue> measured_;  ///< by them, last
+  Pace::Time measured_at_{};
   bool shows_gutter_ = false;
+  std::optional<EyesPlace> eyes_;  ///< as noted last
   std::optional<FlapDemonstration> flap_shown_;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;

@@ -42,6 +42,8 @@ struct RehearsalPlan {
   std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
   assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
   assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told
+  std::string instruction;                  ///< of a practice block, one line; empty: none
+  bool is_assessed = false;                 ///< nothing helps, all is recorded (session/assessment_event)
   bool shows_clearance = true;              ///< in the picture; it is recorded in any case
   bool sounds_clearance = false;            ///< told by tones
   calibration::Rig rig;

@@ -37,6 +37,8 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
   s.said = state.head_up.lastSaid();
   s.ruler = state.ruler;
   s.clearances = state.clearances;
+  s.measures = state.measures;
+  s.least = state.least;
   s.way = state.way;
   s.strokes = state.strokes;
   if (state.gap) s.gap_mm = state.gap->mm;

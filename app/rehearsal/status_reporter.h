@@ -36,6 +36,8 @@ class StatusReporter {
     std::string way;    ///< WayFollower::line()
     haptics::Clearances clearances = {};
     StrokeTimes strokes = {};
+    std::vector<MeasureValue> measures = {};
+    std::array<std::optional<ClearanceMeasures::Least>, assets::kRiskStructures> least = {};
   };
   RehearsalStatus status(const FrameState& state);
   void update(Time now, const FrameState& state);

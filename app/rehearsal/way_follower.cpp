@@ -5,7 +5,7 @@ namespace {
 
 std::string whyNoWays(const RehearsalPlan& plan, const haptics::Bodies& bodies) {
   if (bodies.pieces() == 0 || !plan.patient.site) return "no tooth is operated here";
-  if (plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed)
+  if (plan.is_assessed || (plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed))
     return "what keeps the tooth in is not told in an assessed rehearsal";
   return "";
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "assets/cut_field.h"
 #include "assets/tissue.h"
 #include "assets/trilinear.h"
 #include "render/display/camera.h"
@@ -14,7 +13,7 @@ namespace app {
 namespace {
 
 constexpr double kAway_mm = 160.0, kSeen_mm = 34.0;  ///< of the camera; height of what it sees
-constexpr double kReach_mm = 3.0;                    ///< of the distances to the plan
+using FromPlan = std::function<double(const glm::dvec3&)>;
 
 /// Solid fraction at a place, 0 outside of the grid.
 double solidAt(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, const glm::dvec3& p_P_mm) {
@@ -33,10 +32,10 @@ bool isBone(const BoneStates& bone, const glm::dvec3& p_P_mm) {
 enum class PlanColour { none, over, under };
 
 /// What a place of the drawn surface shows, seen along `ray_P`.
-PlanColour colourAt(const BoneStates& bone, const assets::CutField& plan, const glm::dvec3& p_P_mm,
+PlanColour colourAt(const BoneStates& bone, const FromPlan& plan_mm, const glm::dvec3& p_P_mm,
                     const glm::dvec3& ray_P) {
   constexpr double kBefore_mm = 0.4;
-  const double from_plan_mm = plan.distance_mm(p_P_mm);
+  const double from_plan_mm = plan_mm(p_P_mm);
   if (from_plan_mm < -kPlanTolerance_mm)
     return isBone(bone, p_P_mm + 0.2 * ray_P) ? PlanColour::under : PlanColour::none;
   const glm::dvec3 in_front = p_P_mm - kBefore_mm * ray_P;
@@ -53,7 +52,7 @@ void tint(render::Image& image, std::size_t pixel, const std::array<double, 3>& 
 }
 
 void tintAgainstPlan(render::Image& image, const render::DistanceImage& distance, const render::Frame& frame,
-                     const BoneStates& bone, const assets::CutField& plan) {
+                     const BoneStates& bone, const FromPlan& plan_mm) {
   constexpr std::array kOver{220.0, 30.0, 20.0}, kUnder{30.0, 90.0, 220.0};
   const render::EyeView view = render::eyeView(frame.rig, render::Eye::cyclopean);
   const auto X_PW = frame.rig.X_WP.inverse();
@@ -67,7 +66,7 @@ void tintAgainstPlan(render::Image& image, const render::DistanceImage& distance
                                                                view.right_edge_W.xyz * ((x + 0.5) / image.w) +
                                                                view.up_edge_W.xyz * (1.0 - (y + 0.5) / image.h)};
       const glm::dvec3 ray_P = glm::normalize((X_PW * on_screen_W).mm - eye_P);
-      const PlanColour colour = colourAt(bone, plan, eye_P + mm * ray_P, ray_P);
+      const PlanColour colour = colourAt(bone, plan_mm, eye_P + mm * ray_P, ray_P);
       if (colour == PlanColour::over) tint(image, pixel, kOver);
       if (colour == PlanColour::under) tint(image, pixel, kUnder);
     }
@@ -75,8 +74,8 @@ void tintAgainstPlan(render::Image& image, const render::DistanceImage& distance
 
 }  // namespace
 
-std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& site,
-                                      const std::optional<assets::PlannedCut>& plan, glm::ivec2 px) {
+std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& site, const FromPlan& from_plan_mm,
+                                      glm::ivec2 px) {
   struct From {
     const char* words;
     glm::dvec3 eye_P, up_P;
@@ -87,8 +86,6 @@ std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& si
   const std::array views{From{"from above", site.up_P, site.distal_P}, From{"from the cheek", cheek, site.up_P},
                          From{"from the tongue", tongue, site.up_P}, From{"from in front", front, site.up_P}};
 
-  std::optional<assets::CutField> field;
-  if (plan) field.emplace(*plan, kReach_mm);
   render::RenderOptions how;
   how.backend = render::Backend::cpu;
   how.samples = 2;
@@ -106,7 +103,7 @@ std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& si
     frame.rig = render::cameraRig(camera, px);
     renderer.renderEye(frame, render::Eye::cyclopean);
     render::Image image = renderer.readEye(render::Eye::cyclopean);
-    if (field) tintAgainstPlan(image, renderer.readDistance(render::Eye::cyclopean), frame, bone, *field);
+    if (from_plan_mm) tintAgainstPlan(image, renderer.readDistance(render::Eye::cyclopean), frame, bone, from_plan_mm);
     pictures.push_back({from.words, std::move(image)});
   }
   return pictures;

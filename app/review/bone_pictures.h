@@ -4,14 +4,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "assets/planned_cut.h"
 #include "assets/volume_grid.h"
 #include "render/image.h"
 
@@ -36,7 +35,8 @@ struct BonePicture {
 /// Of what cut and stands: how far outside or inside of the plan counts.
 inline constexpr double kPlanTolerance_mm = 0.3;
 
+/// `from_plan_mm`: signed distance to what was to go, negative inside; empty: no plan.
 std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& site,
-                                      const std::optional<assets::PlannedCut>& plan, glm::ivec2 px);
+                                      const std::function<double(const glm::dvec3&)>& from_plan_mm, glm::ivec2 px);
 
 }  // namespace app

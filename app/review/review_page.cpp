@@ -7,6 +7,8 @@
 #include "app/report/html_page.h"
 #include "app/report/markup.h"
 #include "app/review/review_figures.h"
+#include "app/session/assessment_event.h"
+#include "app/session/gates.h"
 #include "app/text/clock_text.h"
 #include "assets/tissue.h"
 
@@ -48,46 +50,48 @@ std::string answer(std::optional<bool> is_error, const std::string& question, co
          (words.empty() ? "" : "<br><span class=\"quiet\">" + escaped(words) + "</span>") + "</div>\n</div>\n";
 }
 
-/// The neighbour's name in touches, of either side.
-constexpr std::string_view kSecondMolar = "second molar";
+/// "Lingual plate broken through".
+std::string begun(std::string_view name) {
+  std::string words(name);
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return words;
+}
 
 std::string errorsSection(const SessionReview& review) {
-  const std::optional<SocketRecord>& socket = review.metrics.socket;
-  const bool is_out = socket && socket->is_out;
-  const std::string not_out = "no piece of the tooth was out at the end";
   std::string content;
-  content +=
-      is_out ? answer(!socket->lingual.empty(), "Lingual plate broken through",
-                      socket->lingual.empty() ? "" : fmt::format("{} mm² open", fixedText(sumOf(socket->lingual), 1)))
-             : answer({}, "Lingual plate broken through", not_out);
-  std::optional<bool> molar;
-  std::string molar_words = "touches were not counted when this was recorded";
-  if (review.metrics.touched) {
-    molar = false;
-    molar_words.clear();
-    for (const TouchCount& count : *review.metrics.touched)
-      if (count.what.ends_with(kSecondMolar)) {
-        molar = true;
-        molar_words = fmt::format("the bur was on it {}, {} s in all",
-                                  count.times == 1 ? "once" : fmt::format("{} times", count.times),
-                                  fixedText(count.contact_s, 1));
-      }
-  }
-  content += answer(molar, "Second molar touched by the bur", molar_words);
-  content += is_out
-                 ? answer(!socket->retained.empty(), "Tooth left in the socket",
-                          socket->retained.empty() ? "" : fmt::format("{} mm³", fixedText(sumOf(socket->retained), 1)))
-                 : answer({}, "Tooth left in the socket", not_out);
+  for (const Gate& gate : gatesOf(review.metrics)) content += answer(gate.is_open, begun(gate.name), gate.words);
   return content;
 }
 
+std::string againstSection(const SessionReview& review, const ReferenceSet& set) {
+  Rows rows;
+  for (const Score& score : scoresOf(review.metrics, set)) {
+    if (score.better == 0) continue;
+    rows.push_back({std::string(score.name), fixedText(score.value, 2) + " " + unitText(score.unit),
+                    fixedText(score.median, 2), fixedText(score.low, 2) + " to " + fixedText(score.high, 2),
+                    score.z ? fmt::format("{:+.1f}", *score.z) : "-", score.better > 0 ? "more" : "less"});
+  }
+  return "<p>" +
+         escaped(
+             fmt::format("{}: {} runs of this case. The events above are never averaged away; one run has no grade.",
+                         set.name, set.runs.size())) +
+         "</p>\n" + tableMarkup({"Measure", "this rehearsal", "median", "range", "z", "better is"}, rows);
+}
+
 bool isSafety(const MeasureValue& measure) { return measure.id.starts_with("S"); }
+bool isOutcome(const MeasureValue& measure) { return measure.id.starts_with("O"); }
 
 std::string nearSection(const SessionReview& review) {
   const SessionMetrics& metrics = review.metrics;
   Rows rows;
+  // Of work near lingual plate and second molar only what there was.
+  const auto is_told = [](const MeasureValue& measure) {
+    const bool of_neighbour = measure.id.ends_with("molar") || measure.id.find("molar_") != std::string_view::npos ||
+                              measure.id.find("lingual") != std::string_view::npos;
+    return measure.id.starts_with("S1") || !of_neighbour || measure.value.value_or(0.0) != 0.0;
+  };
   for (const MeasureValue& measure : metrics.measures)
-    if (isSafety(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
+    if (isSafety(measure) && is_told(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
   if (metrics.touched)
     rows.push_back(
         {"touched by the bur", metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)});
@@ -104,18 +108,10 @@ std::string removedSection(const SessionReview& review) {
     for (const auto& [tissue, removed_mm3] : *review.metrics.removed_mm3_by_label)
       if (const std::string_view name = hardTissueName(tissue); !name.empty() && removed_mm3 >= 0.05)
         rows.push_back({std::string(name), fixedText(removed_mm3, 1) + " mm³"});
-  if (const auto& plan = review.against_plan) {
-    rows.push_back({"bone planned to go", fixedText(plan->planned_mm3, 1) + " mm³"});
-    rows.push_back({"bone cut outside of the plan", fixedText(plan->over_mm3(), 1) + " mm³"});
-    rows.push_back({"bone of the plan that stands", fixedText(plan->under_mm3(), 1) + " mm³"});
-    if (const auto dice = plan->dice()) rows.push_back({"overlap with the plan (Dice)", fixedText(*dice, 2)});
-    if (plan->over_max_mm)
-      rows.push_back(
-          {"how far outside", fmt::format("mean {}, 95 % {}, most {} mm", fixedText(*plan->over_mean_mm, 1),
-                                          fixedText(*plan->over_p95_mm, 1), fixedText(*plan->over_max_mm, 1))});
-  } else {
-    rows.push_back({"against the plan", "not told: " + review.why_no_plan});
-  }
+  if (review.against_plan)
+    rows.push_back({"bone planned to go", fixedText(review.against_plan->planned_mm3, 1) + " mm³"});
+  for (const MeasureValue& measure : review.metrics.measures)
+    if (isOutcome(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
   const std::string caption =
       review.against_plan
           ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
@@ -130,7 +126,7 @@ std::string handSection(const SessionReview& review, const SessionMetrics* other
   std::ranges::stable_partition(measures, [](const MeasureValue& measure) { return measure.id.starts_with("PI"); });
   Rows rows;
   for (const MeasureValue& measure : measures) {
-    if (isSafety(measure)) continue;
+    if (isSafety(measure) || isOutcome(measure)) continue;
     std::vector<std::string> row{std::string(measure.name), valueWords(measure)};
     if (other != nullptr) {
       const auto same = std::ranges::find(other->measures, measure.id, &MeasureValue::id);
@@ -166,6 +162,10 @@ std::string conditionsSection(const SessionReview& review) {
   const SessionMetrics& metrics = review.metrics;
   Rows rows{{"Program", metrics.program_version}, {"Force law", review.law}};
   rows.push_back({"Calibration", metrics.calibration ? calibrationText(*metrics.calibration) : "not recorded"});
+  rows.push_back({"Assessment", !metrics.assessed   ? "not recorded"
+                                : *metrics.assessed ? std::string(kAssessmentRules)
+                                                    : fmt::format("no; the coach spoke {} times", metrics.coach_said)});
+  rows.push_back({"Force, stereo", conditionsInWords(metrics.conditions)});
   rows.push_back({"Ticks of the force loop", fmt::format("{}, {} not recorded", metrics.ticks, metrics.lost)});
   rows.push_back({"Force clamped or slew-limited", fixedText(metrics.limited_s, 2) + " s"});
   rows.push_back({"Invalid pose, force or device fault", fixedText(metrics.faulty_s, 2) + " s"});
@@ -178,20 +178,22 @@ std::string conditionsSection(const SessionReview& review) {
 
 }  // namespace
 
-std::string reviewHtml(const SessionReview& review, const SessionMetrics* other) {
+std::string reviewHtml(const SessionReview& review, const SessionMetrics* other, const ReferenceSet* reference) {
   std::string below = clockText(review.metrics.duration_s) + " min";
   if (!review.started_utc.empty()) below = timeText(review.started_utc) + " \u00b7 " + below;
   HtmlPage page("Rehearsal: " + review.metrics.patient_title, below);
   page.section("The case", caseSection(review));
   page.section("Errors", errorsSection(review));
+  if (reference != nullptr) page.section("Against the reference", againstSection(review, *reference));
   page.section("How near, and on what", nearSection(review));
   page.section("Bone and tooth removed", removedSection(review));
   page.section("The hand's work", handSection(review, other));
   page.section("The course", courseSection(review));
   page.section("Conditions", conditionsSection(review));
-  return page.text(
-      "Measures as in molar metrics; no score is given, for there is no reference to score against. A training device, "
-      "not a clinical one.");
+  return page.text(std::string("Measures as in molar metrics; ") +
+                   (reference == nullptr ? "no score is given, for no reference was named"
+                                         : "one run is scored by measure and never graded") +
+                   ". A training device, not a clinical one.");
 }
 
 }  // namespace app

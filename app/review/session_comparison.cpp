@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/replay.h"
-#include "app/station/session_risks.h"
+#include "app/station/session_case.h"
 #include "app/text/clock_text.h"
 #include "app/text/usage_error.h"
 #include "assets/tissue.h"
@@ -54,7 +54,7 @@ nlohmann::ordered_json orNull(const std::optional<double>& value) {
 }  // namespace
 
 SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b) {
-  SessionComparison comparison{metricsOf(path_a, risksOfSession), metricsOf(path_b, risksOfSession), {}};
+  SessionComparison comparison{metricsOf(path_a, caseOfSession), metricsOf(path_b, caseOfSession), {}};
   const BoneAtTime a = boneAtTime(path_a, {}), b = boneAtTime(path_b, {});
   if (!(a.start.grid == b.start.grid) || a.start.label != b.start.label || a.start.solid != b.start.solid)
     throw UsageError(path_b + ": begins with another bone than " + path_a + ", compare two rehearsals of one case");

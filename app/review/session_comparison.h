@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/review/plan_comparison.h"
+#include "app/session/measures/plan_comparison.h"
 #include "app/session/metrics.h"
 
 namespace app {

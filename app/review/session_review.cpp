@@ -2,14 +2,13 @@
 
 #include <limits>
 
-#include "app/case/gutter_plan.h"
 #include "app/case/operated_crown.h"
-#include "app/case/trough_plan.h"
 #include "app/options/law_text.h"
 #include "app/session/replay.h"
+#include "app/station/session_case.h"
 #include "app/station/session_patient.h"
-#include "app/station/session_risks.h"
-#include "assets/cut_field.h"
+#include "assets/synthetic/practice_block.h"
+#include "assets/tissue.h"
 
 namespace app {
 namespace {
@@ -36,23 +35,26 @@ SiteView siteOf(const assets::Patient& patient) {
   return {patient.site->centre_P_mm + 3.0 * axes.up_P, axes.distal_P, axes.buccal_P, axes.up_P};
 }
 
+/// Of a practice block: over its face.
+SiteView siteOfBlock() {
+  return {glm::dvec3(0.0), assets::fromBlock({1.0, 0.0, 0.0}), -assets::fromBlock({0.0, 1.0, 0.0}),
+          assets::fromBlock({0.0, 0.0, 1.0})};
+}
+
 PlanComparison comparisonOf(const StoredStart& start, std::span<const std::uint8_t> after,
-                            const assets::PlannedCut& cut) {
-  constexpr double kFarthest_mm = 12.0;
-  const assets::CutField field(cut, kFarthest_mm);
+                            const std::function<double(const glm::dvec3&)>& from_plan_mm) {
   const auto is_bone = [&](std::size_t v) {
     const auto tissue = static_cast<assets::Tissue>(start.label[v]);
     return tissue == assets::Tissue::cortical || tissue == assets::Tissue::trabecular;
   };
-  return compareWithPlan(start.grid, start.solid, after, is_bone,
-                         [&](const glm::dvec3& p) { return field.distance_mm(p); });
+  return compareWithPlan(start.grid, start.solid, after, is_bone, from_plan_mm);
 }
 
 }  // namespace
 
 SessionReview reviewOf(const std::string& path, const std::string& patient_folder) {
   SessionReview review;
-  review.metrics = metricsOf(path, risksOfSession);
+  review.metrics = metricsOf(path, caseOfSession);
   SessionReader session(path);
   review.course = courseOf(session);
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
@@ -63,20 +65,18 @@ SessionReview reviewOf(const std::string& path, const std::string& patient_folde
   const std::vector<std::uint8_t> in_mouth = end.bodies.solidInMouth(), whole = boneAtTime(path, {}).solid;
 
   const std::optional<assets::Patient> patient = patientOfSession(start, patient_folder);
-  std::optional<assets::PlannedCut> cut;
-  if (patient && patient->site) {
+  const SessionCase about = caseOfSession(start);
+  if (patient && patient->site)
     review.plan = extractionPlan(*patient, patient->title);
-    if (const auto planned = plannedCut(*patient, kUsualBurRadius_mm); planned && planned->kind == CutKind::gutter) {
-      cut = planned->cut;
-      review.against_plan = comparisonOf(start, whole, *cut);
-    } else {
-      review.why_no_plan = "no gutter could be planned for this tooth";
-    }
-  } else {
-    review.why_no_plan = "the patient's folder was not named, or is of another version";
-  }
-  const SiteView site = patient && patient->site ? siteOf(*patient) : siteFromBone(start, whole);
-  review.pictures = bonePictures({start.grid, start.label, start.solid, in_mouth}, site, cut, {480, 420});
+  else
+    review.why_no_plan = start.setup.practice.empty() ? "the patient's folder was not named, or is of another version"
+                                                      : "a practice block has none";
+  if (about.from_plan_mm) review.against_plan = comparisonOf(start, whole, about.from_plan_mm);
+  const SiteView site = !start.setup.practice.empty() ? siteOfBlock()
+                        : patient && patient->site    ? siteOf(*patient)
+                                                      : siteFromBone(start, whole);
+  review.pictures =
+      bonePictures({start.grid, start.label, start.solid, in_mouth}, site, about.from_plan_mm, {480, 420});
   return review;
 }
 

@@ -9,8 +9,8 @@
 
 #include "app/case/extraction_plan.h"
 #include "app/review/bone_pictures.h"
-#include "app/review/plan_comparison.h"
 #include "app/review/session_course.h"
+#include "app/session/measures/plan_comparison.h"
 #include "app/session/metrics.h"
 
 namespace app {
@@ -21,7 +21,7 @@ struct SessionReview {
   std::string started_utc;                     ///< empty: not recorded
   std::string law;                             ///< of force, at the end
   std::optional<ExtractionPlan> plan;          ///< none: why_no_plan
-  std::optional<PlanComparison> against_plan;  ///< the same
+  std::optional<PlanComparison> against_plan;  ///< none: no plan is known
   std::string why_no_plan;
   std::vector<BonePicture> pictures;
 };

@@ -11,7 +11,7 @@
 #include "app/session/measures/painting.h"
 #include "app/session/session_error.h"
 #include "app/session/session_list.h"
-#include "app/station/session_risks.h"
+#include "app/station/session_case.h"
 #include "app/text/clock_text.h"
 
 namespace app {
@@ -46,6 +46,22 @@ std::optional<Spread> spreadOf(const CaseTrend& one, const Column& column) {
   return Spread{*medianOf(values), low, high};
 }
 
+/// None: the set is of another case.
+std::optional<Grade> gradeOf(const CaseTrend& one, const ReferenceSet* reference) {
+  if (reference == nullptr || reference->case_title != one.title) return {};
+  std::vector<SessionMetrics> runs;
+  for (const TrendRun& run : one.runs) runs.push_back(run.metrics);
+  return gradeOf(runs, *reference);
+}
+
+std::string gradeText(const Grade& grade) {
+  std::string words = "grade             " + grade.words;
+  if (grade.z)
+    words += fmt::format("; median z {:+.1f}, from {:+.1f} to {:+.1f}, positive is better", *grade.z, *grade.low,
+                         *grade.high);
+  return words + "\n";
+}
+
 }  // namespace
 
 std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report) {
@@ -63,7 +79,7 @@ std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const Report
     try {
       CaseTrend& one = by_title[session.case_title];
       one.title = session.case_title;
-      one.runs.push_back({file, session.unix_s, metricsOf(session.path, risksOfSession)});
+      one.runs.push_back({file, session.unix_s, metricsOf(session.path, caseOfSession)});
     } catch (const SessionError& error) {
       report(std::string(error.what()) + ", left out");
     }
@@ -76,7 +92,7 @@ std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const Report
   return cases;
 }
 
-std::string trendText(const std::vector<CaseTrend>& cases) {
+std::string trendText(const std::vector<CaseTrend>& cases, const ReferenceSet* reference) {
   std::string words;
   for (const CaseTrend& one : cases) {
     words += (words.empty() ? "" : "\n") + one.title + "\n" + fmt::format("{:<18}", "");
@@ -90,6 +106,7 @@ std::string trendText(const std::vector<CaseTrend>& cases) {
       }
       words += "\n";
     }
+    if (const auto grade = gradeOf(one, reference)) words += gradeText(*grade);
     if (one.runs.size() < kRunsForTrend) {
       words += fmt::format("median and range from {} runs on\n", kRunsForTrend);
       continue;
@@ -109,7 +126,7 @@ std::string trendText(const std::vector<CaseTrend>& cases) {
   return words;
 }
 
-std::string trendJson(const std::vector<CaseTrend>& cases) {
+std::string trendJson(const std::vector<CaseTrend>& cases, const ReferenceSet* reference) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const CaseTrend& one : cases) {
     nlohmann::ordered_json entry = {{"patient", one.title}, {"runs", nlohmann::ordered_json::array()}};
@@ -126,6 +143,11 @@ std::string trendJson(const std::vector<CaseTrend>& cases) {
       entry["spread"][std::string(column.key)] =
           spread ? nlohmann::ordered_json{{"median", spread->median}, {"least", spread->low}, {"most", spread->high}}
                  : nlohmann::ordered_json();
+    }
+    if (const auto grade = gradeOf(one, reference)) {
+      entry["grade"] = {{"reference", reference->name}, {"words", grade->words}, {"z", nullptr}};
+      if (grade->z)
+        entry["grade"].update(nlohmann::ordered_json{{"z", *grade->z}, {"least", *grade->low}, {"most", *grade->high}});
     }
     list.push_back(std::move(entry));
   }

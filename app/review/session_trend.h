@@ -1,11 +1,12 @@
 // The rehearsals of a folder over time, by case: a few measures of each, and from three runs of a case on their median
-// and range. No grade. For `molar trend`. Any thread; a second a session.
+// and range; a grade against a named set of references alone. For `molar trend`. Any thread; a second a session.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "app/review/reference_set.h"
 #include "app/session/metrics.h"
 #include "app/text/message.h"
 
@@ -29,7 +30,8 @@ inline constexpr std::size_t kRunsForTrend = 3;
 /// none.
 std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report);
 
-std::string trendText(const std::vector<CaseTrend>& cases);
-std::string trendJson(const std::vector<CaseTrend>& cases);
+/// `reference`: the grade of the runs of its case against it; null: none.
+std::string trendText(const std::vector<CaseTrend>& cases, const ReferenceSet* reference = nullptr);
+std::string trendJson(const std::vector<CaseTrend>& cases, const ReferenceSet* reference = nullptr);
 
 }  // namespace app

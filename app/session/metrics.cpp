@@ -6,10 +6,18 @@
 #include <optional>
 #include <vector>
 
+#include "app/session/assessment_event.h"
+#include "app/session/coach_event.h"
+#include "app/session/eyes_event.h"
 #include "app/session/field_clarity.h"
 #include "app/session/measures/clearance_measures.h"
 #include "app/session/measures/hand_work.h"
+#include "app/session/measures/near_work.h"
 #include "app/session/measures/original_surface.h"
+#include "app/session/measures/outcome.h"
+#include "app/session/measures/practice_measures.h"
+#include "app/session/measures/sight.h"
+#include "app/session/measures/tissue_work.h"
 #include "app/session/replay.h"
 #include "app/session/session_error.h"
 #include "app/text/parse_number.h"
@@ -73,30 +81,19 @@ std::optional<double> measuredMm(const std::string& text) {
   return end == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(0, end));
 }
 
-/// None where the replay ends with another bone.
-std::optional<RemovedByTissue> removedByReplay(SessionReader& session) {
+/// The bone that is left: as recorded, else by a replay; none where that ends with another bone. Rewinds the session.
+std::optional<std::vector<std::uint8_t>> boneLeft(SessionReader& session, const StoredStart& start,
+                                                  SessionMetrics& metrics) {
+  if (auto left = session.finalBone(start)) return std::move(left->solid);
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
-  if (end.divergence) return std::nullopt;
-  return removedByKey(end.bodies.removedByTissue_mm3());
+  session.rewind();
+  if (end.divergence) return {};
+  metrics.removed_mm3_by_label = removedByKey(end.bodies.removedByTissue_mm3());
+  return end.bodies.solidInGridOrder();
 }
 
-}  // namespace
-
-SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of) {
-  SessionReader session(path);
-  refuseDamaged(session, path);
-  SessionMetrics metrics;
-  const StoredStart about = session.about();
-  metrics.patient_title = about.patient_title;
-  metrics.program_version = about.program_version;
-  metrics.calibration = about.calibration;
-  metrics.former = about.setup.former;
-  metrics.closed = session.closed();
-  metrics.missing_log = session.missingLog();
-  const std::vector<SessionCommand> commands = session.commands();
-  metrics.commands = commands.size();
-  std::vector<SessionEvent> events = session.events();
-  metrics.events = events.size();
+/// What is told by events.
+void addEvents(SessionMetrics& metrics, const std::vector<SessionEvent>& events) {
   for (const SessionEvent& event : events) {
     if (event.kind == kTouchEvent) {
       if (!metrics.touched) metrics.touched.emplace();
@@ -107,49 +104,161 @@ SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of) {
     if (event.kind == kWayEvent) metrics.way = wayFrom(event.text), ++metrics.ways_looked_at;
     if (event.kind == kStepEvent) addStepEvent(metrics.procedure, event.text);
     if (event.kind == kPredictionEvent) metrics.prediction = predictionFrom(event.text);
+    // Eyes and assessments are recorded since the same version.
+    if (event.kind == kEyesEvent && !metrics.assessed) metrics.assessed = false;
+    if (event.kind == kAssessmentEvent) {
+      metrics.assessed = true;
+      if (event.text.starts_with(kHelpRefused)) ++metrics.help_refused;
+    }
+    if (event.kind == kCoachEvent) ++metrics.coach_said;
+    if (event.kind == kServoEvent) metrics.conditions.missed_ticks = missedTicksFrom(event.text);
+    if (event.kind == kEyesEvent)
+      if (const auto eyes = eyesFrom(event.text)) metrics.conditions.stereo = eyes->in_stereo;
   }
-  std::erase_if(events, [](const SessionEvent& event) { return event.kind != kRulerEvent || !measuredMm(event.text); });
+}
 
+/// Looked on by eyes at these places, or by a usual surgeon's.
+class Onlooker {
+ public:
+  static constexpr double kAway_mm = 400.0, kHalfApart_mm = 31.5;
+
+  void add(const EyesPlace& eyes, double t_s) { eyes_.push_back({eyes_.empty() ? 0.0 : t_s, eyes}); }
+  void add(const haptics::Command& in_force, double t_s) {
+    const HeldFrom now{t_s, in_force.assistant_holds, in_force.flap_aside};
+    if (held_.empty() || held_.back().assistant_holds != now.assistant_holds ||
+        held_.back().flap_aside != now.flap_aside)
+      held_.push_back(now);
+  }
+  bool isRecorded() const { return !eyes_.empty(); }
+  void assume(const glm::dvec3& site_P_mm, const glm::dvec3& sight_P) {
+    const glm::dvec3 aside = kHalfApart_mm * glm::normalize(glm::cross(sight_P, glm::dvec3(0.0, 0.0, 1.0)));
+    const glm::dvec3 middle = site_P_mm + kAway_mm * sight_P;
+    eyes_.push_back({0.0, {middle - aside, middle + aside}});
+  }
+  std::span<const EyesFrom> eyes() const { return eyes_; }
+  std::span<const HeldFrom> held() const { return held_; }
+
+ private:
+  std::vector<EyesFrom> eyes_;
+  std::vector<HeldFrom> held_;
+};
+
+MeasureValue outOfSight(const RemovalClock* clock, const StoredStart& start, std::span<const std::uint8_t> after,
+                        const SessionCase& about, Onlooker& onlooker, std::optional<double> out_s) {
+  MeasureValue value{"S7", "share of removal out of sight of both eyes", "", {}, {}, {}};
+  const bool is_recorded = onlooker.isRecorded();
+  if (clock == nullptr)
+    value.why = "the bone at the end is not known";
+  else if (!is_recorded && (!start.setup.site || about.sight_P == glm::dvec3(0.0)))
+    value.why = "where the eyes were is not recorded";
+  if (!value.why.empty()) return value;
+  if (!is_recorded) onlooker.assume(start.setup.site->centre_P_mm, about.sight_P);
+  value.value = shareOutOfSight(
+      *clock, {start.solid, after, start.soft_tissue, onlooker.eyes(), onlooker.held(), start.is_tooth, out_s});
+  if (!value.value) value.why = "no bur removed anything";
+  value.conditions = is_recorded ? "eyes as recorded; the mirror is not counted"
+                                 : "eyes of a usual surgeon, as they were not recorded; the mirror is not counted";
+  return value;
+}
+
+}  // namespace
+
+SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
+  SessionReader session(path);
+  refuseDamaged(session, path);
+  SessionMetrics metrics;
+  const StoredStart start = session.start();
+  metrics.patient_title = start.patient_title;
+  metrics.program_version = start.program_version;
+  metrics.calibration = start.calibration;
+  metrics.former = start.setup.former;
+  metrics.closed = session.closed();
+  metrics.missing_log = session.missingLog();
+  const std::vector<SessionCommand> commands = session.commands();
+  metrics.commands = commands.size();
+  const std::vector<SessionEvent> events = session.events();
+  metrics.events = events.size();
+  addEvents(metrics, events);
+
+  const SessionCase about = case_of ? case_of(start) : SessionCase();
+  const auto after = boneLeft(session, start, metrics);
+  std::optional<RemovalClock> clock;
+  if (after) clock.emplace(start.grid, start.solid, *after);
   std::vector<float> work_us;
-  auto ruler = events.begin();
+  auto event = events.begin();
   SoftTouchCounter soft_touches;
   haptics::Command in_force;
   auto next = commands.begin();
   std::optional<haptics::Tick> before;
   FieldClarity field;
   HandWork work;
-  const StoredStart start = session.start();
   const OriginalSurface surface(start.grid, start.solid);
-  const assets::RiskStructures risks = risks_of ? risks_of(start) : assets::RiskStructures();
-  ClearanceMeasures clearance(risks);
+  ClearanceMeasures clearance(about.risks);
+  NearWork near(about.risks);
+  TissueWork tissues;
+  Onlooker onlooker;
+  std::optional<double> parted_s;
+  std::optional<double> out_s;  // of all pieces of the tooth
+  bool is_removal_stored = false;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& tick : block.ticks) {
-      for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
+      for (; next != commands.end() && next->first_tick <= tick.index; ++next) {
+        in_force = next->command;
+        metrics.conditions.follow(in_force);
+        onlooker.add(in_force, tick.t_s);
+      }
       field.step(tick, in_force.irrigating);
       addTick(metrics, tick, before, in_force.irrigating, field.cover().clarity());
       work.add(workSample(tick, in_force, &surface));
       clearance.add(tick, in_force.tool);
-      for (; ruler != events.end() && ruler->tick <= tick.index; ++ruler)
-        metrics.measured.push_back({tick.t_s, *measuredMm(ruler->text), ruler->text});
+      near.add(tick, in_force.tool);
+      tissues.add(tick, in_force);
+      if (clock) clock->add(tick, in_force.tool);
+      if (!parted_s && (tick.broken.piece != 0 || (tick.pieces > 1 && before && before->pieces < 2)))
+        parted_s = tick.t_s;
+      const bool is_out = tick.pieces > 0 && metrics.pieces_out == static_cast<double>(tick.pieces);
+      if (!is_out) out_s.reset();
+      if (is_out && !out_s) out_s = tick.t_s;
+      for (; event != events.end() && event->tick <= tick.index; ++event) {
+        if (event->kind == kEyesEvent)
+          if (const auto eyes = eyesFrom(event->text)) onlooker.add(*eyes, tick.t_s);
+        if (event->kind != kRulerEvent) continue;
+        if (const auto mm = measuredMm(event->text)) metrics.measured.push_back({tick.t_s, *mm, event->text});
+      }
       soft_touches.add(tick);
       work_us.push_back(tick.work_us);
       before = tick;
     }
+    if (!block.removed_mm3) continue;
     metrics.removed_mm3_by_label = std::move(block.removed_mm3);
+    is_removal_stored = true;
   }
   if (metrics.missing_log && metrics.ticks == 0) throw missingLogError(path, *metrics.missing_log);
   metrics.lost = session.lost();
-  if (metrics.removed_mm3_by_label) {
+  if (is_removal_stored) {
     metrics.removed_mm3 = 0.0;
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) metrics.removed_mm3 += removed_mm3;
-  } else {
-    metrics.removed_mm3_by_label = removedByReplay(session);
   }
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
   work.finish();
-  metrics.measures = work.values();
-  const auto clearances = risks_of ? clearance.values() : noClearances("the case was not looked at");
-  metrics.measures.insert(metrics.measures.end(), clearances.begin(), clearances.end());
+  const auto add = [&metrics](std::vector<MeasureValue> values) {
+    metrics.measures.insert(metrics.measures.end(), std::make_move_iterator(values.begin()),
+                            std::make_move_iterator(values.end()));
+  };
+  constexpr std::string_view kNotLookedAt = "the case was not looked at";
+  add(work.values());
+  add(tissues.values(about.plan ? std::optional(about.plan->bur_radius_mm) : std::nullopt));
+  add(case_of ? clearance.values() : noClearances(kNotLookedAt));
+  add(case_of ? near.values() : noNearWork(kNotLookedAt));
+  add(noEnvelope());
+  add({outOfSight(clock ? &*clock : nullptr, start, after.value_or(std::vector<std::uint8_t>()), about, onlooker,
+                  out_s)});
+  add(!case_of ? noOutcome(kNotLookedAt)
+      : !clock ? noOutcome("the bone at the end is not known")
+               : outcomeMeasures({start, *after, *clock, surface, about, metrics.socket, parted_s}));
+  if (const auto task = assets::practiceTaskOf(start.setup.practice); task && clock)
+    add(practiceMeasures(*task, start.grid, start.label, start.solid, *after));
+  metrics.envelope = near.envelope();
   metrics.soft_touches = soft_touches.counts();
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);

@@ -12,17 +12,18 @@
 #include <vector>
 
 #include "app/session/flap_event.h"
+#include "app/session/measures/contact_envelope.h"
 #include "app/session/measures/measure_value.h"
+#include "app/session/measures/session_case.h"
 #include "app/session/session_calibration.h"
+#include "app/session/session_conditions.h"
 #include "app/session/session_setup.h"
-#include "app/session/session_start.h"
 #include "app/session/session_text.h"
 #include "app/session/socket_event.h"
 #include "app/session/soft_touches.h"
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"
 #include "app/session/way_event.h"
-#include "assets/risk_structures.h"
 
 namespace app {
 
@@ -41,9 +42,10 @@ struct BridgeBreak {
 struct SessionMetrics {
   std::string patient_title, program_version;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before calibrations were stored
-  std::optional<FormerSession> former;            ///< the session this one continues: its measures are its own
-  bool closed = false;                            ///< false: ended by a kill or a full disk
-  std::optional<std::string> missing_log;         ///< killed, and this log of it is missing
+  SessionConditions conditions;
+  std::optional<FormerSession> former;     ///< the session this one continues: its measures are its own
+  bool closed = false;                     ///< false: ended by a kill or a full disk
+  std::optional<std::string> missing_log;  ///< killed, and this log of it is missing
   std::uint64_t ticks = 0, lost = 0, commands = 0, events = 0;
   double duration_s = 0.0, contact_s = 0.0, drill_on_s = 0.0, drill_in_contact_s = 0.0, dry_drilling_s = 0.0,
          obscured_s = 0.0;
@@ -62,7 +64,10 @@ struct SessionMetrics {
   std::optional<WayRecord> way;                    ///< the last of these
   std::optional<ProcedureRun> procedure;           ///< none: no procedure was followed
   std::optional<Prediction> prediction;            ///< none: nothing was predicted
+  std::optional<bool> assessed;                    ///< nothing helped; none: recorded before assessments
+  std::size_t help_refused = 0, coach_said = 0;    ///< how often
   std::vector<MeasureValue> measures;              ///< by their ids, see measures/
+  ContactEnvelope envelope;                        ///< force and speed by distance to the canal
   SoftTouches soft_touches;                        ///< of lip, cheek, tongue, gingiva …
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 
@@ -107,10 +112,9 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"returned_mm3", "mm3", "volume restored by undone strokes", &SessionMetrics::returned_mm3},
 });
 
-/// Throws SessionError if the file is missing, not a session, or damaged. `risks_of` a session's start: what its bur
-/// had to keep off (app/station/session_risks); without it no clearance is told.
-using RisksOf = std::function<assets::RiskStructures(const StoredStart&)>;
-SessionMetrics metricsOf(const std::string& path, const RisksOf& risks_of = {});
+/// Throws SessionError if the file is missing, not a session, or damaged. `case_of` a session's start: what its bur had
+/// to keep off and what was to be removed (app/station/session_case); without it neither is told. 4 s for ten minutes.
+SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of = {});
 
 /// Units as people write them: mm³, °.
 std::string unitText(std::string_view unit);

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/session/gates.h"
+
 namespace app {
 namespace {
 
@@ -133,6 +135,28 @@ nlohmann::ordered_json measuresJson(const std::vector<MeasureValue>& measures) {
   return list;
 }
 
+nlohmann::ordered_json conditionsJson(const SessionConditions& conditions) {
+  nlohmann::ordered_json json = {{"law", conditions.law},
+                                 {"law_parameters", conditions.law_parameters},
+                                 {"stereo", nullptr},
+                                 {"force_scale", conditions.force_scale},
+                                 {"peak_force_N", conditions.peak_force_N},
+                                 {"missed_ticks", nullptr}};
+  if (conditions.stereo) json["stereo"] = *conditions.stereo;
+  if (conditions.missed_ticks) json["missed_ticks"] = *conditions.missed_ticks;
+  return json;
+}
+
+nlohmann::ordered_json gatesJson(const SessionMetrics& metrics) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Gate& gate : gatesOf(metrics)) {
+    nlohmann::ordered_json one = {{"key", gate.key}, {"name", gate.name}, {"happened", nullptr}, {"words", gate.words}};
+    if (gate.is_open) one["happened"] = *gate.is_open;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 nlohmann::ordered_json predictionJson(const Prediction& p, double end_s) {
   nlohmann::ordered_json json = {{"difficulty", nullptr}, {"minutes", nullptr},
                                  {"computed", nullptr},   {"index", nullptr},
@@ -156,6 +180,8 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
       {"calibration", metrics.calibration ? calibrationMetrics(*metrics.calibration) : nlohmann::ordered_json()},
+      {"conditions", conditionsJson(metrics.conditions)},
+      {"gates", gatesJson(metrics)},
       {"continues", nullptr},
       {"closed", metrics.closed},
       {"log_missing", metrics.missing_log.has_value()},
@@ -192,6 +218,9 @@ std::string metricsJson(const SessionMetrics& metrics) {
   json["procedure"] = metrics.procedure ? procedureJson(*metrics.procedure) : nlohmann::ordered_json();
   json["prediction"] = nullptr;
   if (metrics.prediction) json["prediction"] = predictionJson(*metrics.prediction, metrics.endOfWork_s());
+  json["assessed"] = metrics.assessed ? nlohmann::ordered_json(*metrics.assessed) : nlohmann::ordered_json();
+  json["help_refused"] = metrics.help_refused;
+  json["coach_said"] = metrics.coach_said;
   json["soft_tissue"] = softTouchesJson(metrics.soft_touches);
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

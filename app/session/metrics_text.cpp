@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "app/session/assessment_event.h"
+#include "app/session/gates.h"
 #include "app/text/clock_text.h"
 
 namespace app {
@@ -75,6 +77,16 @@ std::string metricsText(const SessionMetrics& metrics) {
     words +=
         fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
                     broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
+  words += "events: " + gatesInWords(metrics) + "\n";
+  words += "conditions: " + conditionsInWords(metrics.conditions) + "\n";
+  if (metrics.assessed.value_or(false)) {
+    words += "assessed: " + std::string(kAssessmentRules);
+    if (metrics.help_refused > 0)
+      words +=
+          fmt::format("; help was asked for {}",
+                      metrics.help_refused == 1 ? std::string("once") : fmt::format("{} times", metrics.help_refused));
+    words += "\n";
+  }
   if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, metrics.endOfWork_s()) + "\n";
   if (metrics.flap) words += "flap: " + flapInWords(*metrics.flap) + "\n";
   if (metrics.socket && !socketInWords(*metrics.socket).empty())

@@ -26,7 +26,7 @@ void readInto(SessionListing& listing, bool checks) {
   listing.case_title = about.patient_title;
   if (const auto started = calibration::secondsOfUtc(about.started_utc)) listing.unix_s = *started;
   if (about.setup.former) listing.continues = about.setup.former->file;
-  listing.is_imported = !about.setup.built_in;
+  listing.is_imported = about.setup.isImported();
   listing.length_s = session.length_s();
   if (const auto log = session.missingLog()) {
     listing.remark = "its log " + fs::path(*log).filename().string() + " is missing";

@@ -22,7 +22,10 @@ struct FormerSession {
 };
 
 struct SessionSetup {
-  std::optional<assets::JawParameters> built_in;  ///< none: an imported patient
+  bool isImported() const { return !built_in && practice.empty(); }
+
+  std::optional<assets::JawParameters> built_in;  ///< none: an imported patient, or a practice block
+  std::string practice;                           ///< assets::PracticeText::key of a practice block; empty: none
   std::vector<haptics::Tool> tray;                ///< the first in the hand at the start
   std::optional<FormerSession> former;            ///< none: the patient was untouched
   std::optional<assets::OperativeSite> site;      ///< none: no such tooth, or recorded before it was stored

@@ -8,6 +8,7 @@
 
 #include "app/session/session_error.h"
 #include "assets/json_depth.h"
+#include "assets/synthetic/practice_block.h"
 #include "assets/tissue.h"
 #include "assets/tooth.h"
 
@@ -83,6 +84,7 @@ json setupJson(const SessionSetup& setup) {
   json object = json::object();
   if (setup.built_in)
     forEachParameter(*setup.built_in, [&](const char* key, const auto& value) { object["built_in"][key] = value; });
+  if (!setup.practice.empty()) object["practice"] = setup.practice;
   for (const haptics::Tool& tool : setup.tray) {
     json one = {{"kind", static_cast<int>(tool.head.kind)},
                 {"grips", tool.grips},
@@ -142,6 +144,9 @@ SessionSetup setupFrom(const json& object) {
     setup.built_in.emplace();
     forEachParameter(*setup.built_in, [&](const char* key, auto& value) { value = valueOf(*jaw, key, value); });
   }
+  // One of another version is as an imported patient: its bone is in the session.
+  setup.practice = valueOf(object, "practice", std::string());
+  if (!assets::practiceTaskOf(setup.practice)) setup.practice.clear();
   if (const auto tray = object.find("tray"); tray != object.end() && tray->is_array())
     for (const json& one : *tray) {
       if (!one.is_object()) throw damagedSession("it has no valid tray");

@@ -11,6 +11,7 @@
 #include "app/session/session_folder.h"
 #include "app/text/clock_text.h"
 #include "assets/synthetic/jaw.h"
+#include "assets/synthetic/practice_block.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
 
@@ -40,6 +41,12 @@ StartList caseStartList(std::span<const PatientListing> patients) {
          .about = fmt::format("{}; {}. {}.", begun(depthText(one)), canalText(one), begun(std::string(one.challenge))),
          .arguments = {"--case", std::string(one.name)}});
   }
+  for (const assets::PracticeText& block : assets::kPracticeTasks)
+    list.choices.push_back({.words = begun(std::string(block.title)),
+                            .beside = "practice",
+                            .about = std::string(block.instruction) + ".",
+                            .arguments = {"--case", std::string(block.key)},
+                            .has_mouth = false});
   return list;
 }
 
@@ -136,9 +143,16 @@ StartList sessionList(std::span<const SessionListing> sessions) {
   StartList list{"Go on with", {}, 0};
   list.choices.push_back(
       {.words = "A new rehearsal", .beside = "", .about = "Of the chosen case; it is recorded.", .arguments = {}});
+  list.choices.push_back({.words = "An assessment",
+                          .beside = "nothing helps",
+                          .about =
+                              "Of the chosen case: no coach, no clearances, no undo, no plan; all is recorded, and "
+                              "the session says so.",
+                          .arguments = {"--assess"}});
+  const std::size_t most = list.choices.size() + kSessionsOffered;
   for (const SessionListing& one : sessions) {
     if (!one.isReadable()) continue;
-    if (list.choices.size() > kSessionsOffered) break;
+    if (list.choices.size() == most) break;
     list.choices.push_back({.words = localDateTime(one.unix_s) + "  " + one.case_title,
                             .beside = clockText(one.length_s),
                             .about = (one.is_imported ? "Goes on where this session ended, with its bone and tools: "

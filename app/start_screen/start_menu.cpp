@@ -49,7 +49,7 @@ void StartMenu::choose(std::size_t list, std::size_t choice) {
   if (list >= lists_.size() || choice >= lists_[list].choices.size()) return;
   // Whoever points at a case means a new rehearsal; a mouth is opened with its case chosen before.
   if (isOverruled(list)) {
-    if (list == kOpening && lists_[kCases].choice().is_imported) return;
+    if (list == kOpening && (lists_[kCases].choice().is_imported || !lists_[kCases].choice().has_mouth)) return;
     lists_[kSessions].chosen = 0;
   }
   focus_ = list;
@@ -78,8 +78,8 @@ StartMenu::Answer StartMenu::start() {
 }
 
 bool StartMenu::isOverruled(std::size_t list) const {
-  const bool goes_on = lists_[kSessions].chosen > 0, imported_goes_on = lists_[kSessions].choice().is_imported;
-  if (list == kOpening) return goes_on || lists_[kCases].choice().is_imported;
+  const bool goes_on = goesOn(lists_[kSessions].choice()), imported_goes_on = lists_[kSessions].choice().is_imported;
+  if (list == kOpening) return goes_on || lists_[kCases].choice().is_imported || !lists_[kCases].choice().has_mouth;
   return list == kCases && goes_on && !imported_goes_on;
 }
 
@@ -95,7 +95,8 @@ std::vector<std::string> StartMenu::arguments() const {
 
 std::string StartMenu::newestSession() const {
   const std::vector<StartChoice>& sessions = lists_[kSessions].choices;
-  return sessions.size() > 1 ? sessions[1].arguments.back() : std::string();
+  const auto newest = std::ranges::find_if(sessions, goesOn);
+  return newest == sessions.end() ? std::string() : newest->arguments.back();
 }
 
 std::vector<std::string> StartMenu::chosenWords() const {

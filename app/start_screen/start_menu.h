@@ -20,6 +20,7 @@ struct StartChoice {
   std::string why_not = "";  ///< cannot be started, and what to do; empty: it can
   /// Of a patient: imported. Of a session to go on with: of an imported patient, which is to be chosen beside it.
   bool is_imported = false;
+  bool has_mouth = true;  ///< of a case: a face whose mouth opens
 };
 
 struct StartList {
@@ -28,6 +29,11 @@ struct StartList {
   std::size_t chosen = 0;
   const StartChoice& choice() const { return choices[chosen]; }
 };
+
+/// With a recorded session, which brings its own case.
+inline bool goesOn(const StartChoice& choice) {
+  return !choice.arguments.empty() && choice.arguments.front() == "--continue";
+}
 
 /// In the order of Tab.
 enum class StartListName : std::uint8_t { cases, hand, calibration, position, opening, sessions };

@@ -3,10 +3,13 @@
 #include "app/case/patient_source.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/synthetic/practice_block.h"
 
 namespace app {
 
 std::optional<assets::Patient> patientOfSession(const StoredStart& start, const std::string& folder) {
+  if (const auto task = assets::practiceTaskOf(start.setup.practice))
+    return assets::practiceBlock(*task, start.grid.spacing_mm);
   if (folder.empty() && !start.setup.built_in) return {};
   assets::Patient patient = folder.empty() ? builtInPatient(*start.setup.built_in) : assets::loadPatient(folder);
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;

@@ -13,9 +13,6 @@
 
 namespace app {
 
-/// Kind of the events of a recording: what was said.
-inline constexpr char kCoachEvent[] = "coach";
-
 enum class CoachSign : std::uint8_t { force, plunging, deep_stroke, dry, lingering, near_structure };
 /// In files, in the order of the values.
 inline constexpr std::array<std::string_view, 6> kCoachSigns{"force", "plunging",  "deep-stroke",

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace app {
 
@@ -15,5 +16,18 @@ struct MeasureValue {
   std::optional<double> t_s;        ///< the moment it is of
   std::string conditions = {};      ///< that it depends on; empty: none but the recording's
 };
+
+/// A measure without its value.
+struct MeasureName {
+  std::string_view id, name, unit;
+};
+
+/// Each without value, for this reason.
+template <class Names>
+std::vector<MeasureValue> untold(const Names& names, std::string_view why) {
+  std::vector<MeasureValue> values;
+  for (const MeasureName& one : names) values.push_back({one.id, one.name, one.unit, {}, why, {}});
+  return values;
+}
 
 }  // namespace app

@@ -8,6 +8,8 @@ OriginalSurface::OriginalSurface(const assets::VolumeGrid& grid, std::span<const
     : field_(std::make_unique<haptics::DistanceField>(grid, solid, kBand_mm)) {}
 OriginalSurface::~OriginalSurface() = default;
 
+double OriginalSurface::distance_mm(const glm::dvec3& p_P_mm) const { return field_->at_mm(p_P_mm); }
+
 glm::dvec3 OriginalSurface::normalAt(const glm::dvec3& p_P_mm) const {
   const assets::VolumeGrid& grid = field_->grid();
   const glm::dvec3 index = grid.indexFromPoint(p_P_mm);

@@ -26,6 +26,8 @@ class OriginalSurface {
 
   /// Unit length; 0 where no surface is near.
   glm::dvec3 normalAt(const glm::dvec3& p_P_mm) const;
+  /// Signed, negative inside; to a third of a voxel, at most kBand_mm.
+  double distance_mm(const glm::dvec3& p_P_mm) const;
 
  private:
   std::unique_ptr<haptics::DistanceField> field_;

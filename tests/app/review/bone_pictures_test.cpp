@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/cut_field.h"
 #include "assets/tissue.h"
 
 namespace app {
@@ -28,7 +29,10 @@ struct Site {
   }
   /// From above: pixels that are clearly red, clearly blue.
   glm::ivec2 colours(const std::optional<assets::PlannedCut>& plan) const {
-    const auto pictures = bonePictures({grid, label, before, after}, {}, plan, {120, 100});
+    std::function<double(const glm::dvec3&)> from_plan_mm;
+    if (plan)
+      from_plan_mm = [field = assets::CutField(*plan, 3.0)](const glm::dvec3& p) { return field.distance_mm(p); };
+    const auto pictures = bonePictures({grid, label, before, after}, {}, from_plan_mm, {120, 100});
     EXPECT_EQ(pictures.size(), 4U);
     EXPECT_EQ(pictures[0].from, "from above");
     glm::ivec2 count(0);

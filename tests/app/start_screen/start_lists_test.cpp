@@ -7,6 +7,7 @@
 #include "app/case/case.h"
 #include "app/commands/rehearse_options.h"
 #include "app/text/command_line.h"
+#include "assets/synthetic/practice_block.h"
 
 namespace app {
 namespace {
@@ -59,7 +60,8 @@ RehearseOptions parsed(const std::vector<std::string>& arguments) {
 
 TEST(StartLists, EveryCaseIsOfferedTheUsualOneFirstChosen) {
   const StartList list = someLists()[0];
-  ASSERT_EQ(list.choices.size(), cases().size());
+  ASSERT_EQ(list.choices.size(), cases().size() + assets::kPracticeTasks.size());
+  EXPECT_EQ(list.choices.back().arguments, std::vector<std::string>({"--case", "block-ball"}));
   for (std::size_t n = 0; n < cases().size(); ++n)
     EXPECT_EQ(list.choices[n].arguments, std::vector<std::string>({"--case", std::string(cases()[n].name)}));
   EXPECT_EQ(list.choice().arguments[1], usualCase().name);
@@ -67,7 +69,7 @@ TEST(StartLists, EveryCaseIsOfferedTheUsualOneFirstChosen) {
 
 TEST(StartLists, ImportedPatientsAreOfferedBeforeTheCases) {
   const StartList list = someLists(20)[0];
-  ASSERT_EQ(list.choices.size(), kPatientsOffered + cases().size());
+  ASSERT_EQ(list.choices.size(), kPatientsOffered + cases().size() + assets::kPracticeTasks.size());
   EXPECT_EQ(list.choices[1].words, "mine 1");
   EXPECT_EQ(list.choices[1].arguments, std::vector<std::string>({"/data/patients/mine 1"}));
   EXPECT_EQ(list.choice().arguments[1], usualCase().name) << "the usual case is chosen at first";
@@ -99,7 +101,10 @@ TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
       if (list == 4) {
         EXPECT_EQ(options.opening_mm.value_or(37.0), (std::array{37.0, 50.0, 30.0, 25.0}.at(choice)));
       }
-      if (list == 5 && choice == 1) {
+      if (list == 5) {
+        EXPECT_EQ(options.assess, choice == 1);
+      }
+      if (list == 5 && choice == 2) {
         EXPECT_EQ(options.continued, "/data/0.molar");
       }
     }
@@ -114,10 +119,10 @@ TEST(StartLists, AUnitThatIsNotReadyTellsItsNextStep) {
 
 TEST(StartLists, SessionsThatCannotBeGoneOnWithAreLeftOut) {
   const StartList list = someLists()[5];
-  ASSERT_EQ(list.choices.size(), 1 + kSessionsOffered);
-  EXPECT_EQ(list.choices[1].arguments[1], "/data/0.molar");
-  EXPECT_EQ(list.choices[2].arguments[1], "/data/3.molar");
-  EXPECT_EQ(list.choices[1].beside, "1:01");
+  ASSERT_EQ(list.choices.size(), 2 + kSessionsOffered);
+  EXPECT_EQ(list.choices[2].arguments[1], "/data/0.molar");
+  EXPECT_EQ(list.choices[3].arguments[1], "/data/3.molar");
+  EXPECT_EQ(list.choices[2].beside, "1:01");
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/app/session/measures/measure_named.h"
 #include "tests/haptics/structure_phantom.h"
 
 namespace app {
 namespace {
+
+using test::named;
 
 using haptics::phantom::ToolPose;
 
@@ -16,10 +19,6 @@ assets::RiskStructures canalAndCrown() {
   risks.distance[kCanal] = haptics::phantom::canal(0.25).distance();
   risks.distance[kSecond] = haptics::phantom::crown(0.25).distance();
   return risks;
-}
-
-const MeasureValue& named(const std::vector<MeasureValue>& values, std::string_view id) {
-  return *std::ranges::find(values, id, &MeasureValue::id);
 }
 
 class Way {

@@ -1,4 +1,4 @@
-#include "app/review/plan_comparison.h"
+#include "app/session/measures/plan_comparison.h"
 
 #include <algorithm>
 #include <utility>

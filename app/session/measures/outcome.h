@@ -1,0 +1,34 @@
+// What the operation left (reference/product 4.2): O2 share of the plan, O3 and O4 over- and under-cut against it, O5
+// perforation of the outer lingual surface, O6 wall left, O7 profile of the trough, O8 gouges, O9 bridge of the tooth,
+// O10 second molar, O11 tooth left in. From the bone before and after, the times of removal, and what the recording
+// says of the socket; every measure has a value, or why it has none. Frame P, mm, mm3, s. Pure; any thread; a second.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "app/session/measures/measure_value.h"
+#include "app/session/measures/original_surface.h"
+#include "app/session/measures/removal_clock.h"
+#include "app/session/measures/session_case.h"
+#include "app/session/socket_event.h"
+
+namespace app {
+
+struct OutcomeOf {
+  const StoredStart& start;
+  std::span<const std::uint8_t> after;  ///< solid at the end
+  const RemovalClock& clock;
+  const OriginalSurface& surface;
+  const SessionCase& about;
+  const std::optional<SocketRecord>& socket;
+  std::optional<double> parted_s;  ///< when the tooth first came apart; none: it did not
+};
+
+std::vector<MeasureValue> outcomeMeasures(const OutcomeOf& of);
+/// Without the bone at the end: each measure with why.
+std::vector<MeasureValue> noOutcome(std::string_view why);
+
+}  // namespace app
