@@ -107,8 +107,8 @@ void drawState(const RehearsalStatus& s) {
     textIn(text_font, kWarn, "recording ended early");
   else
     textIn(text_font, kQuiet, "not recorded");
-  if (!s.to_instructor.empty()) textIn(text_font, kAccent, s.to_instructor);
-  if (!s.said.empty()) textIn(text_font, kInk, s.said);
+  if (!s.to_instructor.empty()) wrappedIn(text_font, kAccent, s.to_instructor);
+  if (!s.said.empty()) wrappedIn(text_font, kInk, s.said);
   if (haptics::has(s.tick.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force))
     textIn(text_font, kBad, "pose or device fault: the force goes to zero");
 }

@@ -15,13 +15,13 @@ CoachFollower::CoachFollower(CoachRules rules, const assets::Patient& patient, E
 }
 
 void CoachFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
-                           const haptics::Clearances& clearances) {
-  std::optional<double> nearest_mm;
+                           const haptics::Clearances& clearances, bool is_other_instrument) {
+  CoachContext context{.is_other_instrument = is_other_instrument};
   for (const std::optional<double>& one : clearances)
-    if (one && (!nearest_mm || *one < *nearest_mm)) nearest_mm = one;
+    if (one && (!context.nearest_mm || *one < *context.nearest_mm)) context.nearest_mm = one;
   if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     surface_ = coming_.get();
-  for (const haptics::Tick& tick : ticks) coach_.add(workSample(tick, command, surface_.get()), nearest_mm);
+  for (const haptics::Tick& tick : ticks) coach_.add(workSample(tick, command, surface_.get()), context);
 }
 
 std::optional<std::string> CoachFollower::news() {

@@ -85,6 +85,8 @@ void ControlRouter::switchRing(bool open, const render::Frame& frame) {
   if (tick.gripped != 0) return head_up_.say("open the forceps first");
   if (tick.lever.piece != 0) return head_up_.say("take the elevator off the tooth first");
   ring_.open(tools, active_command_.inHand(), handOnScreen(frame));
+  if (equipment_.mouse() != nullptr)
+    head_up_.say("point at an instrument and click; in the middle the hand keeps its own");
   active_command_.takeHandsOff(true);
 }
 

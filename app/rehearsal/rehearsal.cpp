@@ -266,7 +266,6 @@ class Rehearsal {
     if (sound_)
       sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
     if (measures_) measures_->follow(ticks, command);
-    if (coach_) coach_->follow(ticks, command, clearance_.now());
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
@@ -274,6 +273,7 @@ class Rehearsal {
     head_up_.follow(ticks, command.irrigating);
     clearance_.follow(ticks, command);
     if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest(), flapFacts());
+    if (coach_) coach_->follow(ticks, command, clearance_.now(), steps_ && steps_->usesOtherInstrument());
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);

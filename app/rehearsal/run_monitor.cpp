@@ -43,7 +43,7 @@ std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const h
   // That there is no force while the ring is open is no news.
   const bool as_asked = hands_off && newest.state == haptics::SafetyState::ready;
   const haptics::SafetyState state = as_asked ? haptics::SafetyState::active : newest.state;
-  for (const std::string& line : trip_reporter_.update(trips_, state)) notices.push_back({"safety", line});
+  for (const std::string& line : trip_reporter_.update(trips_, state)) notices.push_back({kSafetyNotice, line});
   return notices;
 }
 

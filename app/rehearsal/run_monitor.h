@@ -15,6 +15,9 @@
 
 namespace app {
 
+/// The kind of notices about withdrawn forces.
+inline constexpr char kSafetyNotice[] = "safety";
+
 enum class Ending { interrupted, by_user, procedure, time_over, silent };
 /// "interrupted", "by the user", … as stored in a session.
 const char* textOf(Ending ending);

@@ -63,8 +63,13 @@ void StatusReporter::update(Time now, const FrameState& state) {
   const double since_s = std::chrono::duration<double>(now - updated_).count();
   frames_per_s_ = static_cast<double>(view_.frames() - std::exchange(frames_, view_.frames())) / since_s;
   updated_ = now;
+  // Of forces that nobody feels the record is told alone.
+  const bool is_felt = equipment_.hasMotors() || plan_.verbose || plan_.headless;
   for (const Notice& notice : monitor_.takeNotices(equipment_.health(), state.newest, state.in_force.hands_off))
-    event_log_.report(notice);
+    if (notice.kind == kSafetyNotice && !is_felt)
+      event_log_.note(notice.kind, notice.line);
+    else
+      event_log_.report(notice);
   render::Window* const window = view_.window();
   if (window == nullptr) return;
   if (now - latency_noted_ > kLatencyInterval && view_.latency().frames() > 0) {

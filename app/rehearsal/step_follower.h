@@ -43,6 +43,8 @@ class StepFollower {
   std::string task() const;
   /// A line when a step begins; none unless guided.
   std::optional<std::string> news();
+  /// In the newest tick, where the step in hand counts that as an error.
+  bool usesOtherInstrument() const { return tracker_.usesOtherInstrument(); }
   /// The planned gutter is to be seen: it is the region of the step in hand.
   bool showsGutter() const;
   ProcedureRun run() const;

@@ -1,6 +1,7 @@
 #include "app/review/review_page.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -17,9 +18,12 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
+/// No finer than it means something to a reader.
+int digitsOf(double value) { return std::abs(value) < 10.0 ? 2 : std::abs(value) < 100.0 ? 1 : 0; }
+
 std::string valueWords(const MeasureValue& measure) {
   if (!measure.value) return "not told: " + std::string(measure.why);
-  std::string words = fixedText(*measure.value, 2);
+  std::string words = fixedText(*measure.value, digitsOf(*measure.value));
   if (!measure.unit.empty()) words += " " + unitText(measure.unit);
   if (measure.t_s) words += " at " + clockText(*measure.t_s);
   return words;

@@ -46,19 +46,21 @@ bool Coach::isSeen(const CoachRule& rule, const WorkSample& sample) const {
       return sample.drills() && glm::length(sample.velocity_P_mm_per_s - out * sample.normal_P) < kMoves_mm_per_s;
     }
     case CoachSign::near_structure:
-      return sample.drills() && nearest_mm_ && *nearest_mm_ < rule.within_mm &&
+      return sample.drills() && context_.nearest_mm && *context_.nearest_mm < rule.within_mm &&
              glm::length(sample.force_P_N) > rule.most;
+    case CoachSign::wrong_step:
+      return context_.is_other_instrument;
   }
   return false;
 }
 
-void Coach::add(const WorkSample& sample, std::optional<double> nearest_mm) {
+void Coach::add(const WorkSample& sample, const CoachContext& context) {
   if (!sample.valid) {  // a break of what is seen, and the end of a stroke
     strokes_.add(sample);
     std::ranges::fill(seen_s_, 0.0);
     return;
   }
-  nearest_mm_ = nearest_mm;
+  context_ = context;
   now_s_ = sample.t_s + sample.dt_s;
   deepest_ = 0.0;
   strokes_.add(sample);

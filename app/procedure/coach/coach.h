@@ -13,10 +13,10 @@
 
 namespace app {
 
-enum class CoachSign : std::uint8_t { force, plunging, deep_stroke, dry, lingering, near_structure };
+enum class CoachSign : std::uint8_t { force, plunging, deep_stroke, dry, lingering, near_structure, wrong_step };
 /// In files, in the order of the values.
-inline constexpr std::array<std::string_view, 6> kCoachSigns{"force", "plunging",  "deep-stroke",
-                                                             "dry",   "lingering", "near-structure"};
+inline constexpr std::array<std::string_view, 7> kCoachSigns{"force",     "plunging",       "deep-stroke", "dry",
+                                                             "lingering", "near-structure", "wrong-step"};
 
 struct CoachRule {
   CoachSign looks_for = CoachSign::force;
@@ -24,6 +24,12 @@ struct CoachRule {
   double within_mm = 0.0;  ///< of a structure, for near_structure alone
   double for_s = 0.0;      ///< seen so long without a break; not of plunging and deep strokes
   std::string says;
+};
+
+/// What the sample alone does not say.
+struct CoachContext {
+  std::optional<double> nearest_mm = {};  ///< of the structures that are to be kept off; none: none is known
+  bool is_other_instrument = false;       ///< at work, and not the procedure's for the step in hand
 };
 
 struct CoachRules {
@@ -41,8 +47,7 @@ class Coach {
   Coach(const Coach&) = delete;
   Coach& operator=(const Coach&) = delete;
 
-  /// `nearest_mm`: of the structures that are to be kept off; none: no structure is known.
-  void add(const WorkSample& sample, std::optional<double> nearest_mm = {});
+  void add(const WorkSample& sample, const CoachContext& context = {});
   /// What is to be said now; it counts as said.
   std::optional<std::string> take();
 
@@ -57,7 +62,7 @@ class Coach {
   std::vector<char> is_due_;
   std::optional<double> last_s_;  ///< anything was said
   double now_s_ = 0.0;
-  std::optional<double> nearest_mm_;
+  CoachContext context_;
   double deepest_ = 0.0;  ///< of the strokes that ended with this sample, over the radius
   // Ways of the last kWindow_s of drilling, in tenths of it.
   static constexpr std::size_t kParts = 10;

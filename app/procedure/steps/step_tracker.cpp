@@ -190,9 +190,13 @@ void StepTracker::follow(const haptics::Tick& tick, const StepFacts& facts) {
   }
 }
 
-bool StepTracker::usesWrongInstrument(const haptics::Tick& tick, const StepFacts& facts, const Step& step) const {
+bool StepTracker::usesOtherInstrument() const {
+  if (current_ >= records_.size() || !newest_) return false;
+  const Step& step = plan_.steps[current_];
+  const haptics::Tick& tick = *newest_;
   const bool in_use = tick.gripped != 0 || (tick.drilling && tick.depth_mm > 0.0) || tick.lever.piece != 0;
-  return in_use && std::ranges::find(step.instruments, facts.in_hand) == step.instruments.end();
+  return step.errors.wrong_instrument && in_use &&
+         std::ranges::find(step.instruments, facts_.in_hand) == step.instruments.end();
 }
 
 void StepTracker::followErrors(const haptics::Tick& tick, const StepFacts& facts) {
@@ -209,7 +213,7 @@ void StepTracker::followErrors(const haptics::Tick& tick, const StepFacts& facts
   check(StepError::soft_tissue, rules.soft_tissue && tick.soft.bur_cuts != assets::SoftTissue::none);
   check(StepError::dry, rules.dry && cuts && !facts.irrigating);
   check(StepError::fulcrum, rules.fulcrum && tick.lever.restsOnTeeth());
-  check(StepError::wrong_instrument, rules.wrong_instrument && usesWrongInstrument(tick, facts, step));
+  check(StepError::wrong_instrument, usesOtherInstrument());
   check(StepError::near_nerve, rules.nerve_mm && cuts && facts.nerve_mm && *facts.nerve_mm < *rules.nerve_mm);
   check(StepError::pressed_hard, rules.cutting_N && cuts && glm::length(tick.law_force_P_N.xyz) > *rules.cutting_N);
   check(StepError::pulled_hard,

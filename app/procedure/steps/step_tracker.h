@@ -71,6 +71,8 @@ class StepTracker {
   std::optional<std::size_t> current() const;
   const StepPlan& plan() const { return plan_; }
   const std::vector<StepRecord>& records() const { return records_; }
+  /// At work in the newest tick, and the step in hand does not name it and counts that as an error.
+  bool usesOtherInstrument() const;
   /// A fact that some step from the current one on asks for.
   bool asksForBone() const;
   /// What the step in hand lacks: "crown bared 34 of 70 %". Empty: nothing, or no step.
@@ -85,7 +87,6 @@ class StepTracker {
   void end(StepState state);
   void passOver(std::size_t next);
   void followErrors(const haptics::Tick& tick, const StepFacts& facts);
-  bool usesWrongInstrument(const haptics::Tick& tick, const StepFacts& facts, const Step& step) const;
   void note(StepError error);
 
   StepPlan plan_;

@@ -133,7 +133,7 @@ std::vector<MeasureValue> HandWork::values() const {
        angle_deg(ratio(angle_sum_, angled_s_)),
        kNoBone,
        {}},
-      {"M8.steep", "share of drilling with that angle above 60 deg", "", ratio(steep_s_, angled_s_), kNoBone, {}},
+      {"M8.steep", "share of drilling with that angle above 60°", "", ratio(steep_s_, angled_s_), kNoBone, {}},
       {"PI", "painting index", "", painting.index(), "too few strokes in bone", {}},
       {"PI.sweep", "share of drilling along the surface with 3 mm/s or more", "", painting.sweep, kNoBone, {}},
       {"PI.shallow", "share of strokes no deeper than a quarter of the radius", "", painting.shallow, kNoStroke, {}},

@@ -74,6 +74,25 @@ TEST(Coach, TheSameIsNotSaidAgainSoon) {
   for (std::size_t n = 1; n < all.size(); ++n) EXPECT_GE(all[n].t_s - all[n - 1].t_s, 15.0);
 }
 
+TEST(Coach, AnInstrumentOfAnotherStepIsSaidWhileItIsAtWork) {
+  Coach coach(coachRulesOf(""));
+  std::vector<Said> all;
+  for (const WorkSample& sample : goodWork(4.0)) {
+    coach.add(sample, {.is_other_instrument = sample.t_s > 1.0 && sample.t_s < 1.3});
+    if (auto words = coach.take()) all.push_back({sample.t_s, *words});
+  }
+  EXPECT_TRUE(all.empty()) << "too short";
+  for (const WorkSample& sample : goodWork(4.0)) {
+    WorkSample later = sample;
+    later.t_s += 10.0;
+    coach.add(later, {.is_other_instrument = sample.t_s > 1.0});
+    if (auto words = coach.take()) all.push_back({sample.t_s, *words});
+  }
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].t_s, 1.5, 0.01);
+  EXPECT_EQ(all[0].words, "this step is for another instrument");
+}
+
 TEST(Coach, APlungeADeepStrokeAndALingeringBurAreSeen) {
   const std::vector<Said> plunge = said(bur_path::along({{0, 0, 0}, {0, 0, -4}}, 4.0, 1.0));
   ASSERT_FALSE(plunge.empty());
@@ -96,7 +115,7 @@ TEST(Coach, ForceTowardsANearStructureIsSaidBeforeAnythingElse) {
     if (sample.t_s > 2.0) break;
     sample.force_P_N = {0.0, 0.0, 6.0};
     sample.irrigated = false;
-    coach.add(sample, sample.t_s < 1.0 ? std::optional(1.5) : std::nullopt);
+    coach.add(sample, {.nearest_mm = sample.t_s < 1.0 ? std::optional(1.5) : std::nullopt});
     if (auto words = coach.take()) all.push_back(*words);
   }
   ASSERT_EQ(all.size(), 1U) << "a pause of 3 s";
