@@ -1,5 +1,6 @@
-// `molar import SOURCE --out PATIENT` and `molar inspect PATIENT`: scans become patient folders, de-identified.
+// `molar import SOURCE --out PATIENT` and `molar inspect SOURCE`: scans become patient folders, de-identified.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +11,9 @@
 
 #include "app/case/gutter_plan.h"
 #include "app/commands/command.h"
+#include "app/commands/dicom_options.h"
+#include "app/commands/dicom_report.h"
+#include "app/commands/segmenter.h"
 #include "app/session/data_folder.h"
 #include "app/station/patient_list.h"
 #include "app/text/command_line.h"
@@ -19,21 +23,25 @@
 #include "app/text/usage_error.h"
 #include "assets/import/scan_import.h"
 #include "assets/import/tooth_site.h"
+#include "assets/load_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {
 
 struct ImportOptions {
-  std::string source, out, window;
+  std::string source, out, window, scale, report, label_set, segment_with;
+  DicomOptions dicom;
   assets::ScanImportOptions choices;
   bool force = false;
 };
 
 struct InspectOptions {
   std::string patient;
+  DicomOptions dicom;
   bool json = false;
 };
 
@@ -119,6 +127,21 @@ std::string wordsOn(const assets::Patient& patient) {
   return text;
 }
 
+/// "hu", "hu+1024", or the grey values of air, muscle and dentine.
+assets::GreyMap scaleOf(const std::string& text) {
+  if (text == "hu") return {};
+  if (text == "hu+1000") return {assets::GreyScale::shifted, 1.0, -1000.0};
+  if (text == "hu+1024") return {assets::GreyScale::shifted, 1.0, -1024.0};
+  std::vector<double> greys;
+  for (const std::string_view word : split(text))
+    if (const auto grey = parseNumber<double>(word)) greys.push_back(*grey);
+  const auto map = greys.size() == 3 ? assets::greyMapFromTissues({greys[0], greys[1], greys[2]}) : std::nullopt;
+  if (!map)
+    throw UsageError("--scale " + text +
+                     ": give hu, hu+1000, hu+1024, or AIR,MUSCLE,DENTINE: three grey values, rising, as in 0,610,1560");
+  return *map;
+}
+
 /// LOW:HIGH in HU.
 assets::GreyWindow windowOf(const std::string& text) {
   const std::vector<std::string_view> ends = split(text, ':');
@@ -128,9 +151,45 @@ assets::GreyWindow windowOf(const std::string& text) {
   return {*low_hu, *high_hu};
 }
 
+/// A DICOM source is surveyed before; its path may name a person and is said nowhere. The report is written whether it
+/// is refused or not.
+assets::ImportedScan importDicom(const ImportOptions& options) {
+  assets::DicomSurvey survey = assets::surveyDicom(options.source, dicomChoices(options.dicom));
+  const auto report = [&] {
+    if (!options.report.empty()) calibration::OutputFile(options.report, options.force).commit(dicomReportJson(survey));
+  };
+  try {
+    assets::ImportedScan imported = assets::importScan(survey, options.choices);
+    report();
+    for (const assets::DicomVerdict& verdict : survey.verdicts) printMessage(assets::lineOf(verdict));
+    return imported;
+  } catch (const assets::LoadError&) {
+    report();
+    throw;
+  }
+}
+
+assets::ImportedScan importAny(const ImportOptions& options) {
+  const bool is_dicom = assets::isDicomSource(options.source);
+  if (!is_dicom && !options.report.empty()) throw UsageError("--json: only a DICOM source has a report");
+  assets::ImportedScan imported = is_dicom ? importDicom(options) : assets::importScan(options.source, options.choices);
+  for (const std::string& remark : imported.remarks) printMessage((is_dicom ? "scan" : options.source) + ": " + remark);
+  return imported;
+}
+
 int import(ImportOptions options) {
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
     throw UsageError("--tooth " + std::to_string(*fdi) + ": not an FDI number, give 11 to 48 or 51 to 85");
+  if (const auto named = std::ranges::find(assets::kLabelSets, options.label_set); named != assets::kLabelSets.end())
+    options.choices.label_set = static_cast<assets::LabelSet>(named - assets::kLabelSets.begin());
+  std::optional<Segmenter> segmenter;
+  if (!options.segment_with.empty()) {
+    segmenter.emplace(options.segment_with);
+    options.choices.segment = [&segmenter](const assets::VolumeGrid& grid, const std::vector<std::int16_t>& grey) {
+      return segmenter->labels(grid, grey);
+    };
+  }
+  if (!options.scale.empty()) options.choices.scale = scaleOf(options.scale);
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
   const bool has_no_place = options.out.empty();
   if (has_no_place) {
@@ -138,11 +197,10 @@ int import(ImportOptions options) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     options.out = newPatientPath(usualPatientFolder(), now.time_since_epoch().count());
   }
-  assets::ImportedScan imported = assets::importScan(options.source, options.choices);
-  for (const std::string& remark : imported.remarks) printMessage(options.source + ": " + remark);
+  assets::ImportedScan imported = importAny(options);
   assets::Patient& patient = imported.patient;
   patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
-  assets::savePatient(patient, options.out, options.force);
+  assets::savePatient(patient, options.out, options.force, imported.origin ? &*imported.origin : nullptr);
   std::fputs(wordsOn(patient).c_str(), stderr);
   if (has_no_place)
     printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +
@@ -150,7 +208,17 @@ int import(ImportOptions options) {
   return 0;
 }
 
+bool isPatientFolder(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::exists(std::filesystem::path(path) / "patient.toml", error);
+}
+
 int inspect(const InspectOptions& options) {
+  if (!isPatientFolder(options.patient) && assets::isDicomSource(options.patient)) {
+    const assets::DicomSurvey survey = assets::surveyDicom(options.patient, dicomChoices(options.dicom));
+    std::fputs((options.json ? dicomReportJson(survey) : dicomReportText(survey)).c_str(), stdout);
+    return 0;
+  }
   const assets::Patient patient = assets::loadPatient(patientNamed(options.patient));
   std::fputs((options.json ? jsonOf(patient).dump(2) + "\n" : wordsOn(patient)).c_str(), stdout);
   return 0;
@@ -161,7 +229,9 @@ int inspect(const InspectOptions& options) {
 void addImport(CommandLine& molar) {
   auto options = std::make_shared<ImportOptions>();
   CommandLine& command = molar.command("import", "A scan becomes a patient folder, de-identified");
-  command.option("SOURCE", options->source, "Folder with ct.nrrd, labels.nrrd and teeth.nrrd, or one volume file")
+  command
+      .option("SOURCE", options->source,
+              "Folder of DICOM files; folder with ct.nrrd, labels.nrrd and teeth.nrrd; or one volume file")
       .required();
   command.option("--out", options->out,
                  "Patient folder to write [a new one in the data folder, which molar start offers]");
@@ -173,15 +243,29 @@ void addImport(CommandLine& molar) {
       .showsDefault();
   command.option("--tooth", options->choices.tooth_fdi, "FDI number of the operated tooth [the third molar]");
   command.option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
+  command.option("--labels", options->choices.labels,
+                 "Label map of DentalSegmentator, ToothFairy, TotalSegmentator, AMASSS or Molar");
+  command.option("--label-set", options->label_set, "Whose values it has, where the file does not name them")
+      .oneOf({assets::kLabelSets.begin(), assets::kLabelSets.end()});
+  command.option("--segment-with", options->segment_with,
+                 "Command that makes the label map: 'PROGRAM … {ct} … {labels} …', run without a shell");
   command.flag("--force", options->force, "Replace the patient folder if it exists");
+  command.option("--json", options->report, "What the DICOM source holds and what was said of it, written to this file")
+      .valueNamed("REPORT");
+  addDicomOptions(command, options->dicom);
+  command.option("--scale", options->scale,
+                 "Grey values: hu, hu+1000, hu+1024 or AIR,MUSCLE,DENTINE [judged by their histogram]");
+  command.flag("--keep-face", options->choices.keep_face, "Keep the skin, by which the patient can be recognised");
+  command.flag("--keep-age-band", options->choices.keep_age_band, "Keep the patient's age in decades, and sex");
   command.does([options] { return import(*options); });
 }
 
 void addInspect(CommandLine& molar) {
   auto options = std::make_shared<InspectOptions>();
-  CommandLine& command = molar.command("inspect", "What a patient folder holds");
+  CommandLine& command = molar.command("inspect", "What a patient folder, or a DICOM folder, holds");
   command.option("PATIENT", options->patient, kPatientHelp).required();
   command.flag("--json", options->json, "For programs");
+  addDicomOptions(command, options->dicom);
   command.does([options] { return inspect(*options); });
 }
 

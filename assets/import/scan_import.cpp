@@ -1,19 +1,26 @@
 #include "assets/import/scan_import.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
+#include <span>
 
+#include "assets/import/dicom/burnt_in_text.h"
+#include "assets/import/dicom/dicom_volume.h"
+#include "assets/import/dicom/stored_frame.h"
+#include "assets/import/foreign_labels.h"
+#include "assets/import/grey_scale.h"
 #include "assets/import/lower_jaw.h"
 #include "assets/import/mandibular_canal_line.h"
 #include "assets/import/scan_scale.h"
+#include "assets/import/shading.h"
+#include "assets/import/soft_tissue_removal.h"
 #include "assets/import/tissue_from_grey.h"
 #include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
 #include "assets/scan/image_file.h"
+#include "assets/scan/resampling.h"
 #include "assets/scan/solid_fraction.h"
 #include "assets/tooth.h"
 
@@ -41,32 +48,16 @@ std::optional<std::string> volumeNamed(const fs::path& folder, const std::string
   return found;
 }
 
-/// "DICM" after 128 bytes (PS3.10).
-bool isDicom(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 4> mark{};
-  file.seekg(128);
-  file.read(mark.data(), mark.size());
-  return file && std::equal(mark.begin(), mark.end(), "DICM");
-}
-
 Sources sourcesAt(const std::string& source) {
   std::error_code error;
   const fs::file_status status = fs::status(source, error);
   if (!fs::exists(status)) throw LoadError(source + ": there is no such scan; check the name");
-  const std::string dicom_advice = "DICOM is not read yet; export the scan as NRRD or NIfTI";
-  if (!fs::is_directory(status)) {
-    if (fs::is_regular_file(status) && isDicom(source)) throw LoadError(source + ": " + dicom_advice);
-    return {source, std::nullopt, std::nullopt};
-  }
-
+  if (!fs::is_directory(status)) return {source, std::nullopt, std::nullopt};
   const auto ct = volumeNamed(source, "ct");
   if (ct) return {*ct, volumeNamed(source, "labels"), volumeNamed(source, "teeth")};
-  for (const auto& entry : fs::directory_iterator(source, error))
-    if (entry.is_regular_file(error) && (entry.path().extension() == ".dcm" || isDicom(entry.path())))
-      throw LoadError(source + ": " + dicom_advice);
   throw LoadError(source +
-                  ": it holds no ct.nrrd (or .nii.gz, .nii, .mha); name the volume so, or give the file itself");
+                  ": it holds neither DICOM pictures nor a ct.nrrd (or .nii.gz, .nii, .mha); name the volume "
+                  "so, or give the file itself");
 }
 
 /// Centroid of solid; throws for a scan without any.
@@ -169,29 +160,44 @@ std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>
   return std::nullopt;
 }
 
-}  // namespace
+/// A scan's grey values with what lies beside them; `name` stands for it in messages.
+struct Volume {
+  HounsfieldImage image;
+  std::string name;
+  std::optional<std::string> labels, teeth;
+};
 
-ImportedScan importScan(const std::string& source, const ScanImportOptions& options) {
-  const Sources sources = sourcesAt(source);
-  HounsfieldImage image = readHounsfield(sources.ct, options.window);
+ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const ScanImportOptions& options) {
   ImportedScan imported;
+  imported.remarks = std::move(remarks);
   Patient& patient = imported.patient;
   patient.classification = options.classification;
-  patient.ct.grid = image.grid;
-  patient.ct.hounsfield = std::move(image.hounsfield);
-  if (!options.window) imported.remarks = scaleRemarks(patient.ct.grid, patient.ct.hounsfield);
-  if (!image.orientation_known)
+  patient.ct.grid = volume.image.grid;
+  patient.ct.hounsfield = std::move(volume.image.hounsfield);
+  if (!options.window)
+    for (std::string& remark : scaleRemarks(patient.ct.grid, patient.ct.hounsfield))
+      imported.remarks.push_back(std::move(remark));
+  if (!volume.image.orientation_known)
     imported.remarks.push_back("the file states no orientation; assumed LPS (left-posterior-superior)");
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, options.classification);
-  const glm::dvec3 centroid_P_mm = centroidOfSolid(patient.ct, sources.ct, options.classification.iso_hu);
+  const glm::dvec3 centroid_P_mm = centroidOfSolid(patient.ct, volume.name, options.classification.iso_hu);
 
-  const Tissues tissues = readTissues(sources.labels, sources.ct, patient.ct, imported.remarks);
-  if (sources.teeth)
-    readTeeth(*sources.teeth, sources.ct, patient.ct, imported.remarks);
-  else if (tissues == Tissues::labelled)
+  const std::optional<std::string> foreign =
+      options.segment ? std::optional(options.segment(patient.ct.grid, patient.ct.hounsfield)) : options.labels;
+  Tissues tissues = Tissues::labelled;
+  if (foreign) {
+    const LabelTable table = foreignLabelTable(*foreign, options.label_set);
+    for (std::string& remark : takeForeignLabels(*foreign, table, patient.ct))
+      imported.remarks.push_back(std::move(remark));
+  } else {
+    tissues = readTissues(volume.labels, volume.name, patient.ct, imported.remarks);
+  }
+  if (volume.teeth)
+    readTeeth(*volume.teeth, volume.name, patient.ct, imported.remarks);
+  else if (tissues == Tissues::labelled && patient.ct.tooth.empty())
     numberLabelledTooth(options.tooth_fdi, patient.ct, imported.remarks);
   if (tissues == Tissues::labelled) labelPartialVoxels(patient.ct);
-  patient.site = siteOf(patient.ct, options.tooth_fdi, source, imported.remarks);
+  patient.site = siteOf(patient.ct, options.tooth_fdi, volume.name, imported.remarks);
   const auto near_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
   if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
@@ -208,6 +214,123 @@ ImportedScan importScan(const std::string& source, const ScanImportOptions& opti
   patient.jaw_P_mm = jaw_P_mm.value_or(centroid_P_mm);
   patient.title = "imported scan, site unknown";
   return imported;
+}
+
+}  // namespace
+
+ImportedScan importScan(const std::string& source, const ScanImportOptions& options) {
+  const Sources sources = sourcesAt(source);
+  return patientOf({readHounsfield(sources.ct, options.window), sources.ct, sources.labels, sources.teeth}, {},
+                   options);
+}
+
+namespace {
+
+/// The values of the headers that may be kept.
+ScanOrigin originOf(const DicomSurvey& survey, const ScanImportOptions& options) {
+  const DicomSeries& series = survey.sorted.series[*survey.taken];
+  const DicomPlan& plan = *survey.plan;
+  const DicomHeader& header = survey.folder.files[series.slices.front().file].header;
+  ScanOrigin origin;
+  origin.modality = header.modality, origin.manufacturer = header.manufacturer;
+  origin.model = header.model, origin.kernel = header.kernel;
+  origin.tube_kv = header.tube_kv, origin.exposure_mas = header.exposure_mas;
+  origin.year_band = header.year_band;
+  if (options.keep_age_band) origin.age_decade = header.age_decade, origin.sex = header.sex;
+  origin.columns = series.columns, origin.rows = series.rows;
+  origin.slices = static_cast<int>(plan.stack.order.size());
+  origin.row_spacing_mm = glm::length(plan.geometry.step_P_mm[1]);
+  origin.column_spacing_mm = glm::length(plan.geometry.step_P_mm[0]);
+  origin.step_mm = plan.stack.step_mm, origin.tilt_deg = plan.stack.tilt_deg;
+  origin.bridged_slices = static_cast<int>(plan.invented_slices);
+  origin.has_face = options.keep_face;
+  origin.files = static_cast<int>(survey.folder.files.size());
+  for (const DicomFile& file : survey.folder.files) {
+    origin.has_burnt_in_text_checked = origin.has_burnt_in_text_checked || file.header.has_burnt_in_text;
+    for (std::size_t group = 0; group < kDroppedGroups.size(); ++group)
+      origin.dropped_elements[group] += file.header.dropped_elements[group];
+  }
+  return origin;
+}
+
+std::string placesOf(const std::vector<GreyPeak>& peaks) {
+  if (peaks.empty()) return "no peak";
+  std::string list;
+  for (const GreyPeak& peak : peaks) list += (list.empty() ? "" : ", ") + std::to_string(std::lround(peak.grey));
+  return (peaks.size() == 1 ? "one peak at " : "peaks at ") + list;
+}
+
+/// The scale that the owner states, or the one that the values show; says which. Throws LoadError: none.
+GreyMap greyMapOf(DicomSurvey& survey, std::span<const std::int16_t> grey, const std::optional<GreyMap>& stated) {
+  if (stated) return *stated;
+  const GreyJudgement judged = judgeGreyScale(grey, kNoGrey);
+  if (!judged.map) {
+    survey.verdicts.push_back({"V1",
+                               "grey values follow no known scale (" + placesOf(judged.peaks) +
+                                   "); show Molar three places: --scale AIR,MUSCLE,DENTINE, the grey values there",
+                               {},
+                               true});
+    throw LoadError(lineOf(survey.verdicts.back()));
+  }
+  const std::string formula = "HU = " + shortNumber(judged.map->slope, 3) + " x grey value " +
+                              (judged.map->offset_hu < 0.0 ? "- " : "+ ") +
+                              shortNumber(std::abs(judged.map->offset_hu), 0);
+  if (judged.map->scale == GreyScale::shifted)
+    survey.verdicts.push_back(
+        {"V2", "grey values are stored higher than Hounsfield without saying so: " + formula, {}, false});
+  if (judged.map->scale == GreyScale::two_points)
+    survey.verdicts.push_back({"V2",
+                               "grey values are not Hounsfield (" + placesOf(judged.peaks) +
+                                   "); mapped by air and soft tissue: " + formula +
+                                   "; --scale AIR,MUSCLE,DENTINE states it better",
+                               {},
+                               false});
+  return *judged.map;
+}
+
+}  // namespace
+
+ImportedScan importScan(DicomSurvey& survey, const ScanImportOptions& options) {
+  const std::string name = "scan";
+  std::vector<std::int16_t> grey = readDicomVolume(survey);
+  const std::vector<TextBox> text = burntInText(survey.plan->geometry.size, grey, kNoGrey);
+  blankText(survey.plan->geometry.size, text, kNoGrey, grey);
+  if (!text.empty())
+    survey.verdicts.push_back(
+        {"B2",
+         counted(text.size(), "line") + " of text in the pictures " + (text.size() == 1 ? "was" : "were") + " blanked",
+         {},
+         false});
+  const GreyMap map = greyMapOf(survey, grey, options.scale);
+  applyGreyMap(map, kNoGrey, grey);
+  std::ranges::replace(grey, kNoGrey, kAirHu);
+  const Resampling resampling(survey.plan->geometry, name);
+  HounsfieldImage image{resampling.grid(), resampling.linear(std::move(grey), kAirHu)};
+  ScanOrigin origin = originOf(survey, options);
+  origin.blanked_text_lines = static_cast<int>(text.size());
+  origin.scale = map.scale, origin.slope = map.slope, origin.offset_hu = map.offset_hu;
+  // Calibrated scanners have no shading to speak of, and their values stay as they are.
+  const bool is_calibrated = map.scale == GreyScale::hounsfield || map.scale == GreyScale::shifted;
+  if (!is_calibrated) origin.shading_hu = flattenShading(image.grid, image.hounsfield);
+  std::vector<std::string> remarks;
+  if (!options.keep_face) {
+    const double removed_mm3 = removeDistantSoftTissue(image.grid, image.hounsfield, options.classification.iso_hu);
+    origin.removed_soft_tissue_cm3 = removed_mm3 / 1000.0;
+    if (removed_mm3 >= 1000.0)
+      remarks.push_back(std::to_string(std::lround(removed_mm3 / 1000.0)) +
+                        " cm3 of soft tissue farther than 12 mm from bone were removed, so that no face is left; "
+                        "--keep-face keeps them");
+  }
+  ImportedScan imported = patientOf({std::move(image), name, std::nullopt, std::nullopt}, std::move(remarks), options);
+  imported.origin = std::move(origin);
+  return imported;
+}
+
+bool isDicomSource(const std::string& source) {
+  std::error_code error;
+  if (!fs::exists(source, error)) return false;
+  if (fs::is_directory(source, error) && volumeNamed(source, "ct")) return false;
+  return holdsDicom(source);
 }
 
 }  // namespace assets

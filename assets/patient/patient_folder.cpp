@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <utility>
+#include <vector>
 
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_toml.h"
+#include "assets/patient/scan_origin_toml.h"
 #include "assets/scan/vdb_file.h"
 #include "assets/scenery/face_frame.h"
 #include "assets/toml_reader.h"
 #include "calibration/output_file.h"
+#include "calibration/record/sha256.h"
 
 namespace assets {
 
@@ -21,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char* kToml = "patient.toml";
 constexpr const char* kVolume = "volume.vdb";
 constexpr const char* kMeshes = "face.glb";
+constexpr const char* kStatement = "deidentified.toml";
 constexpr const char* kGingivaPrefix = "Gum";
 constexpr std::size_t kMaxToml_bytes = 4 << 20;
 
@@ -41,6 +46,21 @@ void separate(MeshModel both, MeshModel& gingiva, MeshModel& face) {
     (part.name.starts_with(kGingivaPrefix) ? gingiva : face).parts.push_back(std::move(part));
 }
 
+/// SHA-256 of a file that was just written.
+std::string digestOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  calibration::Sha256 hash;
+  std::vector<char> block(1 << 20);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(file.gcount());
+    hash.add({reinterpret_cast<const std::uint8_t*>(block.data()), count});
+  }
+  std::string digits;
+  for (const std::uint8_t byte : hash.finish())
+    for (const int nibble : {byte >> 4, byte & 15}) digits += "0123456789abcdef"[nibble];
+  return digits;
+}
+
 bool isInside(const glm::dvec3& p_P_mm, const VolumeGrid& grid) {
   const glm::dvec3 index = grid.indexFromPoint(p_P_mm);
   return glm::all(glm::greaterThanEqual(index, glm::dvec3(-0.5))) &&
@@ -49,13 +69,17 @@ bool isInside(const glm::dvec3& p_P_mm, const VolumeGrid& grid) {
 
 }  // namespace
 
-void savePatient(const Patient& patient, const std::string& folder, bool overwrite) {
-  calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes});
+void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin) {
+  calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement});
   const fs::path written = output.temporaryPath();
-  calibration::OutputFile(written / kToml, false).commit(patientToml(patient));
+  calibration::OutputFile(written / kToml, false)
+      .commit(patientToml(patient) + (origin != nullptr ? scanTable(*origin) : std::string()));
   writeVdb(patient.ct, (written / kVolume).string());
   const MeshModel meshes_P = joined(patient.gingiva, patient.face);
   if (!meshes_P.parts.empty()) writeGltf(modelInFaceFrame(meshes_P), (written / kMeshes).string());
+  if (origin != nullptr)
+    calibration::OutputFile(written / kStatement, false)
+        .commit(deidentificationStatement(*origin, digestOf(written / kVolume)));
   output.commit();
 }
 

@@ -95,11 +95,12 @@ const VolumeGrid kBlock{{12, 12, 12}, 0.5, {0, 0, 0}};
 TEST(ScanImport, RefusesUnusableInput) {
   const on_disk::Folder folder;
   EXPECT_THAT(refusalOf(folder.at("none")), HasSubstr("no such scan"));
-  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("no ct.nrrd"));
+  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("nor a ct.nrrd"));
   on_disk::write(folder.at("slice"), std::string(128, '\0') + "DICM");
-  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("DICOM is not read yet"));
-  EXPECT_THAT(refusalOf(folder.at("slice")), HasSubstr("DICOM is not read yet"));
+  EXPECT_TRUE(assets::isDicomSource(folder.at("")));
+  EXPECT_TRUE(assets::isDicomSource(folder.at("slice")));
   writeBlock(folder.at("ct.nrrd"), kBlock, -1000);
+  EXPECT_FALSE(assets::isDicomSource(folder.at("")));
   EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("above 300 HU"));
   writeBlock(folder.at("ct.nrrd"), kBlock, 1000);
   EXPECT_EQ(refusalOf(folder.at("")), "accepted");

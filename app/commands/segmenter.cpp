@@ -1,0 +1,173 @@
+#include "app/commands/segmenter.h"
+
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <thread>
+
+#include "app/text/usage_error.h"
+#include "assets/load_error.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kCt = "{ct}", kLabels = "{labels}";
+
+std::string replacedAll(std::string text, std::string_view from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// NIfTI-1, one file, int16; its axes point right, anterior and superior (nifti1.h).
+void writeNifti(const std::string& path, const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) {
+  std::string header(352, '\0');
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(header.data() + at, &value, sizeof value); };
+  put(0, std::int32_t{348});
+  const std::array<std::int16_t, 5> dimensions = {3, static_cast<std::int16_t>(grid.size.x),
+                                                  static_cast<std::int16_t>(grid.size.y),
+                                                  static_cast<std::int16_t>(grid.size.z), 1};
+  for (std::size_t n = 0; n < dimensions.size(); ++n) put(40 + 2 * n, dimensions[n]);
+  put(70, std::int16_t{4});
+  put(72, std::int16_t{16});
+  const auto spacing = static_cast<float>(grid.spacing_mm);
+  put(76, 1.0F);
+  for (std::size_t axis = 1; axis <= 3; ++axis) put(76 + 4 * axis, spacing);
+  put(108, 352.0F);
+  put(112, 1.0F);
+  put(123, std::uint8_t{2});  // mm
+  put(254, std::int16_t{1});
+  const glm::dvec3 ras(-1.0, -1.0, 1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t row = 280 + 16 * static_cast<std::size_t>(axis);
+    put(row + 4 * static_cast<std::size_t>(axis), static_cast<float>(ras[axis] * grid.spacing_mm));
+    put(row + 12, static_cast<float>(ras[axis] * grid.origin_P_mm[axis]));
+  }
+  std::memcpy(header.data() + 344, "n+1", 4);
+  std::ofstream file(path, std::ios::binary);
+  file << header;
+  file.write(reinterpret_cast<const char*>(hounsfield.data()), static_cast<std::streamsize>(2 * hounsfield.size()));
+  if (!file.flush()) throw assets::LoadError("--segment-with: the scan cannot be written for it; free some space");
+}
+
+/// What programs need to start and to find their models; no tokens.
+std::vector<std::string> plainEnvironment(const std::string& folder) {
+  std::vector<std::string> environment = {"TMPDIR=" + folder};
+  for (const char* name :
+       {"PATH", "HOME", "LANG", "LC_ALL", "LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV", "CONDA_PREFIX",
+        "CUDA_VISIBLE_DEVICES", "OMP_NUM_THREADS", "nnUNet_results", "TOTALSEG_HOME_DIR"})
+    if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
+  return environment;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Its exit status. Throws LoadError.
+int runToEnd(std::vector<std::string> words, const std::string& folder, std::chrono::seconds limit) {
+  std::vector<std::string> environment = plainEnvironment(folder);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", 0, 0);
+  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  pid_t process = 0;
+  const int error = ::posix_spawnp(&process, words.front().c_str(), &files, nullptr, pointersTo(words).data(),
+                                   pointersTo(environment).data());
+  posix_spawn_file_actions_destroy(&files);
+  if (error != 0)
+    throw assets::LoadError("--segment-with: its program cannot be started (" + std::string(std::strerror(error)) +
+                            "); check the name");
+  const auto end = std::chrono::steady_clock::now() + limit;
+  int status = 0;
+  while (::waitpid(process, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      ::kill(process, SIGKILL);
+      ::waitpid(process, &status, 0);
+      throw assets::LoadError("--segment-with: it took longer than " + std::to_string(limit.count() / 60) +
+                              " minutes and was stopped");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+std::vector<std::string> wordsOfCommand(const std::string& line) {
+  std::vector<std::string> words;
+  bool is_in_word = false;
+  char quote = '\0';
+  for (const char letter : line) {
+    if (quote != '\0') {
+      if (letter == quote)
+        quote = '\0';
+      else
+        words.back() += letter;
+      continue;
+    }
+    const bool is_space = letter == ' ' || letter == '\t';
+    if (!is_space && !is_in_word) words.emplace_back();
+    is_in_word = !is_space;
+    if (letter == '\'' || letter == '"')
+      quote = letter;
+    else if (!is_space)
+      words.back() += letter;
+  }
+  if (quote != '\0') throw UsageError("--segment-with: a quote is not closed");
+  return words;
+}
+
+Segmenter::Segmenter(const std::string& command) : words_(wordsOfCommand(command)) {
+  const auto holds = [&](std::string_view mark) {
+    for (std::size_t n = 1; n < words_.size(); ++n)
+      if (words_[n].find(mark) != std::string::npos) return true;
+    return false;
+  };
+  if (!holds(kCt) || !holds(kLabels))
+    throw UsageError(
+        "--segment-with: give a program and its words with {ct} and {labels} among them, as in 'TotalSegmentator -i "
+        "{ct} "
+        "-o {labels} --ml -ta teeth'");
+}
+
+Segmenter::~Segmenter() {
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+}
+
+std::string Segmenter::labels(const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
+                              std::chrono::seconds limit) {
+  std::string folder = (fs::temp_directory_path() / "molar_XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr)
+    throw assets::LoadError("--segment-with: no folder can be made for it; check TMPDIR");
+  folder_ = folder;
+  const std::string ct = folder_ + "/ct.nii", made = folder_ + "/labels.nii.gz";
+  writeNifti(ct, grid, hounsfield);
+  std::vector<std::string> words = words_;
+  for (std::string& word : words) word = replacedAll(replacedAll(word, kCt, ct), kLabels, made);
+  if (const int status = runToEnd(words, folder_, limit); status != 0)
+    throw assets::LoadError("--segment-with: it ended with status " + std::to_string(status) +
+                            "; what it said stands above");
+  std::error_code error;
+  if (!fs::is_regular_file(made, error))
+    throw assets::LoadError("--segment-with: it left no label map where {labels} says; see its help");
+  fs::remove(ct, error);
+  return made;
+}
+
+}  // namespace app
