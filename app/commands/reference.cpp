@@ -63,7 +63,7 @@ void addReference(CommandLine& molar) {
   CommandLine& command =
       molar.command("reference", "Rehearsals of one case as a named set that others are held against");
   command.option("NAME", options->name, "Of the set: letters, digits, - and _; without it the sets are listed");
-  command.option("SESSION", options->sessions, "Recorded sessions of one case, three or more for z-scores").repeated();
+  command.option("SESSION", options->sessions, "Recorded sessions of one case, three or more for z-scores");
   command.option("--out", options->out, "File to write, .json [one of the name in the data folder]").valueNamed("FILE");
   command.flag("--force", options->force, "Replace a set of that name");
   command.footer(

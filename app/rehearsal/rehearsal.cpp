@@ -195,7 +195,7 @@ class Rehearsal {
     noteEyes();
     if (plan_.is_assessed) {
       event_log_.note(kAssessmentEvent, std::string(kAssessmentRules));
-      head_up_.say("assessment: " + std::string(kAssessmentRules));
+      head_up_.say("assessment: nothing helps, everything is recorded");
     }
     if (steps_) steps_->start();
     if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace();

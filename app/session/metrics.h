@@ -116,7 +116,7 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
 /// to keep off and what was to be removed (app/station/session_case); without it neither is told. 4 s for ten minutes.
 SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of = {});
 
-/// Units as people write them: mm³, °.
+/// Units as people write them: mm³, mm², °.
 std::string unitText(std::string_view unit);
 
 /// A measure's value by its id; none: the recording cannot tell.

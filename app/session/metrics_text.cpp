@@ -31,6 +31,7 @@ std::string measuresText(const std::vector<MeasureValue>& measures) {
 std::string unitText(std::string_view unit) {
   std::string text(unit);
   if (const std::size_t at = text.find("mm3"); at != std::string::npos) text.replace(at, 3, "mm³");
+  if (const std::size_t at = text.find("mm2"); at != std::string::npos) text.replace(at, 3, "mm²");
   return text == "deg" ? "°" : text;
 }
 
