@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <vector>
+#include <functional>
 
 #include "assets/scan/header_text.h"
 #include "assets/tooth.h"

@@ -2,6 +2,7 @@
 // the format and not against a library. Elements lie in a map by tag: a test adds, changes or erases any of them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
