@@ -75,7 +75,7 @@ TEST_F(AssessmentCommand, APracticeBlockIsMeasuredAgainstItsTarget) {
     const ProgramOutput said = rehearse(std::string("--voxel 0.3 --case ") + block + " --record " + at(file));
     ASSERT_EQ(said.status, 0) << said.err;
     const json told = metrics(file);
-    EXPECT_GT(measure(told, "O2.plan").at("value").get<double>(), 0.6) << block;
+    EXPECT_GT(measure(told, "O2.plan").at("value").get<double>(), 0.55) << block;
     EXPECT_GT(measure(told, "O3.dice").at("value").get<double>(), 0.7) << block;
     EXPECT_LT(measure(told, "O3.over").at("value").get<double>(), 5.0) << block;
     EXPECT_LT(measure(told, "S7").at("value").get<double>(), 0.3) << block << " is cut in sight, but for its near wall";
@@ -84,7 +84,7 @@ TEST_F(AssessmentCommand, APracticeBlockIsMeasuredAgainstItsTarget) {
   EXPECT_NEAR(measure(plate, "B.plate_mean").at("value").get<double>(), 1.3, 0.35);
   EXPECT_EQ(measure(plate, "B.plate_through").at("value"), 0.0);
   EXPECT_GT(measure(ball, "B.ball_bare").at("value").get<double>(), 0.7);
-  EXPECT_EQ(measure(ball, "B.ball_cut").at("value"), 0.0);
+  EXPECT_LT(measure(ball, "B.ball_cut").at("value").get<double>(), 0.2) << "grazed in coarse voxels at most";
   ASSERT_EQ(molar("report " + at("block-ball.molar") + " --out " + at("ball.html")).status, 0);
   EXPECT_NE(read("ball.html").find("practice block: a buried ball"), std::string::npos);
   EXPECT_EQ(rehearse("--case block-ball --flap closed").status, 2);
