@@ -65,7 +65,8 @@ enum class BeadKind : std::uint8_t {
   chip,      ///< loose bone or tooth
   follicle,  ///< soft
   stitch,
-  trail  ///< of a tool's way, unlit; its colour by number: 0 green, 1 yellow, 2 orange, 3 red
+  drawn,  ///< on a line of the surgeon's own plan
+  trail   ///< of a tool's way, unlit; its colour by number: 0 green, 1 yellow, 2 orange, 3 red
 };
 struct Bead {
   calibration::Point<calibration::Patient> at_P;

@@ -100,7 +100,7 @@ void FrameRenderer::setScan(CtScan scan) { slices_.emplace(fields_.grid(), std::
 
 Image FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) const {
   assert(slices_);
-  return slices_->image(plane, frame, fields_.solid(), edge_px, guides_ ? &*guides_ : nullptr);
+  return slices_->image(plane, frame, fields_.solid(), edge_px, guides_ ? &*guides_ : nullptr, placedPieces(frame));
 }
 
 std::optional<SlicePlane> FrameRenderer::sliceAt(const Frame& frame, const glm::dvec2& share) const {
@@ -207,23 +207,26 @@ void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   drawn(eye) = {frame, px};
 }
 
+std::vector<PlacedFields> FrameRenderer::placedPieces(const Frame& frame) const {
+  std::vector<PlacedFields> placed;
+  for (std::size_t n = 0; n < kMostPieces; ++n)
+    if (pieces_[n] && frame.pieces[n]) placed.push_back({&pieces_[n]->mesh.fields(), *frame.pieces[n]});
+  return placed;
+}
+
 // Pieces are brought up to date where they are seen.
 void FrameRenderer::prepare(const Frame& frame) {
   updateRuler(frame);
   updateBeads(frame);
   updateObstacles(frame);
   updateFlap(frame);
-  std::vector<PlacedFields> placed;
   bool any_changed = false;
   for (std::size_t n = 0; n < kMostPieces; ++n) {
-    if (!pieces_[n] || !frame.pieces[n]) continue;
-    PieceMesh& mesh = pieces_[n]->mesh;
-    placed.push_back({&mesh.fields(), *frame.pieces[n]});
-    if (!mesh.prepare()) continue;
-    scene_->setModel(pieceModel(n), mesh.model());
+    if (!pieces_[n] || !frame.pieces[n] || !pieces_[n]->mesh.prepare()) continue;
+    scene_->setModel(pieceModel(n), pieces_[n]->mesh.model());
     any_changed = true;
   }
-  fields_.place(placed, any_changed);
+  fields_.place(placedPieces(frame), any_changed);
   scene_->prepare(frame, fields_.prepare());
 }
 

@@ -111,6 +111,7 @@ class FrameRenderer {
   void updateBeads(const Frame& frame);
   void updateObstacles(const Frame& frame);
   void updateFlap(const Frame& frame);
+  std::vector<PlacedFields> placedPieces(const Frame& frame) const;
   void prepare(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
   void compose(const Frame& frame);

@@ -15,6 +15,7 @@
 #include "app/case/case.h"
 #include "app/case/patient_source.h"
 #include "app/commands/command.h"
+#include "app/commands/piece_export.h"
 #include "app/options/volume_option.h"
 #include "app/procedure/ways_out.h"
 #include "app/session/replay.h"
@@ -33,10 +34,10 @@ namespace {
 
 struct PiecesOptions {
   VolumeOption volume;
-  std::string source, case_name;
+  std::string source, case_name, out;
   std::optional<int> tooth;
   std::vector<double> exit_P;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 /// A tooth on a grid: what it was before it was cut, and what is left of it.
@@ -190,8 +191,7 @@ struct Findings {
   std::vector<PieceWay> ways;
 };
 
-Findings findingsOf(const Source& source, const std::optional<glm::dvec3>& exit_P) {
-  const CutTooth& tooth = source.tooth;
+haptics::ToothSurvey surveyOf(const CutTooth& tooth) {
   haptics::ToothSurvey survey(tooth.grid, tooth.before);
   haptics::forBricks(tooth.grid.bricks(), [&](std::size_t, glm::ivec3 corner) {
     std::array<std::uint8_t, 512> bytes{};
@@ -201,6 +201,12 @@ Findings findingsOf(const Source& source, const std::optional<glm::dvec3>& exit_
     });
     survey.update(corner / assets::kBrickVoxels, bytes);
   });
+  return survey;
+}
+
+Findings findingsOf(const Source& source, const std::optional<glm::dvec3>& exit_P) {
+  const CutTooth& tooth = source.tooth;
+  haptics::ToothSurvey survey = surveyOf(tooth);
   Findings found{survey.pieces(), {}};
   survey.findBridges(found.tooth, tooth.grid.spacing_mm);
   WayUp up = source.up;
@@ -310,7 +316,36 @@ std::optional<glm::dvec3> exitOf(const PiecesOptions& options) {
   return exit / length;
 }
 
+bool isSession(const PiecesOptions& options) {
+  return !options.volume.given() && options.case_name.empty() &&
+         !std::filesystem::is_directory(patientNamed(options.source));
+}
+
+/// Prints what was written.
+int exportPieces(const PiecesOptions& options) {
+  std::vector<ExportedPiece> pieces;
+  if (isSession(options)) {
+    if (options.tooth) throw UsageError("--tooth: a session keeps its tooth, leave it out");
+    pieces = piecesOfSession(sessionNamed(options.source));
+  } else {
+    const Source source = toothOf(options);
+    haptics::ToothSurvey survey = surveyOf(source.tooth);
+    pieces = piecesOf(survey.components(), survey.pieces().pieces);
+  }
+  const std::vector<std::string> files = writePieces(pieces, options.out, options.force);
+  nlohmann::json list = nlohmann::json::array();
+  std::string table = "piece     volume mm³   place\n";
+  for (const ExportedPiece& piece : pieces) {
+    const std::string place(kPiecePlaces[static_cast<std::size_t>(piece.place)]);
+    list.push_back({{"name", piece.name}, {"volume_mm3", piece.volume_mm3}, {"place", place}});
+    table += fmt::format("{:8} {:11.1f}   {}\n", piece.name, piece.volume_mm3, place);
+  }
+  std::fputs((options.json ? nlohmann::json{{"pieces", list}, {"files", files}}.dump(2) + "\n" : table).c_str(), stdout);
+  return 0;
+}
+
 int pieces(const PiecesOptions& options) {
+  if (!options.out.empty()) return exportPieces(options);
   const std::optional<glm::dvec3> exit_P = exitOf(options);
   const Findings found = findingsOf(toothOf(options), exit_P);
   if (found.tooth.pieces == 0)
@@ -340,6 +375,12 @@ void addPieces(CommandLine& molar) {
           "--exit", options->exit_P,
           "Which way is out, X,Y,Z in frame P (default: up and to the cheek of a patient's operated tooth, else up)")
       .numbers(3);
+  command
+      .option("--out", options->out,
+              "Write the pieces as surfaces: a folder with one STL each, or FILE.stl, FILE.glb; of a session, as they "
+              "are at its end, those that were taken out too")
+      .valueNamed("FOLDER|FILE");
+  command.flag("--force", options->force, "Replace the output if it exists");
   command.flag("--json", options->json, "All of it as JSON");
   command.footer(
       "A bridge is the least area that holds two parts of a piece, looked for around the cut: what was solid before. "
@@ -350,7 +391,8 @@ void addPieces(CommandLine& molar) {
       "JSON: pieces [{id, volume_mm3, centroid_P_mm, inertia_mm5, parts}], bridges [{between (ids of parts), piece, "
       "area_mm2, thickness_mm, width_mm, normal_P, width_axis_P, centre_P_mm}], chips, cut_mm3, free [{piece, after, "
       "answer (free, grazes, blocked, not-found), blocked_mm3_by_label, in_the_way, path_mm, turned_deg, poses}], "
-      "first those that come out, in their order.");
+      "first those that come out, in their order. With --out: pieces [{name, volume_mm3, place (in place, moved, out)}], "
+      "files.");
   command.does([options] { return pieces(*options); });
 }
 

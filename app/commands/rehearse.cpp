@@ -436,14 +436,12 @@ int run(RehearseOptions& options) {
     // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
     static const RehearseOptions kAsked;
     if (options.tools == kAsked.tools)
-      options.tools = {options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps"};
+      options.tools = {options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps",
+                       "suction",             "curette",        "bone-file"};
   }
   if (options.flap == "closed") {
     if (!options.continued.empty())
       throw UsageError("--flap closed: a rehearsal that goes on begins with the flap raised, leave it out");
-    if (isShown(options))
-      throw UsageError(
-          "--flap closed: the shown operation begins with the flap raised, leave out --flap or --procedure");
     if (plan.device == "scripted") plan.device = kShownFlap;
   }
   std::optional<Continuation> former;
@@ -512,6 +510,12 @@ int run(RehearseOptions& options) {
       options.jaw.spacing_mm = former->grid.spacing_mm;
       plan.instruction = assets::textOf(*practiceOf(options)).instruction;
     }
+    plan.drawn = former->drawn;
+  }
+  if (!options.drawn.empty()) {
+    plan.drawn = drawnPlanOf(sessionNamed(options.drawn));
+    if (plan.drawn.isEmpty())
+      throw UsageError("--drawn " + options.drawn + ": no line was drawn in it, name another session");
   }
 
   assets::JawParameters jaw = jawOf(options);
@@ -534,7 +538,7 @@ int run(RehearseOptions& options) {
   if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
   // An assistant holds cheek and flap aside.
-  if (isShown(options)) plan.soft_tissue = {};
+  plan.shows_whole_operation = plan.soft_tissue_is_held_away = isShown(options);
   if (options.flap == "closed") closeFlap(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.

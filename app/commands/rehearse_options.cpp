@@ -100,6 +100,10 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .valueNamed("WORDS")
       .needs(procedure);
   command
+      .option("--drawn", options.drawn,
+              "Begin with the trough's and section's lines that were drawn in this session, or last (keys G, Shift+G)")
+      .valueNamed("SESSION");
+  command
       .option("--coach", options.coach,
               "Says one thing at a time about how you work: on, off, or a supervisor's own FILE.toml of rules "
               "(app/procedure/coach) [on where a procedure is guided, else off; never in assessment]")

@@ -39,7 +39,9 @@ enum class Control : std::uint8_t {
   way,
   ring,
   sound,
-  assistant
+  assistant,
+  draw,
+  draw_next
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -65,7 +67,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 26> kControls = {{
+inline constexpr std::array<ControlMeaning, 28> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -92,6 +94,8 @@ inline constexpr std::array<ControlMeaning, 26> kControls = {{
     {Control::ring, "ring", "Shift+T", "ring of instruments; again takes", ControlValue::on_or_off, true},
     {Control::sound, "sound", "S", "sound on or off", ControlValue::on_or_off, false},
     {Control::assistant, "assistant", "A", "assistant holds cheek and flap aside", ControlValue::on_or_off, true},
+    {Control::draw, "draw", "G", "own plan: a point of trough or section", ControlValue::none, false},
+    {Control::draw_next, "draw-next", "Shift+G", "own plan: next line; then all anew", ControlValue::none, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

@@ -11,6 +11,13 @@
 
 namespace app {
 
+DrawnPlan drawnPlanOf(const std::string& path) {
+  DrawnPlan drawn;
+  for (const SessionEvent& event : SessionReader(path).events())
+    if (event.kind == kDrawnPlanEvent) drawn = drawnPlanFrom(event.text).value_or(DrawnPlan{});
+  return drawn;
+}
+
 Continuation continuationOf(const std::string& path) {
   Continuation next;
   next.path = path;
@@ -25,6 +32,7 @@ Continuation continuationOf(const std::string& path) {
                                     haptics::Bodies(next.grid, next.solid, next.label, bone.start.is_tooth).digest()};
   if (const std::vector<SessionCommand> commands = SessionReader(path).commands(); !commands.empty())
     next.command = commands.back().command;
+  next.drawn = drawnPlanOf(path);
   // The serials of the former servo mean nothing to a new one.
   next.command.split = {};
   next.command.site = {};

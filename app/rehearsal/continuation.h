@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/drawn_plan_event.h"
 #include "app/session/session_setup.h"
 #include "assets/patient.h"
 #include "haptics/servo/command.h"
@@ -14,6 +15,7 @@ namespace app {
 struct Continuation {
   std::string path;
   SessionSetup setup;        ///< of the new session: `former` is this one
+  DrawnPlan drawn;           ///< the surgeon's own
   haptics::Command command;  ///< in force at its end: tool, law, erosion, motor
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid;  ///< the bone at its end, in the order of the grid
@@ -23,6 +25,9 @@ struct Continuation {
   /// Gives the patient the bone and returns the one before. Throws UsageError if it is not the patient of the session.
   std::vector<std::uint8_t> applyTo(assets::Patient& patient) const;
 };
+
+/// The lines that were drawn in a session, the last ones; empty: none. Throws SessionError.
+DrawnPlan drawnPlanOf(const std::string& path);
 
 /// Throws SessionError.
 Continuation continuationOf(const std::string& path);

@@ -163,6 +163,8 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
         scrolledSlices(frame, render::SlicePlane::axial, request.control == Control::slice_up ? 1.0 : -1.0);
   if (request.control == Control::snapshot) takeSnapshot(frame);
   if (request.control == Control::ruler) markRuler(frame);
+  if (request.control == Control::draw) drawn_.push_back(touched_P_mm(frame));
+  if (request.control == Control::draw_next) drawn_.push_back(std::nullopt);
   if (request.control == Control::step) ++steps_;
   if (request.control == Control::way) asks_way_ = true;
   if (request.control == Control::sound) sound_ = request.value;
@@ -270,13 +272,17 @@ void ControlRouter::takeSnapshot(const render::Frame& frame) {
 }
 
 /// On the bone as it is drawn; a stepped rehearsal brings its view up to date for it.
-void ControlRouter::markRuler(render::Frame& frame) {
+glm::dvec3 ControlRouter::touched_P_mm(render::Frame& frame) {
   if (plan_.ticking == Ticking::stepped) {
     view_.display();
     view_.uploadBone(frame);
     frame.gap = view_.gapOf(frame);
   }
-  frame.ruler = rulerAfterMark(frame.ruler, markedPoint(frame, active_command_.inForce().tool.head));
+  return markedPoint(frame, active_command_.inForce().tool.head).mm;
+}
+
+void ControlRouter::markRuler(render::Frame& frame) {
+  frame.ruler = rulerAfterMark(frame.ruler, calibration::Point<calibration::Patient>{touched_P_mm(frame)});
   event_log_.note(kRulerEvent, rulerEvent(frame.ruler));
   if (!frame.ruler)
     head_up_.say("ruler put away");

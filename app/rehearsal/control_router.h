@@ -43,6 +43,8 @@ class ControlRouter {
   int takeSteps() { return std::exchange(steps_, 0); }
   /// Whether it was asked since the last call what keeps the tooth in.
   bool takeWay() { return std::exchange(asks_way_, false); }
+  /// Touches of the surgeon's own plan since the last call, in order; none in it: on to the next line.
+  std::vector<std::optional<glm::dvec3>> takeDrawn() { return std::exchange(drawn_, {}); }
   /// The instruments to choose from, while they are shown.
   const ToolRing& ring() const { return ring_; }
   /// Sound that was asked for since the last call: on, off, or the other (kNoValue).
@@ -70,6 +72,7 @@ class ControlRouter {
   void stopMotors();
   bool isHelpRefused(const ControlRequest& request);
   void takeSnapshot(const render::Frame& frame);
+  glm::dvec3 touched_P_mm(render::Frame& frame);
   void markRuler(render::Frame& frame);
   void followToolButton(const haptics::Tick& newest, render::Frame& frame);
   void switchRing(bool open, const render::Frame& frame);
@@ -90,6 +93,7 @@ class ControlRouter {
   PredictionQuestion prediction_;
   int steps_ = 0;
   bool asks_way_ = false;
+  std::vector<std::optional<glm::dvec3>> drawn_;
   ToolRing ring_;
   HeldPress tool_press_;
   std::optional<int> sound_;

@@ -24,7 +24,8 @@ void Equipment::connect(const RehearsalPlan& plan, const haptics::Command& in_fo
                                              .priority = plan.device_options.servo_priority,
                                              .buttons = {},
                                              .pedal = pedal_ ? &*pedal_ : nullptr},
-                       in_force, plan.recording, plan.ticking, true, plan.soft_tissue);
+                       in_force, plan.recording, plan.ticking, true,
+                       plan.soft_tissue_is_held_away ? assets::SoftTissueField{} : plan.soft_tissue);
 }
 
 void Equipment::start() {

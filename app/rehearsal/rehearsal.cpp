@@ -14,10 +14,10 @@
 #include "app/procedure/jaw_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
-#include "app/procedure/third_molar/flap_demonstration.h"
 #include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
+#include "app/rehearsal/drawn_plan_follower.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/flap_follower.h"
 #include "app/rehearsal/frame_builder.h"
@@ -89,12 +89,12 @@ class Rehearsal {
     sites_.emplace(station().bodies());
     socket_.emplace(plan_, station().bodies(), event_log_);
     ways_.emplace(plan_, station().bodies(), event_log_);
+    drawn_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.flap_closed) flap_.emplace(plan_, event_log_);
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
-    if (equipment_.led() != nullptr && flap_) beginFlap();
-    if (equipment_.led() != nullptr && !flap_) beginOperation();
+    if (equipment_.led() != nullptr) beginOperation();
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
@@ -143,14 +143,15 @@ class Rehearsal {
   }
 
   void beginOperation() {
-    demonstration_.emplace(plan_.patient, plan_.cut.value(), active_command_.tray(), station().bodies(),
-                           *equipment_.led());
-  }
-  void beginFlap() {
-    const haptics::TroughPath path(*plan_.cut, cuttingMotion(*plan_.cut, plan_.rig));
-    flap_shown_.emplace(flap_->flap().chart(), flap_->flap().plan(), *plan_.cut, active_command_.tray(),
-                        *equipment_.led(),
-                        haptics::LedPath{[path](double t_s) { return path.at(t_s); }, path.duration_s()});
+    const std::vector<haptics::Tool>& tray = active_command_.tray();
+    const Demonstration::Site site{plan_.patient, plan_.cut.value(), tray, station().bodies(), *equipment_.led()};
+    if (!flap_) return void(demonstration_.emplace(site));
+    FlapWork work(flap_->flap().chart(), flap_->flap().plan(), tray,
+                  Demonstration::heldAtGutter(*plan_.cut, tray.front()));
+    if (plan_.shows_whole_operation)
+      demonstration_.emplace(site, std::move(work));
+    else
+      demonstration_.emplace(Demonstration::ofFlap(site, std::move(work)));
   }
 
   /// Before the servo starts. Returns the seconds from the user's command to the first frame.
@@ -231,16 +232,12 @@ class Rehearsal {
   }
 
   bool isProcedureOver() const {
-    const bool is_flap_over = flap_shown_ && flap_shown_->isOver();
-    return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver()) ||
-           is_flap_over;
+    return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver());
   }
 
   /// 1: the tooth could not be taken out.
   int demonstrationStatus() const {
-    const std::string failure = flap_shown_ && !flap_shown_->failure().empty() ? flap_shown_->failure()
-                                : demonstration_                               ? demonstration_->failure()
-                                                                               : "";
+    const std::string failure = demonstration_ ? demonstration_->failure() : "";
     if (failure.empty()) return 0;
     printMessage("the operation was not finished: " + failure);
     return 1;
@@ -336,11 +333,12 @@ class Rehearsal {
   void followTooth() {
     const std::vector<glm::ivec3> changed = view_.takeChangedBricks();
     tooth_->follow(changed, newest_, !pace_.isRealTime());
-    // The shown operation was planned for crumbs that stay where they are: a piece's way out hangs on them.
-    const bool may_loosen = !demonstration_ && station().isApplied(newest_);
+    // The shown operation was planned for crumbs that stay where they are: a piece's way out hangs on them. Once the
+    // tooth is out they are taken.
+    const bool may_loosen = (!demonstration_ || demonstration_->isToothOut()) && station().isApplied(newest_);
     if (const auto order = socket_->follow({changed, newest_, may_loosen, !pace_.isRealTime()}))
       active_command_.loosen(*order);
-    frame_.beads = socket_->beads();
+    followDrawn();
     followFlap();
     if (const auto line = socket_->news()) head_up_.say(*line);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
@@ -353,6 +351,14 @@ class Rehearsal {
       head_up_.say(*line);
       event_log_.note("tooth", *line);
     }
+  }
+
+  void followDrawn() {
+    for (const auto& touched : router_.takeDrawn())
+      head_up_.say(touched ? drawn_->mark(*touched) : drawn_->nextLine());
+    frame_.beads = socket_->beads();
+    const std::vector<render::Bead> drawn = drawn_->beads();
+    frame_.beads.insert(frame_.beads.end(), drawn.begin(), drawn.end());
   }
 
   /// The shown operation looks for its own ways.
@@ -383,14 +389,6 @@ class Rehearsal {
     while (const auto line = flap_->news()) head_up_.say(*line);
   }
 
-  void followFlapShown() {
-    const haptics::Command& command = active_command_.inForce();
-    const bool is_aside = flap_->flap().isAside() && command.flap_aside;
-    if (const auto request = flap_shown_->follow({newest_, command.tool, station().isApplied(newest_), is_aside}))
-      active_command_.execute(*request);
-    while (const auto line = flap_shown_->news()) tellStep(*line);
-  }
-
   void tellStep(const std::string& line) {
     head_up_.say(line);
     event_log_.note("procedure", line);
@@ -398,12 +396,17 @@ class Rehearsal {
   }
 
   void followDemonstration() {
-    if (flap_shown_) followFlapShown();
     if (!demonstration_) return;
     const haptics::Command& command = active_command_.inForce();
     const Demonstration::Frame frame{
-        newest_,           command.tool,        command.drill_enabled, station().isApplied(newest_),
-        sites_->isReady(), !pace_.isRealTime(), socket_->left()};
+        newest_,
+        command.tool,
+        command.drill_enabled,
+        station().isApplied(newest_),
+        sites_->isReady(),
+        !pace_.isRealTime(),
+        flap_ && flap_->flap().isAside() && command.flap_aside,
+        socket_->left()};
     if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
     while (const auto line = demonstration_->news()) tellStep(*line);
   }
@@ -476,6 +479,7 @@ class Rehearsal {
     }
     if (const std::string least = clearanceText(clearance_.measures()); least != "{}")
       event_log_.note(kClearanceEvent, least);
+    const std::optional<DrawnComparison> drawn = drawn_->finish();
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
@@ -491,6 +495,7 @@ class Rehearsal {
     if (flap_) figures.flap = flap_->newest();
     figures.socket = socket_->newest();
     figures.way = ways_->words();
+    if (drawn) figures.drawn = drawnCutInWords(*drawn);
     if (jaw_stress_.most_N_per_mm2() > 0.0)
       figures.luxation += fmt::format("{}jaw stressed to {:.0f} MPa (model)", figures.luxation.empty() ? "" : ", ",
                                       jaw_stress_.most_N_per_mm2());
@@ -525,6 +530,7 @@ class Rehearsal {
   std::optional<SiteDesk> sites_;
   std::optional<SocketFollower> socket_;
   std::optional<WayFollower> ways_;
+  std::optional<DrawnPlanFollower> drawn_;
   std::optional<FlapFollower> flap_;
   JawStress jaw_stress_{plan_.patient};
   LuxationLog luxation_;
@@ -536,7 +542,6 @@ class Rehearsal {
   Pace::Time measured_at_{};
   bool shows_gutter_ = false;
   std::optional<EyesPlace> eyes_;  ///< as noted last
-  std::optional<FlapDemonstration> flap_shown_;
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;

@@ -12,6 +12,7 @@
 #include "app/procedure/coach/coach.h"
 #include "app/procedure/procedure.h"
 #include "app/procedure/steps/step_plan.h"
+#include "app/session/drawn_plan_event.h"
 #include "app/session/step_event.h"
 #include "app/station/workstation.h"
 #include "app/view/display_windows.h"
@@ -40,7 +41,9 @@ struct RehearsalPlan {
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
   bool flap_closed = false;                 ///< the patient's gum is whole, incision and flap are done by hand
   std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
+  bool shows_whole_operation = false;       ///< a scripted hand does, up to the stitches
   assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
+  bool soft_tissue_is_held_away = false;    ///< by an assistant: no instrument touches it
   assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told
   std::string instruction;                  ///< of a practice block, one line; empty: none
   bool is_assessed = false;                 ///< nothing helps, all is recorded (session/assessment_event)
@@ -63,6 +66,7 @@ struct RehearsalPlan {
   std::string parameters;  ///< settings file, applied whenever it changes; `command` holds the keys it leaves out
   Procedure* procedure = nullptr;                 ///< leads where there is one
   std::optional<ProcedureSteps> procedure_steps;  ///< followed where there is one
+  DrawnPlan drawn;                                ///< by the surgeon before; empty: nothing is drawn
   std::optional<CoachRules> coach;                ///< none: it is silent
   std::optional<haptics::PedalChoice> pedal;      ///< none: no pedal is searched for
   std::optional<double> rate_Hz;                  ///< none: the rate of a recorded pose source, else 1 kHz

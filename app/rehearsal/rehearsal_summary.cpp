@@ -76,6 +76,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
   line("tooth", f.tooth);
   line("luxation", f.luxation);
   if (!f.way.empty()) line("way out", f.way);
+  if (!f.drawn.empty()) line("own plan", f.drawn);
   if (f.flap) line("flap", flapInWords(*f.flap));
   if (f.socket) line("socket", socketInWords(*f.socket));
   if (f.procedure) {

@@ -30,6 +30,7 @@ struct RehearsalFigures {
   std::string tooth;                      ///< what it has come apart into, tooth_follower.h; empty: whole
   std::string luxation;                   ///< LuxationLog::summary()
   std::string way;                        ///< what keeps it in, as looked at last; empty: nobody looked, or it is out
+  std::string drawn;                      ///< the cut against the surgeon's own lines; empty: nothing was drawn
   std::optional<FlapRecord> flap;         ///< none: it was raised from the beginning
   std::optional<SocketRecord> socket;     ///< none: no piece is out
   std::optional<ProcedureRun> procedure;  ///< step by step

@@ -45,6 +45,9 @@ std::string caseSection(const SessionReview& review) {
     rows.push_back({"Plan", "not told: " + review.why_no_plan});
   if (review.metrics.prediction)
     rows.push_back({"Predicted", predictionInWords(*review.metrics.prediction, review.metrics.endOfWork_s())});
+  if (const std::string drawn = review.metrics.drawn_cut ? drawnCutInWords(*review.metrics.drawn_cut) : "";
+      !drawn.empty())
+    rows.push_back({"Own plan", drawn});
   return tableMarkup({}, rows);
 }
 

@@ -99,6 +99,8 @@ void addEvents(SessionMetrics& metrics, const std::vector<SessionEvent>& events)
       if (!metrics.touched) metrics.touched.emplace();
       if (const auto touch = touchFrom(event.text)) countInto(*metrics.touched, *touch);
     }
+    if (event.kind == kDrawnPlanEvent) metrics.drawn_plan = drawnPlanFrom(event.text);
+    if (event.kind == kDrawnCutEvent) metrics.drawn_cut = drawnCutFrom(event.text);
     if (event.kind == kFlapEvent) metrics.flap = flapFrom(event.text);
     if (event.kind == kSocketEvent) metrics.socket = socketFrom(event.text);
     if (event.kind == kWayEvent) metrics.way = wayFrom(event.text), ++metrics.ways_looked_at;

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/session/drawn_plan_event.h"
 #include "app/session/flap_event.h"
 #include "app/session/measures/contact_envelope.h"
 #include "app/session/measures/measure_value.h"
@@ -58,6 +59,8 @@ struct SessionMetrics {
   std::vector<MeasuredWay> measured;
   std::vector<BridgeBreak> bridge_breaks;          ///< undone ones too
   std::optional<std::vector<TouchCount>> touched;  ///< teeth and canal; none: recorded before touches were counted
+  std::optional<DrawnPlan> drawn_plan;             ///< of the surgeon; none: nothing was drawn
+  std::optional<DrawnComparison> drawn_cut;        ///< against it; none: not compared
   std::optional<FlapRecord> flap;                  ///< none: it was raised from the beginning
   std::optional<SocketRecord> socket;              ///< none: no piece of a tooth was out at the end
   std::size_t ways_looked_at = 0;                  ///< how often it was looked what keeps the tooth in

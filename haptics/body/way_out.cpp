@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <queue>
@@ -133,12 +134,13 @@ class Search {
     nodes_.clear();
     best_.clear();
     open_ = {};
-    add({piece_.middle_mm, {1.0, 0.0, 0.0, 0.0}}, kNone, 0.0);
+    const Placement start{piece_.middle_mm, {1.0, 0.0, 0.0, 0.0}};
+    add({start, kNone, 0.0, overlap_mm3(piece_.coarse, start, around_.field, kPlay_mm)}, 0.0);
     for (std::size_t expanded = 0; expanded < most_poses && !open_.empty() && !stop.stop_requested();) {
       const std::size_t from = open_.top().second;
       open_.pop();
+      if (!settle(from)) continue;
       const Node node = nodes_[from];
-      if (node.cost > best_.at(keyOf(node.placement))) continue;
       ++expanded, ++poses_;
       if (along_mm(node.placement) >= goal_.distance_mm) return wayTo(from);
       for (int move = 0; move < 12; ++move) expand(node, from, move, graze_price);
@@ -151,7 +153,9 @@ class Search {
   struct Node {
     Placement placement;
     std::size_t from;
-    double cost;
+    double cost;            ///< without what is newly cut, until that is known
+    double met_mm3;         ///< of the coarse surface
+    bool is_known = false;  ///< what is newly cut
   };
 
   double along_mm(const Placement& placement) const {
@@ -170,12 +174,26 @@ class Search {
     return key;
   }
 
-  void add(const Placement& placement, std::size_t from, double cost) {
-    const auto [known, is_new] = best_.try_emplace(keyOf(placement), cost);
-    if (!is_new && known->second <= cost) return;
-    known->second = cost;
-    open_.emplace(cost + rest_->at(placement.at_mm), nodes_.size());
-    nodes_.push_back({placement, from, cost});
+  void add(const Node& node, double dearer) {
+    open_.emplace(node.cost + dearer + rest_->at(node.placement.at_mm), nodes_.size());
+    nodes_.push_back(node);
+  }
+
+  /// What is newly cut costs most to find, so it is looked for in a pose that is next. True: it still is.
+  bool settle(std::size_t index) {
+    Node& node = nodes_[index];
+    const auto known = best_.try_emplace(keyOf(node.placement), std::numeric_limits<double>::infinity()).first;
+    if (node.is_known) return node.cost <= known->second;
+    if (node.cost >= known->second) return false;
+    if (node.met_mm3 > 0.0 && node.from != kNone)
+      node.cost += kSolidPrice * newlyCut_mm3(node.placement, nodes_[node.from].placement);
+    node.is_known = true;
+    if (node.cost >= known->second) return false;
+    known->second = node.cost;
+    const double in_all = node.cost + rest_->at(node.placement.at_mm);
+    if (open_.empty() || in_all <= open_.top().first) return true;
+    open_.emplace(in_all, index);
+    return false;
   }
 
   void expand(const Node& node, std::size_t index, int move, double graze_price) {
@@ -185,16 +203,14 @@ class Search {
       by_mm[move / 2] = sign * step_.length_mm;
     else
       turn_rad[move / 2 - 3] = sign * step_.turn_rad;
-    const Placement next = node.placement.moved(by_mm, turn_rad);
-    const double met_mm3 = overlap_mm3(piece_.coarse, next, around_.field, kPlay_mm);
-    const double length_mm = glm::length(next.at_mm - node.placement.at_mm) + (move < 6 ? 0.0 : 0.3 * step_.length_mm);
-    double cost = node.cost + length_mm * (1.0 + graze_price * met_mm3);
-    if (met_mm3 > 0.0) {
-      const auto known = best_.find(keyOf(next));
-      if (known != best_.end() && known->second <= cost) return;
-      cost += kSolidPrice * newlyCut_mm3(next, node.placement);
-    }
-    add(next, index, cost);
+    Node next{node.placement.moved(by_mm, turn_rad), index, node.cost, 0.0};
+    const double length_mm =
+        glm::length(next.placement.at_mm - node.placement.at_mm) + (move < 6 ? 0.0 : 0.3 * step_.length_mm);
+    const auto known = best_.find(keyOf(next.placement));
+    if (known != best_.end() && known->second <= node.cost + length_mm) return;
+    next.met_mm3 = overlap_mm3(piece_.coarse, next.placement, around_.field, kPlay_mm);
+    next.cost += length_mm * (1.0 + graze_price * next.met_mm3);
+    add(next, kSolidPrice * std::max(0.0, next.met_mm3 - node.met_mm3));
   }
 
   /// Solid that the piece holds now and did not hold one pose before: paid once.

@@ -79,7 +79,7 @@ struct Look {
   const char* name;
   assets::Material material;
 };
-constexpr std::size_t kTrailColours = 4, kKinds = 4 + kTrailColours;
+constexpr std::size_t kTrailColours = 4, kKinds = 5 + kTrailColours;
 /// By BeadKind, trails by colour; linear colours.
 const std::array<Look, kKinds>& looks() {
   static const std::array<Look, kKinds> kLooks{
@@ -87,6 +87,7 @@ const std::array<Look, kKinds>& looks() {
        {kChipsPart, {.base_colour = {0.74F, 0.62F, 0.44F, 1.0F}}},
        {kFolliclePart, {.base_colour = {0.46F, 0.16F, 0.13F, 1.0F}, .roughness = 0.3F}},
        {kStitchesPart, {.base_colour = {0.02F, 0.03F, 0.12F, 1.0F}}},
+       {kDrawnPart, {.base_colour = {0.05F, 0.25F, 0.85F, 1.0F}}},
        {kMarksPart, {.base_colour = {0.06F, 0.55F, 0.16F, 1.0F}}},
        {kMarksPart, {.base_colour = {0.75F, 0.62F, 0.05F, 1.0F}}},
        {kMarksPart, {.base_colour = {0.85F, 0.27F, 0.02F, 1.0F}}},

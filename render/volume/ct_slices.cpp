@@ -10,6 +10,7 @@
 #include "render/shaders/shared_constants.glsl"
 #include "render/volume/bur_distance.h"
 #include "render/volume/slice_font.h"
+#include "render/volume/volume_fields.h"
 
 namespace render {
 namespace {
@@ -305,6 +306,44 @@ void drawRuler(SliceImage& slice, const Layout& layout, const glm::dvec3& middle
   drawText(slice, text, gap, 2 * gap + kLetterHeight * dot, dot);
 }
 
+/// Trilinear, of values in the order of a grid.
+template <class T>
+float valueAt(const assets::VolumeGrid& grid, const Voxels<T>& voxels, const glm::dvec3& p_mm) {
+  const glm::dvec3 index = grid.indexFromPoint(p_mm);
+  const Between at[3] = {between(index.x), between(index.y), between(index.z)};
+  float sum = 0.0f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 off = assets::cornerOffset(corner);
+    const glm::ivec3 ijk = glm::ivec3(at[0].low, at[1].low, at[2].low) + off;
+    float weight = 1.0f;
+    for (int axis = 0; axis < 3; ++axis) weight *= off[axis] != 0 ? at[axis].part : 1.0f - at[axis].part;
+    const bool is_inside = grid.contains(ijk);
+    const std::int64_t offset = voxels.stride.x * ijk.x + voxels.stride.y * ijk.y + voxels.stride.z * ijk.z;
+    sum += weight * (is_inside ? static_cast<float>(voxels.first[offset]) : voxels.outside);
+  }
+  return sum;
+}
+
+float shadeOf(float hounsfield) { return std::clamp((hounsfield - kLevel_HU) / kWindow_HU + 0.5f, 0.0f, 1.0f); }
+
+/// As scanned, turned and moved with the piece.
+void drawMovedPiece(SliceImage& slice, const PlacedFields& piece, const assets::VolumeGrid& scan_grid,
+                    const Voxels<std::int16_t>& grey) {
+  const assets::VolumeGrid& grid = piece.fields->grid();
+  const BorderedField<std::uint8_t>& field = piece.fields->solid();
+  const Voxels<std::uint8_t> solid{field.at({0, 0, 0}), {1, field.layout().row, field.layout().slice}, 0.0f};
+  const auto X_QP = piece.X_PQ.inverse();
+  const glm::dvec3 last(grid.size);
+  for (int y = 0; y < slice.edge_px(); ++y)
+    for (int x = 0; x < slice.edge_px(); ++x) {
+      const glm::dvec3 q = (X_QP * calibration::Point<calibration::Patient>{slice.position_P_mm(x, y)}).mm;
+      const glm::dvec3 index = grid.indexFromPoint(q);
+      if (glm::any(glm::lessThan(index, glm::dvec3(-1.0))) || glm::any(glm::greaterThan(index, last))) continue;
+      const float share = valueAt(grid, solid, q) / 255.0f;
+      if (share > 0.0f) slice.blend(x, y, glm::vec3(255.0f * shadeOf(valueAt(scan_grid, grey, q))), share);
+    }
+}
+
 void drawLabels(SliceImage& slice, const Layout& layout) {
   const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
   const int high = kLetterHeight * dot, wide = (kLetterWidth + 1) * dot;
@@ -333,7 +372,7 @@ CtSlices::CtSlices(const assets::VolumeGrid& grid, CtScan scan) : grid_(grid), s
 }
 
 Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px,
-                      const GuideField* guides) const {
+                      const GuideField* guides, std::span<const PlacedFields> moved) const {
   const Layout& layout = kLayouts[static_cast<std::size_t>(plane)];
   const glm::dvec3 middle = frame.X_PT.translation_mm + frame.slices_beside_bur_P_mm;
   SliceImage slice(layout, middle, edge_px);
@@ -358,13 +397,13 @@ Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<
     mixRow(grid_, now, layout, down, normal, first, now_row);
     for (int x = 0; x < edge_px; ++x) {
       const Between right = columns[static_cast<std::size_t>(x)];
-      const float shown = (along(grey_row, right) - kLevel_HU) / kWindow_HU + 0.5f;
-      slice.set(x, y, glm::vec3(255.0f * std::clamp(shown, 0.0f, 1.0f)));
+      slice.set(x, y, glm::vec3(255.0f * shadeOf(along(grey_row, right))));
       const float solid = along(before_row, right), carved = solid - along(now_row, right);
       if (carved > 0.0f) slice.blend(x, y, kCarved, carved / std::max(solid, 64.0f));
     }
   }
 
+  for (const PlacedFields& piece : moved) drawMovedPiece(slice, piece, grid_, grey);
   drawCanal(slice, layout, middle, scan_);
   if (guides != nullptr && frame.layers.planned_cut) drawPlan(slice, grid_, *guides);
   drawCross(slice, frame.bur_radius_mm + 1.0);

@@ -1,5 +1,5 @@
 // CT slices through the bur, or beside it (Frame::slices_beside_bur_P_mm), in three planes: grey values in a bone
-// window, carved material marked, outlines of canal, bur and, with its layer, planned cut, a cross at the centre,
+// window, carved material marked, moved pieces of tooth with their grey values where they are now, outlines of canal, bur and, with its layer, planned cut, a cross at the centre,
 // plane, sides, a scale of 5 mm, the way from bur to canal, and the ruler where it passes through. Radiological views:
 // axial from below, coronal from in front, sagittal from the patient's left. Frame P (LPS), mm. Plain CPU code; one
 // thread at a time. Cost: below 1 ms a plane of 160 px (two or three voxel rows are mixed once per pixel row). Memory:
@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "assets/volume_grid.h"
@@ -19,6 +20,8 @@
 #include "render/volume/guide_field.h"
 
 namespace render {
+
+struct PlacedFields;
 
 enum class SlicePlane { axial, coronal, sagittal };
 inline constexpr std::array kSlicePlanes{SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal};
@@ -38,9 +41,10 @@ class CtSlices {
   /// Throws GpuError if the scan does not fit the grid.
   CtSlices(const assets::VolumeGrid& grid, CtScan scan);
 
-  /// A square image of `edge_px`; `live`: the current bone; `guides`: of the planned cut, null: none.
+  /// A square image of `edge_px`; `live`: the current bone; `guides`: of the planned cut, null: none; `moved`: pieces
+  /// that are not in `live`.
   Image image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px,
-              const GuideField* guides = nullptr) const;
+              const GuideField* guides = nullptr, std::span<const PlacedFields> moved = {}) const;
 
  private:
   assets::VolumeGrid grid_;

@@ -51,6 +51,23 @@ TEST(LedHand, GoesAlongItsPathAndArrives) {
   EXPECT_TRUE(hand.hasArrived());
 }
 
+TEST(LedHand, GoesOnAtItsPaceWhereItIsMeantToPress) {
+  // Along y, a millimetre into a wall.
+  const auto pressed = [](double patient_mm) {
+    return LedPath{[](double t_s) {
+                     return HandTarget{{1.0, 10.0 * std::min(t_s, 1.0), 0.0}, {1.0, 0.0, 0.0, 0.0}, false, 0, true};
+                   },
+                   1.0, patient_mm};
+  };
+  for (const double patient_mm : {0.0, 1.6}) {
+    LedHand hand({});
+    const LedPath path = pressed(patient_mm);
+    hand.lead(&path);
+    after(hand, 1.3, 0.0);
+    EXPECT_EQ(hand.hasArrived(), patient_mm > 0.0);
+  }
+}
+
 TEST(LedHand, WaitsWhereItIsHeldUpAndGoesOnWhenThatGivesWay) {
   LedHand hand({});
   const LedPath path = tenMillimetres();

@@ -6,6 +6,7 @@
 
 #include "render/gpu/gpu_error.h"
 #include "render/volume/bur_distance.h"
+#include "render/volume/volume_fields.h"
 #include "tests/render/ball_volume.h"
 
 namespace render {
@@ -109,6 +110,23 @@ void expectOutlineAt(const Image& image, glm::dvec2 at_mm, glm::dvec2 outward) {
   EXPECT_TRUE(is_bur(0.0)) << at_mm.x << " " << at_mm.y;
   EXPECT_FALSE(is_bur(0.5)) << at_mm.x << " " << at_mm.y;
   EXPECT_FALSE(is_bur(-0.5)) << at_mm.x << " " << at_mm.y;
+}
+
+TEST(CtSlices, ShowAMovedPieceWithItsGreyValuesWhereItIs) {
+  const auto is_tooth = [](const glm::dvec3& p) { return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(2.0))); };
+  // Half of it dark: a quarter turn brings that to another side.
+  Scene scene([&](const glm::dvec3& p) { return is_tooth(p) ? (p.x < 0.0 ? 600.0 : 1700.0) : -1000.0; });
+  const VolumeFields piece(scene.ct.grid, scene.ct.solid, {});
+  assets::CtVolume jaw = scene.ct;
+  std::ranges::fill(jaw.solid, std::uint8_t{0});
+  const glm::dquat quarter(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+  const PlacedFields moved[] = {{&piece, {quarter, {6.0, 0.0, 0.0}}}};
+  const Image image = CtSlices(scene.ct.grid, scene.scan)
+                          .image(SlicePlane::axial, scene.frame, testing::borderedSolid(jaw), kEdge, nullptr, moved);
+  // About z the dark half at -x comes to -y, which an axial slice has above.
+  EXPECT_NEAR(pixelAt(image, 6.0, -1.0).r, 255.0 * ((600.0 - 500.0) / 2500.0 + 0.5), 1.0);
+  EXPECT_NEAR(pixelAt(image, 6.0, 1.0).r, 255.0 * ((1700.0 - 500.0) / 2500.0 + 0.5), 1.0);
+  EXPECT_EQ(pixelAt(image, 9.0, 0.0), (Rgb{0, 0, 0}));
 }
 
 TEST(CtSlices, OutlineTheBurExactly) {

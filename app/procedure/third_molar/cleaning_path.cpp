@@ -7,106 +7,81 @@
 namespace app {
 namespace {
 
-// Above a place, from one to the next: in the socket, and across the crown of the tooth before it.
-constexpr double kOverSite_mm = 16.0, kBetween_mm = 5.0, kOverCrown_mm = 14.0;
-constexpr double kTravels_mm_per_s = 60.0, kNears_mm_per_s = 25.0, kDraws_mm_per_s = 20.0;
-constexpr double kSucks_s = 0.35, kConfirms_s = 0.5;
-constexpr double kOffPlace_mm = 0.6;                   ///< the opening over what it takes
-constexpr double kAgainst_mm = 0.25, kDrawn_mm = 1.5;  ///< curette: into the wall, to either side
-constexpr double kFilePressed_mm = 0.7, kFileBeyond_mm = 1.0;
-constexpr int kDraws = 2, kFileDraws = 4;
+constexpr double kOverSite_mm = 16.0, kOverCrown_mm = 14.0;  // of a place: out of the socket; past the next tooth's crown
+constexpr double kTravels_mm_per_s = 80.0, kNears_mm_per_s = 30.0, kDraws_mm_per_s = 20.0, kTurns_rad_per_s = 2.5;
+constexpr double kSucks_s = 0.8, kConfirms_s = 0.5;
+constexpr double kScrapes_mm = 0.8, kFiles_mm = 1.3;  ///< pressed beyond the surface
+constexpr double kPatient_mm = 1.6;                   ///< and no slower for it
+constexpr double kFileBeyond_mm = 0.6;
+constexpr int kDraws = 2, kFileDraws = 3;
 
-/// The place where the middle of the head belongs for a work at `p`.
+glm::dquat heldAt(const CleaningPlace& place, const glm::dquat& R_PT) {
+  return glm::normalize(glm::dquat(R_PT * glm::dvec3(0.0, 0.0, 1.0), place.shaft_P) * R_PT);
+}
+
 class Worker {
  public:
-  Worker(LedKeys& keys, const CleaningStep& step, const haptics::Tool& tool, const glm::dquat& R_PT)
-      : keys_(keys), step_(step), tool_(tool), R_PT_(R_PT) {}
+  Worker(LedKeys& keys, const CleaningStep& step, const glm::dquat& R_PT) : keys_(keys), step_(step), R_PT_(R_PT) {}
 
-  void workAt(const std::vector<glm::dvec3>& way) {
+  void workAt(const CleaningPlace& place) {
+    const glm::dvec3 first = place.way_P_mm.front();
+    const double over_mm = step_.what == Cleaning::stitch ? kOverCrown_mm : kOverSite_mm;
+    const HandPose above{heldAt(place), first + over_mm * place.shaft_P};
+    keys_.moveTo(above, kTravels_mm_per_s, kTurns_rad_per_s);
+    keys_.moveTo({heldAt(place), first}, kNears_mm_per_s);
     switch (step_.what) {
       case Cleaning::suction:
-        return suck(way.front());
+        keys_.hold(kSucks_s);
+        break;
       case Cleaning::curette:
-        return scrape(way.front());
+        draw(place, kScrapes_mm, kDraws);
+        break;
       case Cleaning::file:
-        return file(way);
+        draw(place, kFiles_mm, kFileDraws);
+        break;
       case Cleaning::stitch:
-        return confirm(way.front());
+        keys_.press(true);
+        keys_.hold(kConfirms_s);
+        keys_.press(false);
+        break;
     }
+    keys_.moveTo(above, kTravels_mm_per_s);
   }
 
  private:
-  HandPose at(const glm::dvec3& p) const { return {R_PT_, p}; }
-  void approach(const glm::dvec3& p, double above_mm = kBetween_mm) {
-    keys_.moveTo(at(p + above_mm * step_.out_P), kTravels_mm_per_s);
-    keys_.moveTo(at(p), kNears_mm_per_s);
-  }
-  void leave(const glm::dvec3& p, double above_mm = kBetween_mm) {
-    keys_.moveTo(at(p + above_mm * step_.out_P), kTravels_mm_per_s);
-  }
-
-  void suck(const glm::dvec3& p) {
-    const glm::dvec3 here = p + tool_.head.radius_mm * (R_PT_ * glm::dvec3(0, 0, 1)) + kOffPlace_mm * step_.out_P;
-    approach(here);
-    keys_.hold(kSucks_s);
-    leave(here);
-  }
-  /// The wall lies away from the middle of the socket.
-  void scrape(const glm::dvec3& p) {
-    const glm::dvec3 away = p - step_.middle_P_mm;
-    const glm::dvec3 n = glm::length(away) > 0.1 ? glm::normalize(away) : -step_.out_P;
-    const glm::dvec3 here = p - (tool_.head.radius_mm - kAgainst_mm) * n;
-    glm::dvec3 along = step_.out_P - glm::dot(step_.out_P, n) * n;
-    along = glm::length(along) > 0.2 ? glm::normalize(along) : glm::normalize(glm::cross(n, glm::dvec3(1.0, 0.3, 0.0)));
-    approach(here);
-    for (int n_draw = 0; n_draw < kDraws; ++n_draw)
-      for (const double side : {1.0, -1.0}) keys_.moveTo(at(here + side * kDrawn_mm * along), kDraws_mm_per_s);
-    leave(here);
-  }
-  /// To and fro along the edge, a little beyond its ends, from straight above and from either side of it.
-  void file(const std::vector<glm::dvec3>& way) {
-    const glm::dvec3 run =
-        way.size() > 1 ? way.back() - way.front() : glm::cross(step_.out_P, glm::dvec3(1.0, 0.0, 0.0));
-    const glm::dvec3 along = glm::normalize(run), side = glm::normalize(glm::cross(step_.out_P, along));
-    const double off_mm = tool_.head.radius_mm - kFilePressed_mm;
-    for (const double lean : {0.0, 0.7, -0.7}) {
-      const glm::dvec3 lift = off_mm * glm::normalize(step_.out_P + lean * side);
-      approach(way.front() + lift);
-      for (int draw = 0; draw < kFileDraws; ++draw) {
-        const bool back = draw % 2 == 1;
-        for (std::size_t n = 0; n < way.size(); ++n)
-          keys_.moveTo(at(way[back ? way.size() - 1 - n : n] + lift), kDraws_mm_per_s);
-        keys_.moveTo(at((back ? way.front() - kFileBeyond_mm * along : way.back() + kFileBeyond_mm * along) + lift),
-                     kDraws_mm_per_s);
-      }
-      leave(way.front() + lift);
+  glm::dquat heldAt(const CleaningPlace& place) const { return app::heldAt(place, R_PT_); }
+  /// To and fro, pressed; along a short way a little beyond its end.
+  void draw(const CleaningPlace& place, double pressed_mm, int times) {
+    const std::vector<glm::dvec3>& way = place.way_P_mm;
+    const glm::dvec3 pressed = pressed_mm * place.into_P;
+    const glm::dvec3 run = way.back() - way.front();
+    const glm::dvec3 beyond = glm::length(run) > 0.1 ? kFileBeyond_mm * glm::normalize(run) : glm::dvec3(0.0);
+    for (int n = 0; n < times; ++n) {
+      for (const glm::dvec3& p : way) keys_.moveTo({heldAt(place), p + pressed}, kDraws_mm_per_s);
+      keys_.moveTo({heldAt(place), way.back() + beyond + pressed}, kDraws_mm_per_s);
+      for (auto p = way.rbegin(); p != way.rend(); ++p) keys_.moveTo({heldAt(place), *p + pressed}, kDraws_mm_per_s);
+      keys_.moveTo({heldAt(place), way.front() - beyond + pressed}, kDraws_mm_per_s);
     }
-  }
-  void confirm(const glm::dvec3& p) {
-    approach(p, kOverCrown_mm);
-    keys_.press(true);
-    keys_.hold(kConfirms_s);
-    keys_.press(false);
-    leave(p, kOverCrown_mm);
+    keys_.moveTo({heldAt(place), way.front()}, kDraws_mm_per_s);
   }
 
   LedKeys& keys_;
   const CleaningStep& step_;
-  const haptics::Tool& tool_;
   glm::dquat R_PT_;
 };
 
 }  // namespace
 
 haptics::LedPath cleaningPath(const HandPose& from, const glm::dvec3& outside_P_mm, const CleaningStep& step,
-                              const haptics::Tool& tool, const glm::dquat& R_PT) {
-  const glm::dvec3 first = step.ways_P_mm.front().front(), last = step.ways_P_mm.back().back();
-  const HandPose over{R_PT, first + kOverSite_mm * step.out_P};
+                              const glm::dquat& R_PT) {
+  const CleaningPlace& first = step.places.front();
+  const HandPose over{heldAt(first, R_PT), first.way_P_mm.front() + kOverSite_mm * first.shaft_P};
   LedKeys keys(over);
-  Worker worker(keys, step, tool, R_PT);
-  for (const std::vector<glm::dvec3>& way : step.ways_P_mm) worker.workAt(way);
-  keys.moveTo({R_PT, last + kOverSite_mm * step.out_P}, kTravels_mm_per_s);
-  return joined(throughOutside(from, over, outside_P_mm), keys.path());
+  Worker worker(keys, step, R_PT);
+  for (const CleaningPlace& place : step.places) worker.workAt(place);
+  haptics::LedPath path = joined(throughOutside(from, over, outside_P_mm), keys.path());
+  path.patient_mm = kPatient_mm;
+  return path;
 }
 
 }  // namespace app

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "app/procedure/third_molar/delivery_path.h"
-#include "haptics/tool/tool.h"
 
 namespace app {
 
-/// From `from` through outside, place by place, and up again. `R_PT`: how the instrument is held.
+/// From `from` through outside, place by place, and up again. `R_PT`: how the instrument is held where its shaft points
+/// along `R_PT` z; at a place it is turned to that place's.
 haptics::LedPath cleaningPath(const HandPose& from, const glm::dvec3& outside_P_mm, const CleaningStep& step,
-                              const haptics::Tool& tool, const glm::dquat& R_PT);
+                              const glm::dquat& R_PT);
 
 }  // namespace app

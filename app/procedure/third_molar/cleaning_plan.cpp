@@ -6,39 +6,95 @@
 
 #include <fmt/core.h>
 
+#include "app/procedure/debris/follicle.h"
+#include "app/procedure/debris/suction_tip.h"
+
 namespace app {
 namespace {
 
 // Our defaults.
-constexpr double kOneReach_mm = 2.5;     ///< of a suction tip that stands still
-constexpr double kOneScrape_mm = 1.6;    ///< of a curette drawn at a place
-constexpr double kWorthFiling_mm = 1.5;  ///< length of an edge
+constexpr double kSurely_mm = 0.3;                      ///< nearer than the reach of suction or curette
+constexpr double kAtWall_mm = 0.4;                      ///< of a curette before it is pressed
+constexpr double kWorthFiling_mm = 1.0;                 ///< length of an edge
+constexpr std::array kFiledLeans{0.0, 0.6, -0.6};       ///< to either side of an edge
+constexpr double kOffEdge_mm = 0.2;                     ///< of a file that is not pressed yet
 /// What may be loose after each is taken at last; what a file leaves is filed once more.
-constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction, Cleaning::file,
-                            Cleaning::suction, Cleaning::file,    Cleaning::suction, Cleaning::stitch};
+constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction, Cleaning::curette,
+                            Cleaning::suction, Cleaning::file,    Cleaning::file,    Cleaning::file,
+                            Cleaning::suction, Cleaning::stitch};
 
-/// Middles of groups that lie within `reach_mm`, in the order of a way from one to the nearest next.
-std::vector<glm::dvec3> grouped(std::vector<glm::dvec3> places, double reach_mm) {
-  std::vector<glm::dvec3> middles;
-  while (!places.empty()) {
-    const glm::dvec3 first = places.front();
-    glm::dvec3 sum(0.0);
-    double count = 0.0;
-    std::erase_if(places, [&](const glm::dvec3& p) {
-      if (glm::distance(p, first) > reach_mm) return false;
-      sum += p;
-      count += 1.0;
-      return true;
-    });
-    middles.push_back(sum / count);
+/// Order along an edge, from one of its ends.
+std::vector<glm::dvec3> inOrder(std::vector<glm::dvec3> points) {
+  if (points.size() < 3) return points;
+  const glm::dvec3 any = points.front();
+  std::iter_swap(points.begin(), std::ranges::max_element(
+                                     points, {}, [&](const glm::dvec3& p) { return glm::distance(p, any); }));
+  for (std::size_t n = 1; n < points.size(); ++n) {
+    const auto from = points.begin() + static_cast<std::ptrdiff_t>(n);
+    std::iter_swap(from, std::ranges::min_element(
+                             from, points.end(), {}, [&](const glm::dvec3& p) { return glm::distance(p, points[n - 1]); }));
   }
-  for (std::size_t n = 1; n < middles.size(); ++n) {
-    const auto from = middles.begin() + static_cast<std::ptrdiff_t>(n);
-    std::iter_swap(from, std::ranges::min_element(from, middles.end(), {}, [&](const glm::dvec3& p) {
-                     return glm::distance(p, middles[n - 1]);
-                   }));
+  return points;
+}
+
+std::vector<CleaningPlace> suckedAt(const std::vector<glm::dvec3>& loose, const SocketReach& reach, double tip_mm) {
+  std::vector<CleaningPlace> places;
+  const auto sucks = [&](const TipPlace& place, const glm::dvec3& goal) {
+    const glm::dvec3 opening = place.at_P_mm - tip_mm * place.shaft_P;
+    return glm::distance(opening, goal) < kRinsed_mm - kSurely_mm && reach.isOpen(opening, goal);
+  };
+  constexpr double kAnyWall_mm = 10.0;
+  for (const auto& chosen : reach.fewestFor(loose, tip_mm, kRinsed_mm, kAnyWall_mm, sucks))
+    places.push_back({{chosen.place.at_P_mm}, chosen.place.shaft_P, glm::dvec3(0.0)});
+  return places;
+}
+
+/// Against the wall, and drawn along it towards the handle.
+std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const SocketReach& reach, double tip_mm) {
+  std::vector<CleaningPlace> places;
+  const double reach_mm = tip_mm + kScrapeReach_mm - kSurely_mm;
+  const auto scrapes = [&](const TipPlace& place, const glm::dvec3& goal) {
+    return glm::distance(place.at_P_mm, goal) < reach_mm;
+  };
+  for (const auto& chosen : reach.fewestFor(stuck, tip_mm, reach_mm, kAtWall_mm, scrapes)) {
+    const TipPlace& place = chosen.place;
+    const glm::dvec3 n = place.wall_P;
+    glm::dvec3 along = place.shaft_P - glm::dot(place.shaft_P, n) * n;
+    along = glm::length(along) > 0.2 ? glm::normalize(along) : glm::normalize(glm::cross(n, glm::dvec3(1.0, 0.3, 0.0)));
+    places.push_back({{place.at_P_mm + (tip_mm - place.wall_mm) * n, place.at_P_mm + (tip_mm - place.wall_mm) * n + along},
+                      place.shaft_P, -n});
   }
-  return middles;
+  return places;
+}
+
+/// From straight above and from either side, with the handle where the whole edge can be reached.
+std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const SocketReach& reach, double tip_mm) {
+  std::vector<CleaningPlace> places;
+  for (const SharpEdge& edge : edges) {
+    if (edge.length_mm < kWorthFiling_mm) continue;
+    const std::vector<glm::dvec3> way = inOrder(edge.points_P_mm);
+    glm::dvec3 out(0.0);
+    for (const glm::dvec3& p : way) out += reach.placeAt(p, reach.shafts_P().front()).wall_P;
+    if (glm::length(out) < 1e-6) out = reach.shafts_P().front();
+    out = glm::normalize(out);
+    const glm::dvec3 run = way.back() - way.front();
+    const glm::dvec3 along = glm::length(run) > 0.1
+                                 ? glm::normalize(run - glm::dot(run, out) * out + 1e-9)
+                                 : glm::normalize(glm::cross(out, glm::dvec3(0.3, 1.0, 0.2)));
+    const glm::dvec3 side = glm::cross(out, along);
+    for (const double lean : kFiledLeans) {
+      const glm::dvec3 into = -glm::normalize(out + lean * side);
+      std::vector<glm::dvec3> middles;
+      for (const glm::dvec3& p : way) middles.push_back(p - (tip_mm + kOffEdge_mm) * into);
+      const auto shaft = std::ranges::find_if(reach.shafts_P(), [&](const glm::dvec3& one) {
+        return std::ranges::all_of(middles, [&](const glm::dvec3& p) { return reach.isFree(p, one, tip_mm); });
+      });
+      if (shaft == reach.shafts_P().end()) continue;
+      for (glm::dvec3& p : middles) p += kOffEdge_mm * into;
+      places.push_back({std::move(middles), *shaft, into});
+    }
+  }
+  return places;
 }
 
 std::string wordsOf(Cleaning what, std::size_t count) {
@@ -47,46 +103,59 @@ std::string wordsOf(Cleaning what, std::size_t count) {
   return fmt::format("{} ({} place{})", kWords[static_cast<std::size_t>(what)], count, count == 1 ? "" : "s");
 }
 
-}  // namespace
-
-std::optional<CleaningStep> CleaningPlanner::stepOf(Cleaning what, const SiteLeft& left) const {
-  CleaningStep step{what, {}, out_P_};
+bool isAnything(Cleaning what, const SiteLeft& left) {
   switch (what) {
-    case Cleaning::suction: {
-      std::vector<glm::dvec3> loose = left.chips_P_mm;
-      loose.insert(loose.end(), left.loose_P_mm.begin(), left.loose_P_mm.end());
-      for (const glm::dvec3& p : grouped(loose, kOneReach_mm)) step.ways_P_mm.push_back({p});
-      break;
-    }
-    case Cleaning::curette: {
-      glm::dvec3 middle(0.0);
-      for (const glm::dvec3& p : left.stuck_P_mm) middle += p / static_cast<double>(left.stuck_P_mm.size());
-      step.middle_P_mm = middle;
-      for (const glm::dvec3& p : grouped(left.stuck_P_mm, kOneScrape_mm)) step.ways_P_mm.push_back({p});
-      break;
-    }
+    case Cleaning::suction:
+      return !left.chips_P_mm.empty() || !left.loose_P_mm.empty();
+    case Cleaning::curette:
+      return !left.stuck_P_mm.empty();
     case Cleaning::file:
-      for (const SharpEdge& edge : left.edges) {
-        if (edge.length_mm < kWorthFiling_mm) continue;
-        std::vector<glm::dvec3> way = grouped(edge.points_P_mm, 0.1 * kEdgeStep_mm);
-        step.ways_P_mm.push_back(std::move(way));
-      }
-      break;
+      return !left.edges.empty();
     case Cleaning::stitch:
-      for (const glm::dvec3& p : left.stitches_P_mm) step.ways_P_mm.push_back({p});
-      break;
+      return !left.stitches_P_mm.empty();
   }
-  return step.ways_P_mm.empty() ? std::nullopt : std::optional(std::move(step));
+  return false;
 }
 
-std::optional<OperationStep> CleaningPlanner::next(const SiteLeft& left) {
+/// Of what is in the socket.
+glm::dvec3 middleOf(const SiteLeft& left) {
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  const auto take = [&](const std::vector<glm::dvec3>& places) {
+    for (const glm::dvec3& p : places) low = glm::min(low, p), high = glm::max(high, p);
+  };
+  take(left.chips_P_mm), take(left.stuck_P_mm), take(left.loose_P_mm);
+  for (const SharpEdge& edge : left.edges) take(edge.points_P_mm);
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::vector<CleaningPlace> CleaningPlanner::placesFor(Cleaning what, const SiteLeft& left, const SocketReach& reach,
+                                                      double tip_mm) const {
+  if (what == Cleaning::curette) return scrapedAt(left.stuck_P_mm, reach, tip_mm);
+  if (what == Cleaning::file) return filedAt(left.edges, reach, tip_mm);
+  std::vector<glm::dvec3> loose = left.chips_P_mm;
+  loose.insert(loose.end(), left.loose_P_mm.begin(), left.loose_P_mm.end());
+  return suckedAt(loose, reach, tip_mm);
+}
+
+std::optional<OperationStep> CleaningPlanner::next(const SiteLeft& left, const assets::VolumeGrid& grid,
+                                                   const std::vector<std::uint8_t>& jaw) {
+  std::optional<SocketReach> reach;
   while (next_ < kRound.size()) {
     const Cleaning what = kRound[next_++];
-    if (!has_[static_cast<std::size_t>(what)]) continue;
-    if (auto step = stepOf(what, left)) {
-      const std::string words = wordsOf(what, step->ways_P_mm.size());
-      return OperationStep{std::move(*step), words};
+    const auto& tip_mm = tips_mm_[static_cast<std::size_t>(what)];
+    if (!tip_mm || !isAnything(what, left)) continue;
+    CleaningStep step{what, {}, out_P_};
+    if (what == Cleaning::stitch) {
+      for (const glm::dvec3& p : left.stitches_P_mm) step.places.push_back({{p}, out_P_, glm::dvec3(0.0)});
+    } else {
+      if (!reach) reach.emplace(grid, jaw, middleOf(left), out_P_);
+      step.places = placesFor(what, left, *reach, *tip_mm);
     }
+    if (step.places.empty()) continue;
+    const std::string words = wordsOf(what, step.places.size());
+    return OperationStep{std::move(step), words};
   }
   return {};
 }

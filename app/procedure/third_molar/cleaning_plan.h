@@ -1,13 +1,16 @@
 // The end of the shown operation: chips sucked away, the follicle scraped off, sharp edges filed, places of stitches
-// confirmed; each planned from what is left when the one before has ended. Frame P, mm. Pure; microseconds.
+// confirmed; each planned from what is left and from the bone as it is when the one before has ended. Frame P, mm. Any
+// thread, one at a time; some 0.1 s; the same site gives the same step.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/procedure/socket/sharp_edges.h"
 #include "app/procedure/third_molar/operation_planner.h"
+#include "app/procedure/third_molar/socket_reach.h"
 
 namespace app {
 
@@ -21,17 +24,21 @@ struct SiteLeft {
 
 class CleaningPlanner {
  public:
-  /// `out_P`: unit, out of the socket. `has`: instruments of the tray, by Cleaning.
-  CleaningPlanner(const glm::dvec3& out_P, const std::array<bool, kCleanings>& has) : out_P_(out_P), has_(has) {}
+  /// Radius of each instrument's tip, by Cleaning; none: it is not in the tray.
+  using Tips = std::array<std::optional<double>, kCleanings>;
+  /// `out_P`: unit, out of the socket.
+  CleaningPlanner(const glm::dvec3& out_P, const Tips& tips_mm) : out_P_(out_P), tips_mm_(tips_mm) {}
 
-  /// None: nothing is left to do, or nothing that can be done.
-  std::optional<OperationStep> next(const SiteLeft& left);
+  /// `jaw`: in the order of the grid. None: nothing is left to do, or nothing that can be reached.
+  std::optional<OperationStep> next(const SiteLeft& left, const assets::VolumeGrid& grid,
+                                    const std::vector<std::uint8_t>& jaw);
 
  private:
-  std::optional<CleaningStep> stepOf(Cleaning what, const SiteLeft& left) const;
+  std::vector<CleaningPlace> placesFor(Cleaning what, const SiteLeft& left, const SocketReach& reach,
+                                       double tip_mm) const;
 
   glm::dvec3 out_P_;
-  std::array<bool, kCleanings> has_;
+  Tips tips_mm_;
   std::size_t next_ = 0;  ///< of the round
 };
 

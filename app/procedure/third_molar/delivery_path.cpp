@@ -10,7 +10,8 @@ namespace app {
 namespace {
 
 constexpr double kOver_mm = 16.0;  ///< the piece, before it is gripped
-constexpr double kTravel_mm_per_s = 60.0, kDown_mm_per_s = 15.0, kOut_mm_per_s = 12.0;
+constexpr double kTravel_mm_per_s = 120.0, kTurn_rad_per_s = 2.5;  ///< free of the mouth
+constexpr double kDown_mm_per_s = 15.0, kOut_mm_per_s = 12.0;
 constexpr double kSwing_Hz = 0.8, kFirstSwing_rad = 0.2, kLastSwing_rad = 0.45, kPull_mm = 1.5;
 constexpr double kTwist_rad = 1.0, kTwist_Hz = 0.5, kTwists = 2.0;
 constexpr double kBeyond_mm = 10.0;  ///< the end of the way out
@@ -21,7 +22,7 @@ constexpr double kStill_s = 0.3;
 haptics::LedPath throughOutside(const HandPose& from, const HandPose& to, const glm::dvec3& outside_P_mm) {
   LedKeys keys(from);
   keys.moveTo({from.rotation, outside_P_mm}, kTravel_mm_per_s);
-  keys.moveTo({to.rotation, outside_P_mm}, kTravel_mm_per_s);
+  keys.moveTo({to.rotation, outside_P_mm}, kTravel_mm_per_s, kTurn_rad_per_s);
   keys.moveTo(to, kTravel_mm_per_s);
   return keys.path();
 }

@@ -17,7 +17,9 @@ constexpr double kLeastHalf_mm = 3.0;                            ///< of its hea
 constexpr double kSettles_s = 0.6;                               ///< after a step, before it is looked at
 constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
+constexpr double kAssistantWait_s = 10.0;                        ///< for the flap to be held aside
 constexpr double kGutter_mm_per_s = 16.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
+constexpr const char* kAllDone = "the operation is done";
 constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
 
 HandPose handOf(const haptics::Tick& tick) { return tick.hand.X_PT; }
@@ -71,20 +73,35 @@ OperationTray operationTray(const std::vector<haptics::Tool>& tray) {
   return found;
 }
 
-Demonstration::Demonstration(const assets::Patient& patient, const assets::PlannedCut& gutter,
-                             const std::vector<haptics::Tool>& tray, const haptics::Bodies& bodies,
-                             haptics::LedHand& hand)
-    : bodies_(bodies),
-      hand_(hand),
-      tray_(operationTray(tray)),
-      planner_(patient, tray[tray_.bur].head.radius_mm, tray_.elevator.has_value()),
-      cleaning_(planner_.out_P(), {tray_.cleaning[0].has_value(), tray_.cleaning[1].has_value(),
-                                   tray_.cleaning[2].has_value(), tray_.cleaning[3].has_value()}),
-      tools_(tray),
-      outside_P_mm_(outsideOf(gutter)),
-      forceps_R_PT_(startOf(cutPath(gutter, tray[0], kGutter_mm_per_s)).rotation) {
-  news_.push_back("bare the crown");
-  lead(cutPath(gutter, tray[0], kGutter_mm_per_s));
+glm::dquat Demonstration::heldAtGutter(const assets::PlannedCut& gutter, const haptics::Tool& bur) {
+  return startOf(cutPath(gutter, bur, kGutter_mm_per_s)).rotation;
+}
+
+Demonstration::Demonstration(const Site& site, std::optional<FlapWork> flap)
+    : Demonstration(site, std::move(flap), true) {}
+
+Demonstration::Demonstration(const Site& site, std::optional<FlapWork> flap, bool goes_on)
+    : bodies_(site.bodies),
+      hand_(site.hand),
+      tools_(site.tray),
+      gutter_(site.gutter),
+      flap_(std::move(flap)),
+      outside_P_mm_(outsideOf(gutter_)),
+      forceps_R_PT_(heldAtGutter(gutter_, tools_[0])),
+      step_(flap_ ? OperationStep{FlapStep{}, "incise to the bone"} : gutterStep()) {
+  if (goes_on) {
+    tray_ = operationTray(tools_);
+    planner_.emplace(site.patient, tools_[tray_.bur].head.radius_mm, tray_.elevator.has_value());
+    CleaningPlanner::Tips tips_mm{};
+    for (std::size_t n = 0; n < kCleanings; ++n)
+      if (tray_.cleaning[n]) tips_mm[n] = tools_[*tray_.cleaning[n]].head.radius_mm;
+    cleaning_.emplace(planner_->out_P(), tips_mm);
+  }
+  if (flap_) return;
+  // The hand rests where the gutter begins.
+  news_.push_back(step_.words);
+  lead(cutPath(gutter_, tools_[0], kGutter_mm_per_s));
+  phase_ = Phase::working;
 }
 
 void Demonstration::lead(haptics::LedPath path) { hand_.lead(&paths_.emplace_back(std::move(path))); }
@@ -101,28 +118,32 @@ void Demonstration::fail(const Frame& frame, const std::string& why) {
 
 /// What keeps the hand from its work; empty: nothing.
 std::string Demonstration::interruption(const Frame& frame) const {
-  const bool works = phase_ == Phase::cutting || phase_ == Phase::splitting || phase_ == Phase::gripping ||
-                     phase_ == Phase::taking_out || phase_ == Phase::cleaning;
+  const bool works = phase_ == Phase::working || phase_ == Phase::gripping;
   if (!works || !frame.is_applied || frame.newest.dt_s == 0.0) return {};
   if (!(frame.in_hand == tools_[wanted_])) return "another tool was taken";
-  if (phase_ == Phase::cutting && !frame.drill_enabled) return "the drill was locked";
+  if (std::holds_alternative<CutStep>(step_.what) && !frame.drill_enabled) return "the drill was locked";
   if (!haptics::mayRunMotors(frame.newest.state)) return "the motors are off";
   return {};
+}
+
+std::size_t Demonstration::toolOf(const OperationStep& step) const {
+  if (const FlapStep* const flap = std::get_if<FlapStep>(&step.what))
+    return flap->raises ? flap_->elevator() : flap_->blade();
+  if (const CutStep* const cut = std::get_if<CutStep>(&step.what)) return cut->bares_crown ? 0 : tray_.bur;
+  if (std::holds_alternative<SplitStep>(step.what)) return *tray_.elevator;
+  if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step.what))
+    return *tray_.cleaning[static_cast<std::size_t>(cleaning->what)];
+  return tray_.forceps;
 }
 
 std::optional<ControlRequest> Demonstration::startStep(const Frame& frame) {
   news_.push_back(step_.words);
   if (const EndStep* const end = std::get_if<EndStep>(&step_.what)) {
-    if (end->why_not.empty()) is_out_ = true;
-    if (!is_out_) fail(frame, end->why_not);
-    enter(is_out_ ? Phase::settling : Phase::over, frame);
+    if (!end->why_not.empty()) fail(frame, end->why_not);
+    enter(end->why_not.empty() && !std::exchange(is_out_, true) ? Phase::settling : Phase::over, frame);
     return {};
   }
-  wanted_ = std::holds_alternative<CutStep>(step_.what)     ? tray_.bur
-            : std::holds_alternative<SplitStep>(step_.what) ? *tray_.elevator
-                                                            : tray_.forceps;
-  if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what))
-    wanted_ = *tray_.cleaning[static_cast<std::size_t>(cleaning->what)];
+  wanted_ = toolOf(step_);
   enter(Phase::changing_tool, frame);
   if (frame.in_hand == tools_[wanted_]) return {};
   return ControlRequest{Control::tool, static_cast<int>(wanted_)};
@@ -132,26 +153,36 @@ std::optional<ControlRequest> Demonstration::startStep(const Frame& frame) {
 void Demonstration::work(const Frame& frame) {
   if (!(frame.in_hand == tools_[wanted_])) return fail(frame, "its tool could not be taken");
   const HandPose hand = handOf(frame.newest);
-  if (const CutStep* const step = std::get_if<CutStep>(&step_.what)) {
-    const haptics::LedPath path = cutPath(step->cut, tools_[tray_.bur], kCut_mm_per_s);
+  if (const FlapStep* const flap = std::get_if<FlapStep>(&step_.what)) {
+    lead(flap->raises ? flap_->raisingPath(hand, outside_P_mm_) : flap_->incisionPath(hand, outside_P_mm_));
+  } else if (const CutStep* const step = std::get_if<CutStep>(&step_.what)) {
+    const double speed_mm_per_s = step->bares_crown ? kGutter_mm_per_s : kCut_mm_per_s;
+    const haptics::LedPath path = cutPath(step->cut, tools_[wanted_], speed_mm_per_s);
     lead(joined(throughOutside(hand, startOf(path), outside_P_mm_), path));
-    enter(Phase::cutting, frame);
-  } else if (const SplitStep* const split = std::get_if<SplitStep>(&step_.what); split && frame.is_ready_to_grip) {
+  } else if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what)) {
+    lead(cleaningPath(hand, outside_P_mm_, *cleaning, forceps_R_PT_));
+  } else {
+    return workInSocket(frame, hand);
+  }
+  enter(Phase::working, frame);
+}
+
+/// With elevator or forceps, for which the pieces have to be ready.
+void Demonstration::workInSocket(const Frame& frame, const HandPose& hand) {
+  const double waited_s = frame.newest.t_s - since_s_;
+  if (!frame.is_ready_to_grip) {
+    if (waited_s >= kLongestWait_s) fail(frame, "the pieces were not made ready");
+  } else if (const SplitStep* const split = std::get_if<SplitStep>(&step_.what)) {
     // Without a bridge that may break the bur goes on.
     if (frame.newest.bridge == haptics::BreakAnswer::armed) {
       lead(twistInSlot(hand, outside_P_mm_, *split));
-      enter(Phase::splitting, frame);
-    } else if (frame.newest.t_s - since_s_ >= kBridgeWait_s) {
+      enter(Phase::working, frame);
+    } else if (waited_s >= kBridgeWait_s) {
       enter(Phase::settling, frame);
     }
-  } else if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what)) {
-    lead(cleaningPath(hand, outside_P_mm_, *cleaning, tools_[wanted_], forceps_R_PT_));
-    enter(Phase::cleaning, frame);
-  } else if (frame.is_ready_to_grip) {
+  } else {
     lead(gripAndRock(hand, outside_P_mm_, std::get<DeliveryStep>(step_.what), forceps_R_PT_));
     enter(Phase::gripping, frame);
-  } else if (frame.newest.t_s - since_s_ >= kLongestWait_s) {
-    fail(frame, "the pieces were not made ready");
   }
 }
 
@@ -163,45 +194,61 @@ bool Demonstration::isStill(const Frame& frame) const {
          frame.is_applied && tick.t_s - since_s_ >= kSettles_s;
 }
 
+/// The hand has gone to the end of its way.
+std::optional<ControlRequest> Demonstration::afterStep(const Frame& frame) {
+  if (FlapStep* const flap = std::get_if<FlapStep>(&step_.what)) {
+    if (flap->raises) return enter(Phase::retracting, frame), std::nullopt;
+    step_ = {FlapStep{true}, "raise the flap"};
+    return startStep(frame);
+  }
+  enter(planner_ ? Phase::settling : Phase::over, frame);
+  return {};
+}
+
+std::optional<ControlRequest> Demonstration::afterSettling(const Frame& frame) {
+  planning_ = std::async(
+      frame.waits ? std::launch::deferred : std::launch::async,
+      [this, copy = copyOf(bodies_, frame.newest), left = frame.left, is_out = is_out_]() -> OperationStep {
+        if (is_out)
+          return cleaning_->next(left, bodies_.grid(), copy.jaw).value_or(OperationStep{EndStep{}, kAllDone});
+        return planner_->next(copy, bodies_.bones()[1].grid(), bodies_.firstBrick() * assets::kBrickVoxels);
+      });
+  enter(Phase::planning, frame);
+  return {};
+}
+
 std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
   const haptics::Tick& tick = frame.newest;
   if (const std::string why = interruption(frame); !why.empty()) fail(frame, why);
   switch (phase_) {
-    case Phase::cutting:
-    case Phase::splitting:
-    case Phase::taking_out:
-    case Phase::cleaning:
-      if (hand_.hasArrived()) enter(Phase::settling, frame);
-      return {};
-    case Phase::settling:
-      if (!isStill(frame)) return {};
-      if (is_out_) {
-        auto next = cleaning_.next(frame.left);
-        if (!next) return enter(Phase::over, frame), std::nullopt;
-        step_ = std::move(*next);
-        return startStep(frame);
-      }
-      planning_ = std::async(
-          frame.waits ? std::launch::deferred : std::launch::async,
-          [this, copy = copyOf(bodies_, tick), grid = bodies_.bones()[1].grid(),
-           first = bodies_.firstBrick() * assets::kBrickVoxels] { return planner_.next(copy, grid, first); });
-      enter(Phase::planning, frame);
-      return {};
-    case Phase::planning:
-      if (!frame.waits && planning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
-      step_ = planning_.get();
-      return startStep(frame);
+    case Phase::beginning:
+      return tick.dt_s == 0.0 ? std::nullopt : startStep(frame);
     case Phase::changing_tool:
       if (frame.is_applied) work(frame);
       return {};
+    case Phase::working:
+      return hand_.hasArrived() ? afterStep(frame) : std::nullopt;
     case Phase::gripping: {
       const DeliveryStep& step = std::get<DeliveryStep>(step_.what);
       const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= haptics::kLooseShare;
       if (!is_loose && !hand_.hasArrived()) return {};
       lead(takeOut(handOf(tick), tick.X_PQ[step.piece], step));
-      enter(Phase::taking_out, frame);
+      enter(Phase::working, frame);
       return {};
     }
+    case Phase::retracting:
+      if (frame.is_flap_aside) {
+        step_ = gutterStep();
+        return startStep(frame);
+      }
+      if (tick.t_s - since_s_ >= kAssistantWait_s) fail(frame, "the flap could not be raised and held aside");
+      return {};
+    case Phase::settling:
+      return isStill(frame) ? afterSettling(frame) : std::nullopt;
+    case Phase::planning:
+      if (!frame.waits && planning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+      step_ = planning_.get();
+      return startStep(frame);
     case Phase::over:
       return {};
   }

@@ -5,21 +5,16 @@
 #include <utility>
 
 namespace app {
-namespace {
-
-constexpr double kTurn_rad_per_s = 0.8;
-
-}  // namespace
 
 haptics::HandTarget targetAt(const HandPose& X_PT, bool pedal) {
   return {X_PT.translation_mm, X_PT.rotation, pedal, 0, true};
 }
 
-void LedKeys::moveTo(const HandPose& X_PT, double mm_per_s) {
+void LedKeys::moveTo(const HandPose& X_PT, double mm_per_s, double rad_per_s) {
   const Key& last = keys_.back();
   const double turn_rad = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(last.X_PT.rotation, X_PT.rotation))));
   const double takes_s = std::max(
-      {glm::distance(last.X_PT.translation_mm, X_PT.translation_mm) / mm_per_s, turn_rad / kTurn_rad_per_s, 0.01});
+      {glm::distance(last.X_PT.translation_mm, X_PT.translation_mm) / mm_per_s, turn_rad / rad_per_s, 0.01});
   keys_.push_back({last.t_s + takes_s, X_PT, last.pedal});
 }
 
@@ -30,7 +25,7 @@ void LedKeys::hold(double seconds) {
 haptics::LedPath LedKeys::path() {
   const double end_s = keys_.back().t_s;
   return {[keys = std::move(keys_)](double t_s) {
-            auto next = std::ranges::find_if(keys, [&](const Key& key) { return key.t_s > t_s; });
+            const auto next = std::ranges::upper_bound(keys, t_s, {}, &Key::t_s);
             if (next == keys.begin()) return targetAt(next->X_PT, next->pedal);
             if (next == keys.end()) return targetAt(keys.back().X_PT, keys.back().pedal);
             const Key& from = *(next - 1);

@@ -20,8 +20,8 @@ class LedKeys {
 
   /// From the last pose on.
   void press(bool pedal) { keys_.back().pedal = pedal; }
-  /// Turns at 0.8 rad/s at most.
-  void moveTo(const HandPose& X_PT, double mm_per_s);
+  /// Turns at so much at most, by default as with a piece of tooth in the forceps.
+  void moveTo(const HandPose& X_PT, double mm_per_s, double rad_per_s = 0.8);
   void hold(double seconds);
   haptics::LedPath path();
 

@@ -19,9 +19,15 @@
 
 namespace app {
 
+/// Gum that is whole is cut through or raised, as it was planned (flap_work).
+struct FlapStep {
+  bool raises = false;
+};
+
 /// A cut with the direction of the bur's shaft.
 struct CutStep {
   assets::PlannedCut cut;
+  bool bares_crown = false;  ///< the gutter, with the first bur of the tray
 };
 
 /// An elevator twisted in the slot that the last section left, which breaks a bridge (haptics/body/bridge_strength).
@@ -43,11 +49,17 @@ struct DeliveryStep {
 enum class Cleaning : std::uint8_t { suction, curette, file, stitch };
 inline constexpr std::size_t kCleanings = 4;
 
+/// One place, an edge, a stretch of the wall.
+struct CleaningPlace {
+  std::vector<glm::dvec3> way_P_mm;   ///< of the middle of the instrument's tip, where it touches; not empty
+  glm::dvec3 shaft_P{0.0, 0.0, 1.0};  ///< unit, to the handle: clear of bone and teeth
+  glm::dvec3 into_P{0.0};             ///< unit, into what is scraped or filed; 0: nothing
+};
+
 struct CleaningStep {
   Cleaning what = Cleaning::suction;
-  std::vector<std::vector<glm::dvec3>> ways_P_mm;  ///< places, or the courses of edges
-  glm::dvec3 out_P{0.0, 0.0, 1.0};                 ///< unit
-  glm::dvec3 middle_P_mm{0.0};                     ///< of the socket, for a curette
+  std::vector<CleaningPlace> places;  ///< not empty
+  glm::dvec3 out_P{0.0, 0.0, 1.0};    ///< unit
 };
 
 struct EndStep {
@@ -55,7 +67,7 @@ struct EndStep {
 };
 
 struct OperationStep {
-  std::variant<CutStep, SplitStep, DeliveryStep, CleaningStep, EndStep> what;
+  std::variant<FlapStep, CutStep, SplitStep, DeliveryStep, CleaningStep, EndStep> what;
   std::string words;  ///< for people, "part the tooth"
 };
 

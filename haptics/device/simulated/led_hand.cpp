@@ -22,7 +22,8 @@ LedHand::LedHand(const HandTarget& rest) : target_(rest) {
 
 /// Held up, it goes on slowly.
 double LedHand::pace() const noexcept {
-  const double behind_mm = glm::distance(hand_.position_mm, target_.position_mm);
+  const double patient_mm = path_ != nullptr ? path_->patient_mm : 0.0;
+  const double behind_mm = glm::distance(hand_.position_mm, target_.position_mm) - patient_mm;
   return std::clamp((kStops_mm - behind_mm) / (kStops_mm - kSlows_mm), kSlowest, 1.0);
 }
 

@@ -16,6 +16,7 @@ namespace haptics {
 struct LedPath {
   HandScript script;
   double duration_s = 0.0;
+  double patient_mm = 0.0;  ///< pressed so far beside its path, it goes on no slower
 };
 
 class LedHand final : public SimulatedDevice {

@@ -348,7 +348,7 @@ struct Shown {
                                   haptics::forcepsTool()};
   assets::PlannedCut gutter = assets::plannedAlong({{-5.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}});
   haptics::LedHand hand{{}};
-  Demonstration demonstration{patient, gutter, tray, bodies, hand};
+  Demonstration demonstration{Demonstration::Site{patient, gutter, tray, bodies, hand}};
 
   Demonstration::Frame frame() const {
     Demonstration::Frame one;
