@@ -47,9 +47,10 @@ std::vector<ExportedPiece> piecesOfSession(const std::string& path) {
   refuseDamaged(session, path);
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
   if (end.divergence)
-    printMessage(fmt::format("the replay differs from the recording from tick {} on ({}): the pieces are those of the "
-                             "replay",
-                             end.divergence->tick, end.divergence->what));
+    printMessage(
+        fmt::format("the replay differs from the recording from tick {} on ({}): the pieces are those of the "
+                    "replay",
+                    end.divergence->tick, end.divergence->what));
   std::vector<ExportedPiece> pieces;
   const haptics::Bodies& bodies = end.bodies;
   for (std::size_t n = 0; n < bodies.pieces(); ++n) {
@@ -61,8 +62,7 @@ std::vector<ExportedPiece> piecesOfSession(const std::string& path) {
     piece.name = fmt::format("piece-{}", pieces.size());
     pieces.push_back(std::move(piece));
   }
-  if (pieces.empty())
-    throw UsageError(path + ": it keeps no tooth to be removed, molar export writes its bone");
+  if (pieces.empty()) throw UsageError(path + ": it keeps no tooth to be removed, molar export writes its bone");
   return pieces;
 }
 
@@ -75,8 +75,7 @@ std::vector<ExportedPiece> piecesOf(const haptics::Components& tooth, std::size_
   return pieces;
 }
 
-std::vector<std::string> writePieces(const std::vector<ExportedPiece>& pieces, const std::string& out,
-                                     bool overwrite) {
+std::vector<std::string> writePieces(const std::vector<ExportedPiece>& pieces, const std::string& out, bool overwrite) {
   if (pieces.empty()) throw UsageError("--out " + out + ": there is no piece of tooth to write");
   const bool is_stl = out.ends_with(".stl");
   if (is_stl || out.ends_with(".glb")) {

@@ -340,7 +340,8 @@ int exportPieces(const PiecesOptions& options) {
     list.push_back({{"name", piece.name}, {"volume_mm3", piece.volume_mm3}, {"place", place}});
     table += fmt::format("{:8} {:11.1f}   {}\n", piece.name, piece.volume_mm3, place);
   }
-  std::fputs((options.json ? nlohmann::json{{"pieces", list}, {"files", files}}.dump(2) + "\n" : table).c_str(), stdout);
+  std::fputs((options.json ? nlohmann::json{{"pieces", list}, {"files", files}}.dump(2) + "\n" : table).c_str(),
+             stdout);
   return 0;
 }
 
@@ -391,7 +392,8 @@ void addPieces(CommandLine& molar) {
       "JSON: pieces [{id, volume_mm3, centroid_P_mm, inertia_mm5, parts}], bridges [{between (ids of parts), piece, "
       "area_mm2, thickness_mm, width_mm, normal_P, width_axis_P, centre_P_mm}], chips, cut_mm3, free [{piece, after, "
       "answer (free, grazes, blocked, not-found), blocked_mm3_by_label, in_the_way, path_mm, turned_deg, poses}], "
-      "first those that come out, in their order. With --out: pieces [{name, volume_mm3, place (in place, moved, out)}], "
+      "first those that come out, in their order. With --out: pieces [{name, volume_mm3, place (in place, moved, "
+      "out)}], "
       "files.");
   command.does([options] { return pieces(*options); });
 }

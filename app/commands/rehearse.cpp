@@ -436,8 +436,8 @@ int run(RehearseOptions& options) {
     // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
     static const RehearseOptions kAsked;
     if (options.tools == kAsked.tools)
-      options.tools = {options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps",
-                       "suction",             "curette",        "bone-file"};
+      options.tools = {
+          options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps", "suction", "curette", "bone-file"};
   }
   if (options.flap == "closed") {
     if (!options.continued.empty())

@@ -169,7 +169,7 @@ bool canCome(const haptics::WayOut& way) {
 
 WayUp wayUp(const assets::Patient& patient) {
   const ArchFrame arch = archFrame(patient);
-  return {glm::normalize(arch.up_P + kTiltToCheek * arch.buccal_P), arch};
+  return {glm::normalize(arch.up_P + kTiltToCheek * arch.buccal_P), arch, false};
 }
 
 std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Components& tooth, std::size_t pieces,
@@ -182,8 +182,8 @@ std::vector<PieceWay> waysOut(const AroundTooth& around, const haptics::Componen
       if (n != piece && std::ranges::find(out, n) == out.end()) others.push_back(n);
     const Scene scene = scenes.of(piece, others, up.direction_P);
     PieceWay answer{piece, out, {}, {}, {}, {}, 0.0, {}};
-    answer.way =
-        haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece}, {up.direction_P, kExit_mm}, stop);
+    answer.way = haptics::findWayOut({scene.grid, scene.solid}, {scene.grid, scene.piece},
+                                     {up.direction_P, kExit_mm, up.is_roomy}, stop);
     nameWhatIsInTheWay(around, scene, up, tooth.pieces()[piece].centroid_mm, answer);
     return answer;
   };

@@ -27,6 +27,7 @@ struct AroundTooth {
 struct WayUp {
   glm::dvec3 direction_P{0.0, 0.0, 1.0};  ///< unit; occlusal and buccal
   std::optional<ArchFrame> arch;
+  bool is_roomy = false;  ///< haptics::WayOutGoal
 };
 /// Of an operated lower tooth: up and to the cheek, as the surgeon takes it out.
 WayUp wayUp(const assets::Patient& patient);

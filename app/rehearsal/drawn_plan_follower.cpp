@@ -78,10 +78,10 @@ std::string DrawnPlanFollower::nextLine() {
     case Drawing::section:
       if (drawn_[DrawnLine::section].size() == 1) drawn_[DrawnLine::section].clear(), record();
       drawing_ = Drawing::done;
-      return drawn_.isEmpty() ? "nothing is drawn"
-                              : fmt::format("drawn: trough {:.1f} mm, section {:.1f} mm; compared at the end",
-                                            lengthOf_mm(drawn_[DrawnLine::trough]),
-                                            lengthOf_mm(drawn_[DrawnLine::section]));
+      return drawn_.isEmpty()
+                 ? "nothing is drawn"
+                 : fmt::format("drawn: trough {:.1f} mm, section {:.1f} mm; compared at the end",
+                               lengthOf_mm(drawn_[DrawnLine::trough]), lengthOf_mm(drawn_[DrawnLine::section]));
     case Drawing::done:
       break;
   }
@@ -115,8 +115,8 @@ std::optional<DrawnComparison> DrawnPlanFollower::finish() {
   if (const auto& trough = drawn_[DrawnLine::trough]; trough.size() > 1)
     comparison[0] = drawnCut(trough, outward_P, kBesideTrough_mm, bodies_.grid(), jaw_before_, jawOf(bodies_));
   if (const auto& section = drawn_[DrawnLine::section]; section.size() > 1 && !tooth_before_.empty())
-    comparison[1] = drawnCut(section, outward_P, kBesideSection_mm, bodies_.bones()[1].grid(), tooth_before_,
-                             toothOf(bodies_));
+    comparison[1] =
+        drawnCut(section, outward_P, kBesideSection_mm, bodies_.bones()[1].grid(), tooth_before_, toothOf(bodies_));
   if (!comparison[0] && !comparison[1]) return {};
   event_log_.note(kDrawnCutEvent, drawnCutText(comparison));
   return comparison;

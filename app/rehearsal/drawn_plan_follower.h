@@ -1,6 +1,6 @@
-// The surgeon draws where the trough and the section shall be, by touching bone and tooth with the tip of whatever is in
-// the hand, before anything is cut: the lines are drawn in the picture and recorded, and at the end compared with what
-// was removed since. Main thread, once a frame; the first point copies the bodies, some 30 ms.
+// The surgeon draws where the trough and the section shall be, by touching bone and tooth with the tip of whatever is
+// in the hand, before anything is cut: the lines are drawn in the picture and recorded, and at the end compared with
+// what was removed since. Main thread, once a frame; the first point copies the bodies, some 30 ms.
 #pragma once
 
 #include <cstdint>

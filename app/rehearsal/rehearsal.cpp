@@ -354,8 +354,7 @@ class Rehearsal {
   }
 
   void followDrawn() {
-    for (const auto& touched : router_.takeDrawn())
-      head_up_.say(touched ? drawn_->mark(*touched) : drawn_->nextLine());
+    for (const auto& touched : router_.takeDrawn()) head_up_.say(touched ? drawn_->mark(*touched) : drawn_->nextLine());
     frame_.beads = socket_->beads();
     const std::vector<render::Bead> drawn = drawn_->beads();
     frame_.beads.insert(frame_.beads.end(), drawn.begin(), drawn.end());
@@ -398,15 +397,14 @@ class Rehearsal {
   void followDemonstration() {
     if (!demonstration_) return;
     const haptics::Command& command = active_command_.inForce();
-    const Demonstration::Frame frame{
-        newest_,
-        command.tool,
-        command.drill_enabled,
-        station().isApplied(newest_),
-        sites_->isReady(),
-        !pace_.isRealTime(),
-        flap_ && flap_->flap().isAside() && command.flap_aside,
-        socket_->left()};
+    const Demonstration::Frame frame{newest_,
+                                     command.tool,
+                                     command.drill_enabled,
+                                     station().isApplied(newest_),
+                                     sites_->isReady(),
+                                     !pace_.isRealTime(),
+                                     flap_ && flap_->flap().isAside() && command.flap_aside,
+                                     socket_->left()};
     if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
     while (const auto line = demonstration_->news()) tellStep(*line);
   }

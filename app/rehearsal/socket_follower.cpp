@@ -55,6 +55,11 @@ void SocketFollower::follow(std::span<const haptics::Tick> ticks, const haptics:
 std::optional<haptics::ChipOrder> SocketFollower::follow(const Frame& frame) {
   const auto order = desk_.follow(frame.bricks, frame.newest, frame.is_applied, frame.waits);
   chips_.followBone(frame.bricks, frame.newest);
+  // A piece that is lifted leaves the follicle where it was.
+  const auto out = std::ranges::count_if(frame.newest.X_PQ, haptics::Bodies::isAside);
+  const bool has_come = std::exchange(out_, out) != out;
+  if ((!frame.bricks.empty() || has_come) && out > 0)
+    follicle_.letLoose([this](const glm::dvec3& p, double within_mm) { return chips_.isBare(p, within_mm); });
   if (const haptics::ChipPlan* const loosened = desk_.takeLoosened()) chips_.add(*loosened, frame.newest);
   if (watch_) watch_->follow(frame.bricks, frame.newest, frame.waits);
   tell(frame.newest.t_s, false);

@@ -3,6 +3,7 @@
 // recording. Main thread, once a frame. Without a labelled tooth of its own it looks for chips alone.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,6 +65,7 @@ class SocketFollower {
   std::optional<SocketRecord> told_;
   std::optional<double> told_s_;
   std::string news_;
+  std::ptrdiff_t out_ = 0;  ///< pieces, at the last call
 };
 
 }  // namespace app

@@ -104,6 +104,7 @@ bool ToothFollower::mayLook(const haptics::Tick& newest) {
 
 void ToothFollower::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, bool waits) {
   if (watches_.empty()) return;
+  std::ranges::transform(newest.X_PQ, is_out_.begin(), haptics::Bodies::isAside);
   for (const glm::ivec3& brick : bricks)
     if (const auto own = bodies_.brickOfPiece(brick)) unseen_.push_back(*own);
   // A turning bur that grazes changes what voxels remember, if no solid yet.
@@ -145,6 +146,7 @@ std::optional<haptics::BreakOrder> ToothFollower::bridgeOrder(const haptics::Tic
   if (!in_hand || !is_quiet_ || newest.pieces != watches_.size()) return {};
   if (waits) settle();
   for (std::size_t n = 0; n < watches_.size(); ++n) {
+    if (is_out_[n]) continue;
     if (auto plan = watches_[n]->takeBreak()) to_arm_[n] = &breaks_.emplace_back(std::move(*plan));
     const haptics::BreakPlan* const plan = std::exchange(to_arm_[n], nullptr);
     if (plan == nullptr) continue;
@@ -159,10 +161,10 @@ std::optional<haptics::BreakOrder> ToothFollower::bridgeOrder(const haptics::Tic
 haptics::ToothFindings ToothFollower::found() {
   haptics::ToothFindings all;
   std::vector<std::pair<haptics::ToothPiece, haptics::ToothFindings::Held>> pieces;
-  for (const auto& watch : watches_) {
-    const haptics::ToothFindings& own = watch->newest().findings;
+  for (std::size_t piece = 0; piece < watches_.size(); ++piece) {
+    const haptics::ToothFindings& own = watches_[piece]->newest().findings;
     for (std::size_t n = 0; n < std::min(own.pieces, haptics::kMostPieces); ++n)
-      pieces.emplace_back(own.piece[n], own.held[n]);
+      pieces.emplace_back(own.piece[n], is_out_[piece] ? haptics::ToothFindings::Held{} : own.held[n]);
     all.pieces += own.pieces;
     all.chips += own.chips;
     all.chips_mm3 += own.chips_mm3;

@@ -5,6 +5,7 @@
 // Without a tooth of its own (haptics/body/bodies) it says nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -63,10 +64,11 @@ class ToothFollower {
   /// The order without answer; null: none, or the piece has changed since.
   std::optional<std::pair<std::size_t, const haptics::BreakPlan*>> arming_;
   std::string armed_news_;
-  std::vector<glm::ivec3> unseen_;         ///< of the tooth's grid, since the last look
-  std::optional<std::uint64_t> quiet_at_;  ///< digest of the bodies at the last call
-  bool is_quiet_ = false;                  ///< at the last call, bricks included
-  bool is_partial_ = false;                ///< bricks were left out while a piece moved block by block
+  std::array<bool, haptics::kMaxPieces> is_out_{};  ///< nobody breaks a bridge of those
+  std::vector<glm::ivec3> unseen_;                  ///< of the tooth's grid, since the last look
+  std::optional<std::uint64_t> quiet_at_;           ///< digest of the bodies at the last call
+  bool is_quiet_ = false;                           ///< at the last call, bricks included
+  bool is_partial_ = false;                         ///< bricks were left out while a piece moved block by block
   std::uint64_t looks_ = 0;
   std::size_t pieces_told_ = 1;
   int bridge_told_mm_ = 4;  ///< the limit told last

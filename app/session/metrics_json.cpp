@@ -215,8 +215,8 @@ std::string metricsJson(const SessionMetrics& metrics) {
   json["drawn_plan"] = metrics.drawn_plan && !metrics.drawn_plan->isEmpty()
                            ? nlohmann::ordered_json::parse(drawnPlanText(*metrics.drawn_plan))
                            : nlohmann::ordered_json();
-  json["drawn_cut"] = metrics.drawn_cut ? nlohmann::ordered_json::parse(drawnCutText(*metrics.drawn_cut))
-                                        : nlohmann::ordered_json();
+  json["drawn_cut"] =
+      metrics.drawn_cut ? nlohmann::ordered_json::parse(drawnCutText(*metrics.drawn_cut)) : nlohmann::ordered_json();
   json["flap"] = metrics.flap ? flapJson(*metrics.flap) : nlohmann::ordered_json();
   json["socket"] = metrics.socket ? socketJson(*metrics.socket) : nlohmann::ordered_json();
   json["way_out"] = metrics.way ? wayJson(*metrics.way, metrics.ways_looked_at) : nlohmann::ordered_json();

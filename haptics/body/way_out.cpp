@@ -179,6 +179,16 @@ class Search {
     nodes_.push_back(node);
   }
 
+  void addKnown(Node next, const Placement& before) {
+    const auto known = best_.try_emplace(keyOf(next.placement), std::numeric_limits<double>::infinity()).first;
+    if (known->second <= next.cost) return;
+    if (next.met_mm3 > 0.0) next.cost += kSolidPrice * newlyCut_mm3(next.placement, before);
+    if (known->second <= next.cost) return;
+    known->second = next.cost;
+    next.is_known = true;
+    add(next, 0.0);
+  }
+
   /// What is newly cut costs most to find, so it is looked for in a pose that is next. True: it still is.
   bool settle(std::size_t index) {
     Node& node = nodes_[index];
@@ -210,6 +220,7 @@ class Search {
     if (known != best_.end() && known->second <= node.cost + length_mm) return;
     next.met_mm3 = overlap_mm3(piece_.coarse, next.placement, around_.field, kPlay_mm);
     next.cost += length_mm * (1.0 + graze_price * next.met_mm3);
+    if (goal_.is_roomy) return addKnown(next, node.placement);
     add(next, kSolidPrice * std::max(0.0, next.met_mm3 - node.met_mm3));
   }
 

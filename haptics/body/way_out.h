@@ -31,6 +31,9 @@ inline constexpr double kPlay_mm = 0.1;
 struct WayOutGoal {
   glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit
   double distance_mm = 12.0;            ///< along it, of the middle of the piece's thickest part
+  /// Not what has the least to cut: what is cut is weighed in every pose that is tried, which spreads the search and
+  /// takes some times longer. For a hand that makes room for the pieces after this one, too.
+  bool is_roomy = false;
 };
 
 struct WayOut {

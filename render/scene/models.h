@@ -61,7 +61,9 @@ inline constexpr char kMarksPart[] = "Marks", kChipsPart[] = "Chips", kFollicleP
 /// Teeth of the face are shaded as the enamel of the volume; beads (bead_mesh.h) each as what they are.
 inline Finish finishOf(Model model, std::string_view part) {
   if (model == Model::beads)
-    return part == kMarksPart || part == kDrawnPart ? Finish::guide : part == kFolliclePart ? Finish::skin : Finish::tooth;
+    return part == kMarksPart || part == kDrawnPart ? Finish::guide
+           : part == kFolliclePart                  ? Finish::skin
+                                                    : Finish::tooth;
   return model == Model::face && part.ends_with("Teeth") ? Finish::tooth : finishOf(model);
 }
 

@@ -1,10 +1,10 @@
 // CT slices through the bur, or beside it (Frame::slices_beside_bur_P_mm), in three planes: grey values in a bone
-// window, carved material marked, moved pieces of tooth with their grey values where they are now, outlines of canal, bur and, with its layer, planned cut, a cross at the centre,
-// plane, sides, a scale of 5 mm, the way from bur to canal, and the ruler where it passes through. Radiological views:
-// axial from below, coronal from in front, sagittal from the patient's left. Frame P (LPS), mm. Plain CPU code; one
-// thread at a time. Cost: below 1 ms a plane of 160 px (two or three voxel rows are mixed once per pixel row). Memory:
-// 3 bytes a voxel. Grey value: level 500, width 2500 HU, the usual bone window. Carved: the loss of solid fraction. Not
-// for measuring: the scan is sampled trilinearly.
+// window, carved material marked, moved pieces of tooth with their grey values where they are now, outlines of canal,
+// bur and, with its layer, planned cut, a cross at the centre, plane, sides, a scale of 5 mm, the way from bur to
+// canal, and the ruler where it passes through. Radiological views: axial from below, coronal from in front, sagittal
+// from the patient's left. Frame P (LPS), mm. Plain CPU code; one thread at a time. Cost: below 1 ms a plane of 160 px
+// (two or three voxel rows are mixed once per pixel row). Memory: 3 bytes a voxel. Grey value: level 500, width 2500
+// HU, the usual bone window. Carved: the loss of solid fraction. Not for measuring: the scan is sampled trilinearly.
 #pragma once
 
 #include <array>

@@ -77,6 +77,14 @@ TEST(WayOut, ALidOverACurvedRootIsNamed) {
   EXPECT_LT(scene.without(way.in_the_way).answer().in_the_way_mm3, kBlocked_mm3);
 }
 
+TEST(WayOut, ARoomyOneIsFoundWhereThereIsOne) {
+  const WayOutScene scene = phantom::keyAndSlot();
+  const WayOut way =
+      findWayOut(phantom::view(scene.bone), phantom::view(scene.piece), {{0.0, 0.0, 1.0}, scene.exit_mm, true});
+  EXPECT_EQ(way.answer, WayOutAnswer::grazes);
+  EXPECT_LT(way.in_the_way_mm3, kBlocked_mm3);
+}
+
 TEST(WayOut, IsTheSameTwiceToTheBit) {
   const WayOut once = phantom::ledge(1.0).answer(), again = phantom::ledge(1.0).answer();
   EXPECT_EQ(once.in_the_way, again.in_the_way);

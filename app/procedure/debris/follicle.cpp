@@ -160,6 +160,12 @@ void Follicle::follow(const haptics::Tick& tick, const haptics::Tool& tool, cons
   }
 }
 
+void Follicle::letLoose(const IsBare& is_bare) {
+  for (FollicleBlob& blob : blobs_)
+    if (blob.state == FollicleBlob::State::stuck && is_bare(blob.at_P_mm, blob.radius_mm + kHolds_mm))
+      blob.stuck = 0.0, blob.state = FollicleBlob::State::loose;
+}
+
 std::optional<double> Follicle::left() const {
   double all_mm3 = 0.0, left_mm3 = 0.0;
   for (const FollicleBlob& blob : blobs_) {

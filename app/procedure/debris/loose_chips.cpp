@@ -116,6 +116,18 @@ double LooseChips::densityAt(const glm::dvec3& p_P_mm) const {
   return std::max(sum / 255.0, std::clamp(soft, 0.0, 1.0));
 }
 
+bool LooseChips::isBare(const glm::dvec3& p_P_mm, double within_mm) const {
+  const assets::VolumeGrid& grid = bodies_.grid();
+  const glm::ivec3 low(glm::floor(grid.indexFromPoint(p_P_mm - within_mm))),
+      high(glm::ceil(grid.indexFromPoint(p_P_mm + within_mm)));
+  bool is_bare = true;
+  assets::forVoxels(glm::max(low, glm::ivec3(0)), glm::min(high + 1, grid.size), [&](glm::ivec3 ijk) {
+    is_bare = is_bare && !(solid_[grid.index(ijk)] >= assets::kHalfSolid &&
+                           glm::distance(grid.centre_P_mm(ijk), p_P_mm) <= within_mm);
+  });
+  return is_bare;
+}
+
 /// Down the slope of density, unit; against gravity where that is even.
 glm::dvec3 LooseChips::outward(const glm::dvec3& p_P_mm) const {
   glm::dvec3 slope(0.0);

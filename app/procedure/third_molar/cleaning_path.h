@@ -10,6 +10,6 @@ namespace app {
 /// From `from` through outside, place by place, and up again. `R_PT`: how the instrument is held where its shaft points
 /// along `R_PT` z; at a place it is turned to that place's.
 haptics::LedPath cleaningPath(const HandPose& from, const glm::dvec3& outside_P_mm, const CleaningStep& step,
-                              const glm::dquat& R_PT);
+                              double tip_radius_mm, const glm::dquat& R_PT);
 
 }  // namespace app

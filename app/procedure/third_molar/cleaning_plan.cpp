@@ -13,11 +13,12 @@ namespace app {
 namespace {
 
 // Our defaults.
-constexpr double kSurely_mm = 0.3;                      ///< nearer than the reach of suction or curette
-constexpr double kAtWall_mm = 0.4;                      ///< of a curette before it is pressed
-constexpr double kWorthFiling_mm = 1.0;                 ///< length of an edge
-constexpr std::array kFiledLeans{0.0, 0.6, -0.6};       ///< to either side of an edge
-constexpr double kOffEdge_mm = 0.2;                     ///< of a file that is not pressed yet
+constexpr double kSurely_mm = 0.3;                 ///< nearer than the reach of suction or curette
+constexpr double kAtWall_mm = 0.4;                 ///< of a curette before it is pressed
+constexpr double kWorthFiling_mm = 1.0;            ///< length of an edge
+constexpr std::array kFiledLeans{0.0, 0.6, -0.6};  ///< to either side of an edge
+constexpr std::size_t kFiledPoints = 8;            ///< of an edge, filed at once
+constexpr double kFileSinks_mm = 0.35;             ///< beside an edge the file may touch as deep
 /// What may be loose after each is taken at last; what a file leaves is filed once more.
 constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction, Cleaning::curette,
                             Cleaning::suction, Cleaning::file,    Cleaning::file,    Cleaning::file,
@@ -27,12 +28,13 @@ constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suct
 std::vector<glm::dvec3> inOrder(std::vector<glm::dvec3> points) {
   if (points.size() < 3) return points;
   const glm::dvec3 any = points.front();
-  std::iter_swap(points.begin(), std::ranges::max_element(
-                                     points, {}, [&](const glm::dvec3& p) { return glm::distance(p, any); }));
+  std::iter_swap(points.begin(),
+                 std::ranges::max_element(points, {}, [&](const glm::dvec3& p) { return glm::distance(p, any); }));
   for (std::size_t n = 1; n < points.size(); ++n) {
     const auto from = points.begin() + static_cast<std::ptrdiff_t>(n);
-    std::iter_swap(from, std::ranges::min_element(
-                             from, points.end(), {}, [&](const glm::dvec3& p) { return glm::distance(p, points[n - 1]); }));
+    std::iter_swap(from, std::ranges::min_element(from, points.end(), {}, [&](const glm::dvec3& p) {
+                     return glm::distance(p, points[n - 1]);
+                   }));
   }
   return points;
 }
@@ -45,7 +47,7 @@ std::vector<CleaningPlace> suckedAt(const std::vector<glm::dvec3>& loose, const 
   };
   constexpr double kAnyWall_mm = 10.0;
   for (const auto& chosen : reach.fewestFor(loose, tip_mm, kRinsed_mm, kAnyWall_mm, sucks))
-    places.push_back({{chosen.place.at_P_mm}, chosen.place.shaft_P, glm::dvec3(0.0)});
+    places.push_back({{chosen.place.at_P_mm}, chosen.place.shaft_P, {}});
   return places;
 }
 
@@ -61,37 +63,49 @@ std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const
     const glm::dvec3 n = place.wall_P;
     glm::dvec3 along = place.shaft_P - glm::dot(place.shaft_P, n) * n;
     along = glm::length(along) > 0.2 ? glm::normalize(along) : glm::normalize(glm::cross(n, glm::dvec3(1.0, 0.3, 0.0)));
-    places.push_back({{place.at_P_mm + (tip_mm - place.wall_mm) * n, place.at_P_mm + (tip_mm - place.wall_mm) * n + along},
-                      place.shaft_P, -n});
+    const glm::dvec3 foot = place.at_P_mm - place.wall_mm * n;
+    places.push_back({{foot, foot + along}, place.shaft_P, {-n}});
   }
   return places;
 }
 
-/// From straight above and from either side, with the handle where the whole edge can be reached.
+/// From straight above and from either side, as far as the handle is clear.
+std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, const SocketReach& reach, double tip_mm) {
+  glm::dvec3 out(0.0);
+  for (const glm::dvec3& p : way) out += reach.placeAt(p, reach.shafts_P().front()).wall_P;
+  out = glm::length(out) > 1e-6 ? glm::normalize(out) : reach.shafts_P().front();
+  glm::dvec3 along = way.back() - way.front();
+  along -= glm::dot(along, out) * out;
+  along = glm::length(along) > 0.1 ? glm::normalize(along)
+                                   : glm::normalize(glm::cross(out, std::abs(out.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0)
+                                                                                          : glm::dvec3(0.0, 1.0, 0.0)));
+  const glm::dvec3 side = glm::cross(out, along);
+  std::optional<CleaningPlace> best;
+  for (const glm::dvec3& shaft : reach.shafts_P()) {
+    CleaningPlace place{way, shaft, {}};
+    for (const double lean : kFiledLeans) {
+      const glm::dvec3 into = -glm::normalize(out + lean * side);
+      if (std::ranges::all_of(
+              way, [&](const glm::dvec3& p) { return reach.isFree(p - tip_mm * into, shaft, tip_mm, kFileSinks_mm); }))
+        place.into_P.push_back(into);
+    }
+    if (!place.into_P.empty() && (!best || place.into_P.size() > best->into_P.size())) best = std::move(place);
+    if (best && best->into_P.size() == kFiledLeans.size()) break;
+  }
+  return best;
+}
+
 std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const SocketReach& reach, double tip_mm) {
   std::vector<CleaningPlace> places;
   for (const SharpEdge& edge : edges) {
     if (edge.length_mm < kWorthFiling_mm) continue;
-    const std::vector<glm::dvec3> way = inOrder(edge.points_P_mm);
-    glm::dvec3 out(0.0);
-    for (const glm::dvec3& p : way) out += reach.placeAt(p, reach.shafts_P().front()).wall_P;
-    if (glm::length(out) < 1e-6) out = reach.shafts_P().front();
-    out = glm::normalize(out);
-    const glm::dvec3 run = way.back() - way.front();
-    const glm::dvec3 along = glm::length(run) > 0.1
-                                 ? glm::normalize(run - glm::dot(run, out) * out + 1e-9)
-                                 : glm::normalize(glm::cross(out, glm::dvec3(0.3, 1.0, 0.2)));
-    const glm::dvec3 side = glm::cross(out, along);
-    for (const double lean : kFiledLeans) {
-      const glm::dvec3 into = -glm::normalize(out + lean * side);
-      std::vector<glm::dvec3> middles;
-      for (const glm::dvec3& p : way) middles.push_back(p - (tip_mm + kOffEdge_mm) * into);
-      const auto shaft = std::ranges::find_if(reach.shafts_P(), [&](const glm::dvec3& one) {
-        return std::ranges::all_of(middles, [&](const glm::dvec3& p) { return reach.isFree(p, one, tip_mm); });
-      });
-      if (shaft == reach.shafts_P().end()) continue;
-      for (glm::dvec3& p : middles) p += kOffEdge_mm * into;
-      places.push_back({std::move(middles), *shaft, into});
+    const std::vector<glm::dvec3> course = inOrder(edge.points_P_mm);
+    const std::size_t parts = (course.size() + kFiledPoints - 1) / kFiledPoints;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto at = [&](std::size_t n) {
+        return course.begin() + static_cast<std::ptrdiff_t>(n * course.size() / parts);
+      };
+      if (auto place = filedAlong({at(part), at(part + 1)}, reach, tip_mm)) places.push_back(std::move(*place));
     }
   }
   return places;
@@ -148,9 +162,9 @@ std::optional<OperationStep> CleaningPlanner::next(const SiteLeft& left, const a
     if (!tip_mm || !isAnything(what, left)) continue;
     CleaningStep step{what, {}, out_P_};
     if (what == Cleaning::stitch) {
-      for (const glm::dvec3& p : left.stitches_P_mm) step.places.push_back({{p}, out_P_, glm::dvec3(0.0)});
+      for (const glm::dvec3& p : left.stitches_P_mm) step.places.push_back({{p}, out_P_, {}});
     } else {
-      if (!reach) reach.emplace(grid, jaw, middleOf(left), out_P_);
+      if (!reach) reach.emplace(grid, jaw, middleOf(left), out_P_ + shaft_P_);
       step.places = placesFor(what, left, *reach, *tip_mm);
     }
     if (step.places.empty()) continue;

@@ -26,8 +26,9 @@ class CleaningPlanner {
  public:
   /// Radius of each instrument's tip, by Cleaning; none: it is not in the tray.
   using Tips = std::array<std::optional<double>, kCleanings>;
-  /// `out_P`: unit, out of the socket.
-  CleaningPlanner(const glm::dvec3& out_P, const Tips& tips_mm) : out_P_(out_P), tips_mm_(tips_mm) {}
+  /// Unit: `out_P` out of the socket, `shaft_P` as an instrument lies clear of lip and teeth.
+  CleaningPlanner(const glm::dvec3& out_P, const glm::dvec3& shaft_P, const Tips& tips_mm)
+      : out_P_(out_P), shaft_P_(shaft_P), tips_mm_(tips_mm) {}
 
   /// `jaw`: in the order of the grid. None: nothing is left to do, or nothing that can be reached.
   std::optional<OperationStep> next(const SiteLeft& left, const assets::VolumeGrid& grid,
@@ -37,7 +38,7 @@ class CleaningPlanner {
   std::vector<CleaningPlace> placesFor(Cleaning what, const SiteLeft& left, const SocketReach& reach,
                                        double tip_mm) const;
 
-  glm::dvec3 out_P_;
+  glm::dvec3 out_P_, shaft_P_;
   Tips tips_mm_;
   std::size_t next_ = 0;  ///< of the round
 };

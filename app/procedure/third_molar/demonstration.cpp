@@ -95,7 +95,7 @@ Demonstration::Demonstration(const Site& site, std::optional<FlapWork> flap, boo
     CleaningPlanner::Tips tips_mm{};
     for (std::size_t n = 0; n < kCleanings; ++n)
       if (tray_.cleaning[n]) tips_mm[n] = tools_[*tray_.cleaning[n]].head.radius_mm;
-    cleaning_.emplace(planner_->out_P(), tips_mm);
+    cleaning_.emplace(planner_->out_P(), forceps_R_PT_ * glm::dvec3(0.0, 0.0, 1.0), tips_mm);
   }
   if (flap_) return;
   // The hand rests where the gutter begins.
@@ -160,7 +160,7 @@ void Demonstration::work(const Frame& frame) {
     const haptics::LedPath path = cutPath(step->cut, tools_[wanted_], speed_mm_per_s);
     lead(joined(throughOutside(hand, startOf(path), outside_P_mm_), path));
   } else if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what)) {
-    lead(cleaningPath(hand, outside_P_mm_, *cleaning, forceps_R_PT_));
+    lead(cleaningPath(hand, outside_P_mm_, *cleaning, tools_[wanted_].head.radius_mm, forceps_R_PT_));
   } else {
     return workInSocket(frame, hand);
   }
@@ -209,8 +209,7 @@ std::optional<ControlRequest> Demonstration::afterSettling(const Frame& frame) {
   planning_ = std::async(
       frame.waits ? std::launch::deferred : std::launch::async,
       [this, copy = copyOf(bodies_, frame.newest), left = frame.left, is_out = is_out_]() -> OperationStep {
-        if (is_out)
-          return cleaning_->next(left, bodies_.grid(), copy.jaw).value_or(OperationStep{EndStep{}, kAllDone});
+        if (is_out) return cleaning_->next(left, bodies_.grid(), copy.jaw).value_or(OperationStep{EndStep{}, kAllDone});
         return planner_->next(copy, bodies_.bones()[1].grid(), bodies_.firstBrick() * assets::kBrickVoxels);
       });
   enter(Phase::planning, frame);

@@ -1,9 +1,9 @@
-// A lower third molar taken out from beginning to end by a scripted hand: where the gum is whole, incision and flap; then
-// gutter, section, what blocks a piece, piece by piece out; then the socket cleaned and the places of stitches confirmed.
-// Each step is planned from the bone and tooth as they are when the one before has ended (operation_planner), so it is
-// carried out as a person would, by hand, pedal and change of tool alone. Main thread, once a frame, of which one a step
-// takes 30 ms for a copy; steps are planned on a thread of their own, for which the destructor waits, or on this one
-// where the servo is stepped.
+// A lower third molar taken out from beginning to end by a scripted hand: where the gum is whole, incision and flap;
+// then gutter, section, what blocks a piece, piece by piece out; then the socket cleaned and the places of stitches
+// confirmed. Each step is planned from the bone and tooth as they are when the one before has ended
+// (operation_planner), so it is carried out as a person would, by hand, pedal and change of tool alone. Main thread,
+// once a frame, of which one a step takes 30 ms for a copy; steps are planned on a thread of their own, for which the
+// destructor waits, or on this one where the servo is stepped.
 #pragma once
 
 #include <array>

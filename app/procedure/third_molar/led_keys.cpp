@@ -13,8 +13,8 @@ haptics::HandTarget targetAt(const HandPose& X_PT, bool pedal) {
 void LedKeys::moveTo(const HandPose& X_PT, double mm_per_s, double rad_per_s) {
   const Key& last = keys_.back();
   const double turn_rad = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(last.X_PT.rotation, X_PT.rotation))));
-  const double takes_s = std::max(
-      {glm::distance(last.X_PT.translation_mm, X_PT.translation_mm) / mm_per_s, turn_rad / rad_per_s, 0.01});
+  const double takes_s =
+      std::max({glm::distance(last.X_PT.translation_mm, X_PT.translation_mm) / mm_per_s, turn_rad / rad_per_s, 0.01});
   keys_.push_back({last.t_s + takes_s, X_PT, last.pedal});
 }
 

@@ -80,6 +80,7 @@ glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, c
 
 OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator)
     : bur_radius_mm_(bur_radius_mm), with_elevator_(with_elevator), up_(wayUp(patient)) {
+  up_.is_roomy = true;
   now_.ct = patient.ct;
   now_.site = patient.site;
   now_.mandibular_canal_P_mm = patient.mandibular_canal_P_mm;

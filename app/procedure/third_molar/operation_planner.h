@@ -51,9 +51,10 @@ inline constexpr std::size_t kCleanings = 4;
 
 /// One place, an edge, a stretch of the wall.
 struct CleaningPlace {
-  std::vector<glm::dvec3> way_P_mm;   ///< of the middle of the instrument's tip, where it touches; not empty
+  /// On the surface of what is scraped or filed; else of the middle of the instrument's tip. Not empty.
+  std::vector<glm::dvec3> way_P_mm;
   glm::dvec3 shaft_P{0.0, 0.0, 1.0};  ///< unit, to the handle: clear of bone and teeth
-  glm::dvec3 into_P{0.0};             ///< unit, into what is scraped or filed; 0: nothing
+  std::vector<glm::dvec3> into_P;     ///< unit, into what is scraped or filed, one after the other; empty: nothing
 };
 
 struct CleaningStep {

@@ -5,21 +5,23 @@
 #include <numbers>
 #include <utility>
 
+#include "assets/ct_volume.h"
+
 namespace app {
 namespace {
 
 constexpr double kBand_mm = 3.0;
-constexpr double kShank_mm = 14.0, kShankStep_mm = 0.4;  ///< that is looked at beyond the tip
-constexpr double kLattice_mm = 0.45;                     ///< of places that are tried
-constexpr double kSinks_mm = 0.05, kShankClear_mm = 0.1;      ///< of a tip that touches; of the shank
-constexpr double kTouchesNothing_mm = 0.05;              ///< of a line of sight
+constexpr double kNearShank_mm = 12.0, kShank_mm = 42.0, kShankStep_mm = 0.5;    ///< beyond the tip
+constexpr double kLattice_mm = 0.45;                                             ///< of places that are tried
+constexpr double kSinks_mm = 0.05, kShankSinks_mm = 0.15, kShankClear_mm = 0.1;  ///< tip; shank beside a wall; beyond
+constexpr double kTouchesNothing_mm = 0.05;                                      ///< of a line of sight
 
 haptics::DistanceField fieldAround(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& solid,
                                    const glm::dvec3& middle_P_mm) {
-  const glm::ivec3 low = glm::max(
-      glm::ivec3(glm::floor(grid.indexFromPoint(middle_P_mm - SocketReach::kSeen_mm))), glm::ivec3(0));
-  const glm::ivec3 end = glm::min(
-      glm::ivec3(glm::ceil(grid.indexFromPoint(middle_P_mm + SocketReach::kSeen_mm))) + 1, grid.size);
+  const glm::ivec3 low =
+      glm::max(glm::ivec3(glm::floor(grid.indexFromPoint(middle_P_mm - SocketReach::kSeen_mm))), glm::ivec3(0));
+  const glm::ivec3 end =
+      glm::min(glm::ivec3(glm::ceil(grid.indexFromPoint(middle_P_mm + SocketReach::kSeen_mm))) + 1, grid.size);
   const assets::VolumeGrid part{glm::max(end - low, glm::ivec3(2)), grid.spacing_mm, grid.centre_P_mm(low)};
   std::vector<std::uint8_t> bytes(part.voxelCount(), 0);
   assets::forVoxels(part, [&](glm::ivec3 ijk, std::size_t v) {
@@ -35,7 +37,7 @@ std::vector<glm::dvec3> shaftsAround(const glm::dvec3& out_P) {
       glm::normalize(glm::cross(out_P, std::abs(out_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
   const glm::dvec3 across = glm::cross(out_P, side);
   std::vector<glm::dvec3> shafts{out_P};
-  for (const double lean_rad : {0.3, 0.6})
+  for (const double lean_rad : {0.2, 0.4})
     for (int n = 0; n < kAround; ++n) {
       const double turn = 2.0 * std::numbers::pi * n / kAround;
       shafts.push_back(std::cos(lean_rad) * out_P +
@@ -48,7 +50,10 @@ std::vector<glm::dvec3> shaftsAround(const glm::dvec3& out_P) {
 
 SocketReach::SocketReach(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& solid,
                          const glm::dvec3& middle_P_mm, const glm::dvec3& out_P)
-    : field_(fieldAround(grid, solid, middle_P_mm)), shafts_P_(shaftsAround(out_P)) {}
+    : grid_(grid),
+      solid_(solid),
+      field_(fieldAround(grid, solid, middle_P_mm)),
+      shafts_P_(shaftsAround(glm::normalize(out_P))) {}
 
 TipPlace SocketReach::placeAt(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P) const {
   const auto sample = field_.at(glm::vec3(field_.grid().indexFromPoint(p_P_mm)));
@@ -57,10 +62,24 @@ TipPlace SocketReach::placeAt(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_
   return {p_P_mm, shaft_P, length > 1e-6 ? slope / length : shaft_P, static_cast<double>(sample.distance_mm)};
 }
 
-bool SocketReach::isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm) const {
-  if (field_.at_mm(p_P_mm) < radius_mm - kSinks_mm) return false;
-  for (double mm = 1.0; mm < kShank_mm; mm += kShankStep_mm)
-    if (field_.at_mm(p_P_mm + mm * shaft_P) < radius_mm + std::min(kShankClear_mm, 0.1 * mm)) return false;
+bool SocketReach::isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm, double sunk_mm) const {
+  if (field_.at_mm(p_P_mm) < radius_mm - sunk_mm) return false;
+  // Along a wall that the tip touches the shank, which is no thicker, runs beside it.
+  for (double mm = 1.0; mm < kNearShank_mm; mm += kShankStep_mm)
+    if (field_.at_mm(p_P_mm + mm * shaft_P) < radius_mm - std::max(kShankSinks_mm, sunk_mm - 0.2 * mm)) return false;
+  return isShankFree(p_P_mm, shaft_P, radius_mm + kShankClear_mm);
+}
+
+/// Beyond the field: by the voxels around its axis.
+bool SocketReach::isShankFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm) const {
+  const glm::dvec3 side = glm::normalize(
+      glm::cross(shaft_P, std::abs(shaft_P.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+  const glm::dvec3 across = glm::cross(shaft_P, side);
+  for (double mm = kNearShank_mm; mm < kShank_mm; mm += kShankStep_mm)
+    for (const glm::dvec3& off : {glm::dvec3(0.0), side, -side, across, -across}) {
+      const glm::ivec3 ijk(glm::round(grid_.indexFromPoint(p_P_mm + mm * shaft_P + radius_mm * off)));
+      if (grid_.contains(ijk) && solid_[grid_.index(ijk)] >= assets::kHalfSolid) return false;
+    }
   return true;
 }
 
@@ -75,10 +94,11 @@ std::vector<SocketReach::Chosen> SocketReach::fewestFor(const std::vector<glm::d
                                                         double reach_mm, double most_wall_mm,
                                                         const IsReached& is_reached) const {
   std::vector<Chosen> candidates;
-  const int half = static_cast<int>(std::ceil(reach_mm / kLattice_mm));
+  const double lattice_mm = std::max(kLattice_mm, 0.2 * reach_mm);
+  const int half = static_cast<int>(std::ceil(reach_mm / lattice_mm));
   for (const glm::dvec3& goal : goals_P_mm)
     assets::forVoxels(glm::ivec3(-half), glm::ivec3(half + 1), [&](glm::ivec3 off) {
-      const glm::dvec3 p = goal + kLattice_mm * glm::dvec3(off);
+      const glm::dvec3 p = goal + lattice_mm * glm::dvec3(off);
       const double wall_mm = field_.at_mm(p);
       if (glm::distance(p, goal) > reach_mm || wall_mm < radius_mm - kSinks_mm || wall_mm > radius_mm + most_wall_mm)
         return;

@@ -20,7 +20,8 @@ struct TipPlace {
 
 class SocketReach {
  public:
-  /// `solid` in the order of the grid: all that an instrument meets. Looks within kSeen_mm of `middle_P_mm`.
+  /// Borrows `solid`, in the order of the grid: all that an instrument meets. Tips are led within kSeen_mm of
+  /// `middle_P_mm`, shanks go on. `out_P`: unit, the middle of all ways in.
   SocketReach(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& solid, const glm::dvec3& middle_P_mm,
               const glm::dvec3& out_P);
   static constexpr double kSeen_mm = 20.0;
@@ -28,8 +29,8 @@ class SocketReach {
   /// Ways in, the straightest first; unit.
   const std::vector<glm::dvec3>& shafts_P() const { return shafts_P_; }
   TipPlace placeAt(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P) const;
-  /// With a tip and a shank of this radius, from there outwards.
-  bool isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm) const;
+  /// With a tip and a shank of this radius, from there outwards; the tip may be `sunk_mm` in.
+  bool isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm, double sunk_mm = 0.05) const;
   /// Nothing solid between two places.
   bool isOpen(const glm::dvec3& from_P_mm, const glm::dvec3& to_P_mm) const;
 
@@ -45,6 +46,10 @@ class SocketReach {
                                 double most_wall_mm, const IsReached& is_reached) const;
 
  private:
+  bool isShankFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm) const;
+
+  assets::VolumeGrid grid_;
+  const std::vector<std::uint8_t>& solid_;
   haptics::DistanceField field_;
   std::vector<glm::dvec3> shafts_P_;
 };

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include "assets/scan/image_file.h"
@@ -60,6 +62,29 @@ TEST_F(PiecesCommand, FivePartsAreFivePiecesByVolume) {
   const ProgramOutput words = molar(volume(now, whole));
   EXPECT_EQ(words.status, 0);
   EXPECT_NE(words.out.find("volume mm³"), std::string::npos) << words.out;
+}
+
+TEST_F(PiecesCommand, WritesEachPieceAsASurface) {
+  ToothPhantom whole({60, 20, 20}, 0.2);
+  fill(whole, {1, 1, 1}, {59, 19, 19});
+  ToothPhantom now = whole;
+  fill(now, {26, 0, 0}, {30, 20, 20}, 0);
+  const std::string pieces = volume(now, whole), folder = at("pieces");
+  const nlohmann::json said = answer(pieces + "--out " + folder + " ");
+  ASSERT_EQ(said.at("pieces").size(), 2u);
+  EXPECT_EQ(said.at("pieces")[0].at("place"), "in place");
+  ASSERT_EQ(said.at("files").size(), 2u);
+  for (const auto& file : said.at("files")) {
+    // Two triangles of 50 bytes a face of a voxel and more, behind 84 bytes.
+    const auto size = std::filesystem::file_size(file.get<std::string>());
+    EXPECT_GT(size, 84u + 50u * 1000u);
+    EXPECT_EQ((size - 84u) % 50u, 0u);
+  }
+  EXPECT_EQ(molar(pieces + "--out " + folder).status, 2) << "nothing is replaced";
+  EXPECT_EQ(molar(pieces + "--out " + folder + " --force").status, 0);
+  EXPECT_EQ(molar(pieces + "--out " + at("both.glb")).status, 0);
+  EXPECT_GT(std::filesystem::file_size(at("both.glb")), 1000u);
+  expectRefusal(pieces + "--out " + at("pieces.obj"), "--out");
 }
 
 /// A tooth of 5 x 5 x 5 mm in a well of bone, with or without a lid of 1 mm.

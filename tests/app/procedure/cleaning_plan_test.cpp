@@ -51,7 +51,7 @@ TEST(CleaningPlan, SucksWithinReachOfFewPlacesAndLeavesTheCave) {
   const Bone bone;
   SiteLeft left;
   left.chips_P_mm = {{0, 0, -7}, {1, 0, -7}, {-4, 0, -7}, {4, 0.5, -7}, {9, 0, -5}};
-  CleaningPlanner planner(kOut, kAll);
+  CleaningPlanner planner(kOut, kOut, kAll);
   const auto step = planner.next(left, bone.grid, bone.jaw);
   ASSERT_TRUE(step);
   EXPECT_EQ(stepOf(step).what, Cleaning::suction);
@@ -72,18 +72,20 @@ TEST(CleaningPlan, ScrapesAlongTheWallBesideEachBlob) {
   const Bone bone;
   SiteLeft left;
   left.stuck_P_mm = {{4.6, 0, -4}, {0, -4.6, -6}, {0, 0, -7.6}, {9, 0, -3}};
-  CleaningPlanner planner(kOut, kAll);
+  CleaningPlanner planner(kOut, kOut, kAll);
   const auto step = planner.next(left, bone.grid, bone.jaw);
   ASSERT_TRUE(step);
   EXPECT_EQ(stepOf(step).what, Cleaning::curette);
   ASSERT_EQ(stepOf(step).places.size(), 3u) << "what is in the cave cannot be reached";
   const SocketReach reach = bone.reach();
   for (const CleaningPlace& place : stepOf(step).places) {
-    const TipPlace tip = reach.placeAt(place.way_P_mm.front(), place.shaft_P);
+    ASSERT_EQ(place.into_P.size(), 1u);
+    const glm::dvec3 middle = place.way_P_mm.front() - kCurette_mm * place.into_P.front();
+    const TipPlace tip = reach.placeAt(middle, place.shaft_P);
     EXPECT_NEAR(tip.wall_mm, kCurette_mm, 0.2) << "it touches";
-    EXPECT_GT(glm::dot(place.into_P, -tip.wall_P), 0.9) << "and is pressed on the wall";
+    EXPECT_GT(glm::dot(place.into_P.front(), -tip.wall_P), 0.9) << "and is pressed on the wall";
     EXPECT_TRUE(std::ranges::any_of(left.stuck_P_mm, [&](const glm::dvec3& blob) {
-      return glm::distance(place.way_P_mm.front(), blob) < kCurette_mm + kScrapeReach_mm;
+      return glm::distance(middle, blob) < kCurette_mm + kScrapeReach_mm;
     }));
   }
 }
@@ -96,19 +98,21 @@ TEST(CleaningPlan, FilesAnEdgeFromThreeSidesWithTheHandleClear) {
     rim.points_P_mm.push_back({-kPit_mm * std::cos(angle), kPit_mm * std::sin(angle), -0.1});
   rim.middle_P_mm = rim.points_P_mm[2];
   left.edges = {rim, speck};
-  CleaningPlanner planner(kOut, kAll);
+  CleaningPlanner planner(kOut, kOut, kAll);
   const auto step = planner.next(left, bone.grid, bone.jaw);
   ASSERT_TRUE(step);
   EXPECT_EQ(stepOf(step).what, Cleaning::file);
-  ASSERT_EQ(stepOf(step).places.size(), 3u) << "the speck is not worth it";
+  ASSERT_EQ(stepOf(step).places.size(), 1u) << "the speck is not worth it";
+  const CleaningPlace place = stepOf(step).places.front();
   const SocketReach reach = bone.reach();
-  for (const CleaningPlace& place : stepOf(step).places) {
-    ASSERT_EQ(place.way_P_mm.size(), rim.points_P_mm.size());
-    for (std::size_t n = 1; n < place.way_P_mm.size(); ++n)
-      EXPECT_LT(glm::distance(place.way_P_mm[n - 1], place.way_P_mm[n]), 1.5) << "from one to the next along it";
+  ASSERT_EQ(place.way_P_mm.size(), rim.points_P_mm.size());
+  for (std::size_t n = 1; n < place.way_P_mm.size(); ++n)
+    EXPECT_LT(glm::distance(place.way_P_mm[n - 1], place.way_P_mm[n]), 1.5) << "from one to the next along it";
+  EXPECT_EQ(place.into_P.size(), 3u);
+  for (const glm::dvec3& into : place.into_P) {
+    EXPECT_LT(into.z, 0.0);
     for (const glm::dvec3& p : place.way_P_mm)
-      EXPECT_TRUE(reach.isFree(p - 0.2 * place.into_P, place.shaft_P, kFile_mm));
-    EXPECT_LT(place.into_P.z, 0.0);
+      EXPECT_TRUE(reach.isFree(p - (kFile_mm + 0.4) * into, place.shaft_P, kFile_mm));
   }
 }
 
@@ -118,7 +122,7 @@ TEST(CleaningPlan, GoesFromLooseToScrapedToFiledToStitched) {
   left.chips_P_mm = {{0, 0, -7}};
   left.stuck_P_mm = {{4.6, 0, -4}};
   left.stitches_P_mm = {{0, 9, 0}, {0, 14, 0}};
-  CleaningPlanner planner(kOut, kAll);
+  CleaningPlanner planner(kOut, kOut, kAll);
   const auto next = [&] { return planner.next(left, bone.grid, bone.jaw); };
   EXPECT_EQ(next()->words, "suck away what is loose (1 place)");
   left.chips_P_mm.clear();
@@ -137,27 +141,27 @@ TEST(CleaningPlan, LeavesOutWhatNoInstrumentIsThereFor) {
   left.stitches_P_mm = {{0, 9, 0}};
   CleaningPlanner::Tips forceps_alone{};
   forceps_alone[3] = 2.0;
-  CleaningPlanner planner(kOut, forceps_alone);
+  CleaningPlanner planner(kOut, kOut, forceps_alone);
   EXPECT_EQ(stepOf(planner.next(left, bone.grid, bone.jaw)).what, Cleaning::stitch);
-  EXPECT_FALSE(CleaningPlanner(kOut, kAll).next({}, bone.grid, bone.jaw)) << "a clean site needs nothing";
+  EXPECT_FALSE(CleaningPlanner(kOut, kOut, kAll).next({}, bone.grid, bone.jaw)) << "a clean site needs nothing";
 }
 
 TEST(CleaningPath, PressesOnTheWallAndTurnsTheHandleClear) {
   const glm::dvec3 shaft = glm::normalize(glm::dvec3(0.5, 0.0, 1.0));
-  const CleaningStep step{Cleaning::curette, {{{{1, 2, 3}, {1, 2, 4}}, shaft, {-1, 0, 0}}}, kOut};
-  const haptics::LedPath path = cleaningPath({{1, 0, 0, 0}, {0, 0, 40}}, {0, 0, 50}, step, {1, 0, 0, 0});
+  const CleaningStep step{Cleaning::curette, {{{{1, 2, 3}, {1, 2, 4}}, shaft, {{-1, 0, 0}}}}, kOut};
+  const haptics::LedPath path = cleaningPath({{1, 0, 0, 0}, {0, 0, 40}}, {0, 0, 50}, step, 1.2, {1, 0, 0, 0});
   double least_x_mm = 1e9, handle = -1.0;
   for (double t_s = 0.0; t_s < path.duration_s; t_s += 0.01) {
     const haptics::HandTarget at = path.script(t_s);
-    if (glm::distance(at.position_mm, glm::dvec3(1, 2, 3.5)) < 2.0) {
+    if (glm::distance(at.position_mm, glm::dvec3(1, 2, 3.5)) < 2.2) {
       least_x_mm = std::min(least_x_mm, at.position_mm.x);
       handle = glm::dot(at.rotation * glm::dvec3(0, 0, 1), shaft);
       EXPECT_GT(handle, 0.999);
     }
   }
   EXPECT_GT(handle, 0.0);
-  EXPECT_NEAR(least_x_mm, 1.0 - 0.8, 0.05);
-  EXPECT_GT(path.patient_mm, 0.8) << "pressed, it does not wait";
+  EXPECT_NEAR(least_x_mm, 1.0, 0.05) << "the tip's middle, its surface beyond the wall";
+  EXPECT_GT(path.patient_mm, 1.2) << "pressed, it does not wait";
 }
 
 }  // namespace

@@ -46,6 +46,18 @@ TEST(Follicle, ComesLooseWhenItIsScrapedFarEnough) {
   EXPECT_NEAR(curette.follicle.left().value(), 1.0, 1e-12) << "loose is not taken";
 }
 
+TEST(Follicle, IsLooseWhereNothingIsBesideItAnyMore) {
+  Follicle follicle{{blobAt({0, 0, -1}), blobAt({0, 12, -1}, 12.0)}};
+  double asked_mm = 0.0;
+  follicle.letLoose([&](const glm::dvec3& p, double within_mm) {
+    asked_mm = within_mm;
+    return p.y > 5.0;
+  });
+  EXPECT_EQ(follicle.blobs()[0].state, FollicleBlob::State::stuck);
+  EXPECT_EQ(follicle.blobs()[1].state, FollicleBlob::State::loose);
+  EXPECT_DOUBLE_EQ(asked_mm, 1.0 + kHolds_mm);
+}
+
 TEST(Follicle, StaysUnderALightOrPressingHandOrAnotherInstrument) {
   Scraping light(0.9 * kScrape_N);
   light.draw(5.0 * kScraped_mm);

@@ -7,7 +7,7 @@ namespace {
 
 /// A block of bone, of which a slot 2 mm wide along x is gone, from x = 0 on, from z = -3 up.
 struct Slot {
-  assets::VolumeGrid grid{glm::ivec3(80, 60, 40), 0.25, glm::dvec3(-10.0, -7.5, -9.75)};
+  assets::VolumeGrid grid{glm::ivec3(80, 60, 40), 0.25, glm::dvec3(-10.0, -7.375, -9.75)};
   std::vector<std::uint8_t> before, after;
 
   Slot() : before(grid.voxelCount(), 255), after(before) {
