@@ -8,8 +8,6 @@
 namespace app {
 namespace {
 
-using nlohmann::json;
-
 class AssessmentCommand : public ProgramTest {
  protected:
   void SetUp() override {
@@ -20,13 +18,13 @@ class AssessmentCommand : public ProgramTest {
   ProgramOutput rehearse(const std::string& more) {
     return molar("rehearse --headless --pace fast --device scripted --size 96x64 " + more);
   }
-  json metrics(const std::string& file, const std::string& more = "") {
+  nlohmann::json metrics(const std::string& file, const std::string& more = "") {
     const ProgramOutput said = molar("metrics " + at(file) + " --json " + more);
     EXPECT_EQ(said.status, 0) << said.err;
-    return json::parse(said.out);
+    return nlohmann::json::parse(said.out);
   }
-  static json measure(const json& metrics, const std::string& id) {
-    for (const json& one : metrics.at("measures"))
+  static nlohmann::json measure(const nlohmann::json& metrics, const std::string& id) {
+    for (const nlohmann::json& one : metrics.at("measures"))
       if (one.at("id") == id) return one;
     ADD_FAILURE() << id;
     return {};
@@ -46,7 +44,7 @@ TEST_F(AssessmentCommand, AnAssessmentSaysSoAndRefusesUndo) {
   };
   ASSERT_EQ(run("--assess --record " + at("a.molar")).status, 0);
   ASSERT_EQ(run("--record " + at("b.molar")).status, 0);
-  const json assessed = metrics("a.molar"), free = metrics("b.molar");
+  const nlohmann::json assessed = metrics("a.molar"), free = metrics("b.molar");
   EXPECT_EQ(assessed.at("assessed"), true);
   EXPECT_EQ(assessed.at("help_refused"), 2);
   EXPECT_EQ(assessed.at("returned_mm3"), 0.0);
@@ -74,13 +72,13 @@ TEST_F(AssessmentCommand, APracticeBlockIsMeasuredAgainstItsTarget) {
     const std::string file = std::string(block) + ".molar";
     const ProgramOutput said = rehearse(std::string("--voxel 0.3 --case ") + block + " --record " + at(file));
     ASSERT_EQ(said.status, 0) << said.err;
-    const json told = metrics(file);
+    const nlohmann::json told = metrics(file);
     EXPECT_GT(measure(told, "O2.plan").at("value").get<double>(), 0.55) << block;
     EXPECT_GT(measure(told, "O3.dice").at("value").get<double>(), 0.7) << block;
     EXPECT_LT(measure(told, "O3.over").at("value").get<double>(), 5.0) << block;
     EXPECT_LT(measure(told, "S7").at("value").get<double>(), 0.3) << block << " is cut in sight, but for its near wall";
   }
-  const json plate = metrics("block-plate.molar"), ball = metrics("block-ball.molar");
+  const nlohmann::json plate = metrics("block-plate.molar"), ball = metrics("block-ball.molar");
   EXPECT_NEAR(measure(plate, "B.plate_mean").at("value").get<double>(), 1.3, 0.35);
   EXPECT_EQ(measure(plate, "B.plate_through").at("value"), 0.0);
   EXPECT_GT(measure(ball, "B.ball_bare").at("value").get<double>(), 0.7);
@@ -105,9 +103,9 @@ TEST_F(AssessmentCommand, RunsOfACaseAreAReferenceForOthers) {
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(molar("reference expert" + files).status, 2) << "not without --force";
   EXPECT_NE(molar("reference").out.find("expert"), std::string::npos);
-  const json told = metrics("5.molar", "--reference expert");
+  const nlohmann::json told = metrics("5.molar", "--reference expert");
   EXPECT_EQ(told.at("reference").at("runs"), 3);
-  for (const json& score : told.at("reference").at("scores")) {
+  for (const nlohmann::json& score : told.at("reference").at("scores")) {
     if (score.at("id") != "M1.total") continue;
     EXPECT_NEAR(score.at("z").get<double>(), 0.0, 1e-6) << "the middle one";
     EXPECT_NEAR(score.at("median").get<double>(), 5.0, 0.01);
