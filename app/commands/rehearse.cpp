@@ -389,7 +389,8 @@ void refuseUnlessAssessable(const RehearseOptions& options) {
   if (options.no_record) refuse("--no-record", "everything is recorded");
   if (!options.continued.empty()) refuse("--continue " + options.continued, "it begins with the untouched patient");
   if (!options.plan.parameters.empty()) refuse("--parameters " + options.plan.parameters, "its conditions stay");
-  if (isShown(options) || options.plan.device == "scripted:flap")
+  // A scripted hand with the gum closed shows incision and flap.
+  if (isShown(options) || (options.plan.device == "scripted" && options.flap == "closed"))
     refuse("an operation that is shown", "somebody is to be assessed");
   if (const std::string layer = options.picture.help(); !layer.empty())
     refuse("--layers " + layer, "it shows what nobody sees");

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "assets/import/squared_distance.h"
+#include "assets/scan/exact_distance.h"
 
 namespace assets {
 namespace {
@@ -79,14 +79,14 @@ double removeDistantSoftTissue(const VolumeGrid& grid, std::vector<std::int16_t>
   const double cell_mm = cells.edge * grid.spacing_mm;
   std::vector<std::uint8_t> is_bone = boneCells(grid, hounsfield, cells, bone_hu);
   dropSmallPieces(cells, static_cast<std::size_t>(std::ceil(kSmallestBone_mm3 / std::pow(cell_mm, 3.0))), is_bone);
-  const std::vector<float> squared = squaredDistance(cells.size, is_bone);
+  const std::vector<float> from_bone_mm = exactDistance_mm(cells.size, cell_mm, is_bone);
   // Between any two points of two cells lies at most a cell's diagonal more than between their centres.
-  const double reach_cells = std::max(0.0, distance_mm / cell_mm - std::sqrt(3.0));
+  const double reach_mm = std::max(0.0, distance_mm - std::sqrt(3.0) * cell_mm);
   std::atomic<std::uint64_t> removed{0};
   tbb::parallel_for(tbb::blocked_range<int>(0, grid.size.z), [&](const auto& range) {
     std::uint64_t count = 0;
     forVoxels({0, 0, range.begin()}, {grid.size.x, grid.size.y, range.end()}, [&](glm::ivec3 ijk) {
-      if (squared[indexIn(cells.size, ijk / cells.edge)] <= reach_cells * reach_cells) return;
+      if (static_cast<double>(from_bone_mm[indexIn(cells.size, ijk / cells.edge)]) <= reach_mm) return;
       std::int16_t& value = hounsfield[grid.index(ijk)];
       count += value > kSoft_hu ? 1 : 0;
       value = kRemoved_hu;

@@ -1,11 +1,10 @@
 #include "assets/scan/label_distance.h"
 
-#include <itkImage.h>
-#include <itkSignedMaurerDistanceMapImageFilter.h>
-
 #include <array>
 #include <cassert>
 #include <map>
+
+#include "assets/scan/exact_distance.h"
 
 namespace assets {
 namespace {
@@ -40,33 +39,15 @@ VoxelBox shrunk(const VoxelBox& box, glm::ivec3 around, std::size_t most_voxels)
 
 /// Of every voxel of the box outside (`outside`) or inside the structure to the centre of the nearest one that is not;
 /// not positive elsewhere. Order of the box.
-std::vector<float> exactDistances_mm(const VolumeGrid& grid, std::span<const std::uint8_t> belongs, const VoxelBox& box,
-                                     bool outside) {
-  using Mask = itk::Image<unsigned char, 3>;
-  using Distances = itk::Image<float, 3>;
-  const auto mask = Mask::New();
-  Mask::SizeType size;
-  for (int axis = 0; axis < 3; ++axis)
-    size[static_cast<unsigned>(axis)] = static_cast<itk::SizeValueType>(box.size()[axis]);
-  mask->SetRegions(Mask::RegionType(size));
-  Mask::SpacingType spacing;
-  spacing.Fill(grid.spacing_mm);
-  mask->SetSpacing(spacing);
-  mask->Allocate();
-  unsigned char* at = mask->GetBufferPointer();
+std::vector<float> boxDistances_mm(const VolumeGrid& grid, std::span<const std::uint8_t> belongs, const VoxelBox& box,
+                                   bool outside) {
+  std::vector<std::uint8_t> is_chosen;
+  is_chosen.reserve(countIn(box.size()));
   forVoxels(box.low, box.end, [&](glm::ivec3 ijk) {
     const bool is_inside = grid.contains(ijk) && belongs[grid.index(ijk)] != 0;
-    *at++ = is_inside == outside ? 1 : 0;
+    is_chosen.push_back(is_inside == outside ? 1 : 0);
   });
-  const auto filter = itk::SignedMaurerDistanceMapImageFilter<Mask, Distances>::New();
-  filter->SetInput(mask);
-  filter->SetBackgroundValue(0);
-  filter->SetSquaredDistance(false);
-  filter->SetUseImageSpacing(true);
-  filter->SetInsideIsPositive(false);
-  filter->Update();
-  const float* const found = filter->GetOutput()->GetBufferPointer();
-  return {found, found + countIn(box.size())};
+  return exactDistance_mm(box.size(), grid.spacing_mm, is_chosen);
 }
 
 bool isAtSurface(const VolumeGrid& grid, std::span<const std::uint8_t> belongs, glm::ivec3 ijk) {
@@ -131,8 +112,8 @@ StructureDistance structureDistance(const VolumeGrid& grid, std::span<const std:
   const VoxelBox box = shrunk(whole, glm::ivec3(glm::round(grid.indexFromPoint(near_P_mm))), most_voxels);
   structure.grid.size = box.size();
   structure.grid.origin_P_mm = grid.centre_P_mm(box.low);
-  const std::vector<float> outside_mm = exactDistances_mm(grid, belongs, box, true);
-  const std::vector<float> inside_mm = exactDistances_mm(grid, belongs, box, false);
+  const std::vector<float> outside_mm = boxDistances_mm(grid, belongs, box, true);
+  const std::vector<float> inside_mm = boxDistances_mm(grid, belongs, box, false);
   structure.distance.resize(outside_mm.size());
   forVoxels(structure.grid, [&](glm::ivec3 ijk, std::size_t v) {
     // What lies behind a side where the structure was cut off may be nearer.

@@ -1,5 +1,5 @@
-// The signed distance to a labelled structure, from its voxels: ITK's exact Euclidean distance transform (Maurer, Qi
-// and Raghavan, IEEE TPAMI 25:265, 2003) in a box around it, and its surface's voxels beyond. Frame of the grid, mm.
+// The signed distance to a labelled structure, from its voxels: the exact Euclidean distance transform
+// (scan/exact_distance) in a box around it, and its surface's voxels beyond. Frame of the grid, mm.
 // Any thread but the servo; parallel, about 0.1 µs of CPU a voxel of the box.
 #pragma once
 

@@ -7,7 +7,6 @@
 
 #include "assets/import/shading.h"
 #include "assets/import/soft_tissue_removal.h"
-#include "assets/import/squared_distance.h"
 
 namespace {
 
@@ -98,25 +97,6 @@ TEST(Shading, IsTakenOffSoftTissueAndWhatLiesInIt) {
   std::vector<std::int16_t> all_bone(grid.voxelCount(), 1300);
   EXPECT_EQ(assets::flattenShading(grid, all_bone), 0.0);
   EXPECT_EQ(all_bone[5], 1300);
-}
-
-TEST(SquaredDistance, IsThatOfASearchOfAllCells) {
-  std::mt19937 random(11);
-  const glm::ivec3 size(9, 13, 7);
-  for (const unsigned one_in : {3U, 40U, 400U, 1'000'000U}) {
-    std::vector<std::uint8_t> chosen(assets::countIn(size));
-    for (auto& cell : chosen) cell = random() % one_in == 0 ? 1 : 0;
-    const auto squared = assets::squaredDistance(size, chosen);
-    for (std::size_t n = 0; n < chosen.size(); ++n) {
-      float nearest = std::numeric_limits<float>::infinity();
-      for (std::size_t m = 0; m < chosen.size(); ++m) {
-        if (chosen[m] == 0) continue;
-        const glm::vec3 apart = assets::elementAt(size, n) - assets::elementAt(size, m);
-        nearest = std::min(nearest, glm::dot(apart, apart));
-      }
-      ASSERT_EQ(squared[n], nearest) << n;
-    }
-  }
 }
 
 // A ball of bone in a block of soft tissue, and a bright speck far away.
