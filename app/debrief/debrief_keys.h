@@ -83,11 +83,29 @@ inline constexpr std::array<DebriefKey, 31> kDebriefKeys = {{
     {DebriefAction::close, render::Key::escape, false, "Esc", "close"},
 }};
 
+/// While its key is held: moving about, not what writes or switches.
+constexpr bool repeats(DebriefAction action) {
+  switch (action) {
+    case DebriefAction::back_little:
+    case DebriefAction::on_little:
+    case DebriefAction::back_far:
+    case DebriefAction::on_far:
+    case DebriefAction::next_mark:
+    case DebriefAction::former_mark:
+    case DebriefAction::magnify:
+    case DebriefAction::shrink:
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// None: it does nothing.
 constexpr std::optional<DebriefAction> actionOf(const render::KeyPressed& pressed) {
   if (!pressed.down || pressed.control) return {};
   for (const DebriefKey& one : kDebriefKeys)
-    if (one.key == pressed.key && one.shift == pressed.shift) return one.action;
+    if (one.key == pressed.key && one.shift == pressed.shift)
+      return pressed.repeated && !repeats(one.action) ? std::nullopt : std::optional(one.action);
   return {};
 }
 

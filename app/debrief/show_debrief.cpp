@@ -101,7 +101,10 @@ class DebriefWindow {
     const Clock::time_point begun = Clock::now();
     Clock::time_point before = begun;
     while (!closing_) {
+      // What an event takes, a clip some minutes, is no time of the play.
+      const Clock::time_point handled = Clock::now();
       takeEvents();
+      before += Clock::now() - handled;
       const Clock::time_point now = Clock::now();
       const double passed_s = secondsBetween(std::exchange(before, now), now);
       if (!scene_.isPrepared())

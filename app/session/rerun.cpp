@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 #include <utility>
 
 #include "haptics/body/bridge_break.h"
@@ -182,8 +183,15 @@ haptics::PieceSite* Rerun::siteFor(const haptics::SiteOrder& order) {
 void Rerun::collectChanged() {
   std::vector<glm::ivec3> bricks;
   bodies_.takeDirtyBricks(bricks);
-  if (first_ || search_) unsearched_.insert(unsearched_.end(), bricks.begin(), bricks.end());
-  if (keeping_ == Keeping::all) changed_.insert(changed_.end(), bricks.begin(), bricks.end());
+  const auto join = [&](std::vector<glm::ivec3>& list) {
+    const auto in_order = [](glm::ivec3 a, glm::ivec3 b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); };
+    list.insert(list.end(), bricks.begin(), bricks.end());
+    std::ranges::sort(list, in_order);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  if (bricks.empty()) return;
+  if (first_ || search_) join(unsearched_);
+  if (keeping_ == Keeping::all) join(changed_);
 }
 
 std::vector<glm::ivec3> Rerun::takeChanged() {

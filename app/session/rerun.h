@@ -96,7 +96,7 @@ class Rerun {
   std::size_t made_sites_ = 0;
   std::optional<haptics::FirstBytes> first_;  ///< none: no chips are looked for, or search_ has them
   std::optional<haptics::ChipSearch> search_;
-  std::vector<glm::ivec3> unsearched_, changed_;  ///< bricks of the jaw's grid
+  std::vector<glm::ivec3> unsearched_, changed_;  ///< bricks of the jaw's grid, each once
   haptics::Command command_;
   std::size_t next_ = 0;
   std::uint64_t next_index_ = 0;

@@ -32,6 +32,20 @@ constexpr auto kNearWork = std::to_array<MeasureName>({
     {"S5.second_molar", "fastest approach to the second molar nearer than 4 mm", "mm/s"},
 });
 
+/// To the structure, unit; zero where it has no direction.
+glm::dvec3 directionTo_P(const assets::StructureDistance& structure, const glm::dvec3& p_P_mm) {
+  // Over half a millimetre to either side: the structure's direction, not a voxel's.
+  constexpr double kReach_mm = 0.5;
+  glm::dvec3 gradient(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 step(0.0);
+    step[axis] = kReach_mm;
+    gradient[axis] = structure.at_mm(p_P_mm + step) - structure.at_mm(p_P_mm - step);
+  }
+  const double length = glm::length(gradient);
+  return length > 0.2 * kReach_mm ? -gradient / length : glm::dvec3(0.0);
+}
+
 }  // namespace
 
 void NearWork::look(One& one, const assets::StructureDistance& structure, const haptics::Tick& tick,
@@ -44,21 +58,12 @@ void NearWork::look(One& one, const assets::StructureDistance& structure, const 
 }
 
 void NearWork::approach(One& one, const assets::StructureDistance& structure, const haptics::Tick& tick) const {
-  one.since_approach_s += tick.dt_s;
-  if (one.approach_mm_per_s && one.since_approach_s < kBetweenLooks_s) return;
-  one.since_approach_s = 0.0;
-  // Over half a millimetre to either side: the structure's direction, not a voxel's.
-  constexpr double kReach_mm = 0.5;
-  const glm::dvec3 p = tick.proxy_P.mm;
-  glm::dvec3 gradient(0.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 step(0.0);
-    step[axis] = kReach_mm;
-    gradient[axis] = structure.at_mm(p + step) - structure.at_mm(p - step);
+  one.since_look_s += tick.dt_s;
+  if (one.since_look_s >= kBetweenLooks_s) {
+    one.since_look_s = 0.0;
+    one.towards_P = directionTo_P(structure, tick.proxy_P.mm);
   }
-  const double length = glm::length(gradient);
-  if (!(length > 0.2 * kReach_mm)) return;
-  const double speed = std::max(0.0, -glm::dot(gradient / length, tick.hand.velocity_P_mm_per_s.xyz));
+  const double speed = std::max(0.0, glm::dot(one.towards_P, tick.hand.velocity_P_mm_per_s.xyz));
   if (!one.approach_mm_per_s || speed > *one.approach_mm_per_s)
     one.approach_mm_per_s = speed, one.approach_s = tick.t_s;
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -38,7 +39,8 @@ class NearWork {
     double near_s = 0.0, most_N = 0.0, impulse_Ns = 0.0, risk_Ns = 0.0;
     std::optional<double> most_s;
     std::optional<double> approach_mm_per_s, approach_s;
-    double since_approach_s = 0.0;
+    glm::dvec3 towards_P{0.0};  ///< unit; zero: no direction is known
+    double since_look_s = std::numeric_limits<double>::infinity();
     std::vector<double> force_s;  /// by class of force, nearer than 2 mm
   };
   void look(One& one, const assets::StructureDistance& structure, const haptics::Tick& tick,

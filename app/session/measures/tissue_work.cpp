@@ -77,7 +77,7 @@ void TissueWork::add(const haptics::Tick& tick, const haptics::Command& in_force
              on_bone = assets::isHard(tick.contact_tissue) && !on_tooth;
   if (on_bone && force_N > kBoneMost_N) bone_s_ += tick.dt_s;
   if (on_tooth && force_N > kToothMost_N) tooth_s_ += tick.dt_s;
-  heat(tick, in_force);
+  if (on_bone) heat(tick, in_force);
   if (!on_bone || !(tick.removed_mm3 > 0.0)) return;
   auto size = std::ranges::find(sizes_, tool.head.radius_mm, &BySize::radius_mm);
   if (size == sizes_.end()) size = sizes_.insert(size, {tool.head.radius_mm, 0.0});

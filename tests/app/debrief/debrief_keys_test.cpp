@@ -23,6 +23,9 @@ TEST(DebriefKeys, CountWhenPressedAlone) {
   EXPECT_FALSE(actionOf({render::Key::space, false}));
   EXPECT_FALSE(actionOf({render::keyOf('P'), true, false, false, true}));
   EXPECT_EQ(actionOf({render::Key::left, true, true, true, false}), DebriefAction::back_far);
+  for (const char letter : {'P', 'C', 'T', 'G'})
+    EXPECT_FALSE(actionOf({render::keyOf(letter), true, true, false, false})) << letter << " held";
+  EXPECT_FALSE(actionOf({render::Key::space, true, true, false, false}));
   EXPECT_NE(debriefKeyHelp().find("J K L"), std::string::npos);
 }
 

@@ -71,6 +71,12 @@ TEST(NearWork, HeadOnIsTheSpeedAndAlongIsNone) {
   EXPECT_EQ(valueNamed(far.values(), "S5.canal"), 0.0);
 }
 
+TEST(NearWork, OneFastTickAmongSlowOnesIsTheApproach) {
+  NearWork work(straightCanal());
+  for (int n = 0; n < 100; ++n) work.add(near(3.0, 0.0, {0.0, 0.0, n == 47 ? -50.0 : -1.0}, n), kBallBur);
+  EXPECT_NEAR(valueNamed(work.values(), "S5.canal"), 50.0, 1.0);
+}
+
 TEST(ContactEnvelope, ExpertsThemselvesAreAboveInATwentieth) {
   ContactEnvelope experts, rough;
   for (int n = 0; n < 4000; ++n) {
