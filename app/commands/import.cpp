@@ -184,6 +184,8 @@ int import(ImportOptions options) {
     options.choices.label_set = static_cast<assets::LabelSet>(named - assets::kLabelSets.begin());
   std::optional<Segmenter> segmenter;
   if (!options.segment_with.empty()) {
+    if (options.choices.labels)
+      throw UsageError("--labels " + *options.choices.labels + ": the map is made by --segment-with, give one of them");
     segmenter.emplace(options.segment_with);
     options.choices.segment = [&segmenter](const assets::VolumeGrid& grid, const std::vector<std::int16_t>& grey) {
       return segmenter->labels(grid, grey);

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -78,6 +79,33 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
+volatile std::sig_atomic_t stop_asked = 0;
+
+/// While it runs a signal to this program stops it first, and its end is told to nobody else.
+class StopSignals {
+ public:
+  StopSignals() {
+    stop_asked = 0;
+    struct sigaction stop {};
+    stop.sa_handler = [](int) { stop_asked = 1; };
+    for (std::size_t n = 0; n < kStops.size(); ++n) sigaction(kStops[n], &stop, &before_[n]);
+    struct sigaction usual {};
+    usual.sa_handler = SIG_DFL;
+    sigaction(SIGCHLD, &usual, &child_before_);
+  }
+  ~StopSignals() {
+    for (std::size_t n = 0; n < kStops.size(); ++n) sigaction(kStops[n], &before_[n], nullptr);
+    sigaction(SIGCHLD, &child_before_, nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  static constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kStops.size()> before_{};
+  struct sigaction child_before_ {};
+};
+
 /// Its exit status. Throws LoadError.
 int runToEnd(std::vector<std::string> words, const std::string& folder, std::chrono::seconds limit) {
   std::vector<std::string> environment = plainEnvironment(folder);
@@ -85,21 +113,31 @@ int runToEnd(std::vector<std::string> words, const std::string& folder, std::chr
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", 0, 0);
   posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  // A group of its own, so that what it starts ends with it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  const StopSignals signals;
   pid_t process = 0;
-  const int error = ::posix_spawnp(&process, words.front().c_str(), &files, nullptr, pointersTo(words).data(),
+  const int error = ::posix_spawnp(&process, words.front().c_str(), &files, &attributes, pointersTo(words).data(),
                                    pointersTo(environment).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   if (error != 0)
     throw assets::LoadError("--segment-with: its program cannot be started (" + std::string(std::strerror(error)) +
                             "); check the name");
   const auto end = std::chrono::steady_clock::now() + limit;
   int status = 0;
-  while (::waitpid(process, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > end) {
-      ::kill(process, SIGKILL);
+  for (pid_t ended = 0; (ended = ::waitpid(process, &status, WNOHANG)) != process;) {
+    if (ended < 0 && errno != EINTR) throw assets::LoadError("--segment-with: how it ended cannot be told; retry");
+    const bool is_late = std::chrono::steady_clock::now() > end;
+    if (is_late || stop_asked != 0) {
+      ::kill(-process, SIGKILL);
       ::waitpid(process, &status, 0);
-      throw assets::LoadError("--segment-with: it took longer than " + std::to_string(limit.count() / 60) +
-                              " minutes and was stopped");
+      throw assets::LoadError(is_late ? "--segment-with: it took longer than " + std::to_string(limit.count() / 60) +
+                                            " minutes and was stopped"
+                                      : std::string("--segment-with: stopped, nothing was imported"));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -152,8 +190,9 @@ Segmenter::~Segmenter() {
 
 std::string Segmenter::labels(const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
                               std::chrono::seconds limit) {
-  std::string folder = (fs::temp_directory_path() / "molar_XXXXXX").string();
-  if (::mkdtemp(folder.data()) == nullptr)
+  std::error_code none;
+  std::string folder = (fs::temp_directory_path(none) / "molar_XXXXXX").string();
+  if (none || ::mkdtemp(folder.data()) == nullptr)
     throw assets::LoadError("--segment-with: no folder can be made for it; check TMPDIR");
   folder_ = folder;
   const std::string ct = folder_ + "/ct.nii", made = folder_ + "/labels.nii.gz";

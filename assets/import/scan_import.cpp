@@ -61,6 +61,9 @@ Sources sourcesAt(const std::string& source) {
 }
 
 /// Centroid of solid; throws for a scan without any.
+/// What soft tissue lies near to, whatever the surface that is to be drawn.
+constexpr double kBone_hu = 300.0;
+
 glm::dvec3 centroidOfSolid(const CtVolume& ct, const std::string& path, double iso_hu) {
   constexpr double kMin_mm3 = 10.0;
   const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t v) { return ct.solid[v] >= kHalfSolid; });
@@ -245,8 +248,11 @@ ScanOrigin originOf(const DicomSurvey& survey, const ScanImportOptions& options)
   origin.bridged_slices = static_cast<int>(plan.invented_slices);
   origin.has_face = options.keep_face;
   origin.files = static_cast<int>(survey.folder.files.size());
+  // Of what reaches the patient.
+  for (const DicomSlice& slice : series.slices)
+    origin.has_burnt_in_text_checked =
+        origin.has_burnt_in_text_checked || survey.folder.files[slice.file].header.has_burnt_in_text;
   for (const DicomFile& file : survey.folder.files) {
-    origin.has_burnt_in_text_checked = origin.has_burnt_in_text_checked || file.header.has_burnt_in_text;
     for (std::size_t group = 0; group < kDroppedGroups.size(); ++group)
       origin.dropped_elements[group] += file.header.dropped_elements[group];
   }
@@ -314,7 +320,7 @@ ImportedScan importScan(DicomSurvey& survey, const ScanImportOptions& options) {
   if (!is_calibrated) origin.shading_hu = flattenShading(image.grid, image.hounsfield);
   std::vector<std::string> remarks;
   if (!options.keep_face) {
-    const double removed_mm3 = removeDistantSoftTissue(image.grid, image.hounsfield, options.classification.iso_hu);
+    const double removed_mm3 = removeDistantSoftTissue(image.grid, image.hounsfield, kBone_hu);
     origin.removed_soft_tissue_cm3 = removed_mm3 / 1000.0;
     if (removed_mm3 >= 1000.0)
       remarks.push_back(std::to_string(std::lround(removed_mm3 / 1000.0)) +

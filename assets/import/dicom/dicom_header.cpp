@@ -81,10 +81,10 @@ class HeaderFiller {
     }
   }
 
-  /// One plane a frame: of its own, else of all, else of the file.
+  /// One plane a frame: of its own, else of all, else of the file. Of a file that does not hold its pixels the first.
   void finishPlanes() {
     const auto first_of = [](const auto& a, const auto& b, const auto& c) { return a ? a : b ? b : c; };
-    const auto count = static_cast<std::size_t>(header_.frames);
+    const std::size_t count = header_.fault != DicomFault::none ? 1 : static_cast<std::size_t>(header_.frames);
     for (std::size_t frame = 0; frame < count; ++frame) {
       const Plane own = frame < per_frame_.size() ? per_frame_[frame] : Plane{};
       DicomPlane plane;
@@ -92,8 +92,9 @@ class HeaderFiller {
       plane.spacing_mm = first_of(own.spacing_mm, shared_.spacing_mm, file_.spacing_mm);
       plane.thickness_mm = first_of(own.thickness_mm, shared_.thickness_mm, file_.thickness_mm);
       // A position that all frames share says nothing of a frame.
-      plane.position_P_mm =
-          count == 1 ? first_of(own.position_P_mm, shared_.position_P_mm, file_.position_P_mm) : own.position_P_mm;
+      plane.position_P_mm = header_.frames == 1
+                                ? first_of(own.position_P_mm, shared_.position_P_mm, file_.position_P_mm)
+                                : own.position_P_mm;
       plane.slope = first_of(own.slope, shared_.slope, file_.slope).value_or(1.0);
       plane.intercept = first_of(own.intercept, shared_.intercept, file_.intercept).value_or(0.0);
       header_.planes.push_back(plane);
@@ -424,8 +425,8 @@ OpenedDicom openDicom(DicomBytes bytes, const std::string& file_name) {
   if (filler.samples() != 1 || !filler.isGrey() || !isReadable(header.format) || header.pixelCount() == 0 ||
       header.frames < 1 || header.frames > kMostFrames)
     return refused(DicomFault::unread_pixels);
-  filler.finishPlanes();
   judgeLength(opened.bytes, walk, header);
+  filler.finishPlanes();
   return opened;
 }
 

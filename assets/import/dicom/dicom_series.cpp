@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -168,18 +170,21 @@ SortedDicom sortDicom(const DicomFolder& folder) {
 }
 
 SliceStack assumedStack(const DicomFolder& folder, const DicomSeries& series, double step_mm) {
-  std::vector<std::size_t> order(series.slices.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t n) {
-    const DicomSlice& slice = series.slices[n];
-    return std::tuple(folder.files[slice.file].header.instance.value_or(0), slice.file, slice.frame);
-  });
-  SliceStack stack;
-  stack.order = std::move(order);
-  for (std::size_t n = 0; n < stack.order.size(); ++n) stack.along_mm.push_back(static_cast<double>(n) * step_mm);
-  stack.step_mm = stack.smallest_step_mm = stack.largest_step_mm = step_mm;
-  if (series.axes) stack.per_mm_P = series.axes->normal_P();
-  return stack;
+  const SliceAxes axes = series.axes.value_or(SliceAxes{});
+  // A frame's number is its place in the file.
+  const auto number = [&](const DicomSlice& slice) {
+    const DicomHeader& header = folder.files[slice.file].header;
+    return header.frames > 1 ? static_cast<std::int64_t>(slice.frame) : std::int64_t{header.instance.value_or(0)};
+  };
+  std::int64_t least = std::numeric_limits<std::int64_t>::max(), apart = 0;
+  for (const DicomSlice& slice : series.slices) least = std::min(least, number(slice));
+  for (const DicomSlice& slice : series.slices) apart = std::gcd(apart, number(slice) - least);
+  std::vector<glm::dvec3> positions_P_mm;
+  for (const DicomSlice& slice : series.slices) {
+    const auto steps = static_cast<double>((number(slice) - least) / std::max<std::int64_t>(apart, 1));
+    positions_P_mm.push_back(steps * step_mm * axes.normal_P());
+  }
+  return stackOf(positions_P_mm, axes);
 }
 
 }  // namespace assets

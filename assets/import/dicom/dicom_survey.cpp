@@ -167,6 +167,14 @@ class Judge {
     return std::nullopt;
   }
 
+  /// A single slice needs no number, frames have their place in the file.
+  bool isNumbered() const {
+    return series().slices.size() == 1 || std::ranges::all_of(series().slices, [&](const DicomSlice& slice) {
+             const DicomHeader& header = survey_.folder.files[slice.file].header;
+             return header.frames > 1 || header.instance;
+           });
+  }
+
   std::optional<SliceStack> sliceStack() {
     if (series().axes && series().has_positions) {
       if (series().axes->is_mended)
@@ -179,6 +187,16 @@ class Judge {
       refuse("P2",
              "the files give the rows and columns of a slice directions that are no right angle; ask for the "
              "export again");
+      return std::nullopt;
+    }
+    if (!is_stated && series().has_positions) {
+      refuse("P2",
+             "the files say where each slice lies, but not which way its rows and columns run; ask for the export "
+             "again");
+      return std::nullopt;
+    }
+    if (!isNumbered()) {
+      refuse("P2", "the files do not say where each slice lies, and not all have a number; ask for the export again");
       return std::nullopt;
     }
     double step_mm = 0.0;
@@ -283,7 +301,7 @@ class Judge {
       for (std::size_t n = 1; n < slices.size(); ++n)
         is_same = is_same && std::equal(grey.begin(), grey.begin() + static_cast<std::ptrdiff_t>(pixels),
                                         grey.begin() + static_cast<std::ptrdiff_t>(n * pixels));
-      (is_same ? identical : different) += place.size() - 1;
+      is_same ? identical += place.size() - 1 : different += place.size();
       for (const std::size_t n : place) (is_same ? same_files : other_files).push_back(fileOf(n).shown);
     }
     if (identical > 0)
@@ -293,8 +311,8 @@ class Judge {
            std::move(same_files));
     if (different > 0)
       refuse("D2",
-             counted(different + 1, "slice") +
-                 " lie at the same place and differ: two scans in one folder? choose with --series",
+             counted(different, "slice") +
+                 " lie at the same place and differ: two scans in one folder? leave files out with --without",
              std::move(other_files));
   }
 

@@ -137,7 +137,12 @@ void greyFromStored(std::span<const std::uint16_t> stored, const DicomPixelForma
   };
   const int inverted = format.is_signed ? -1 : static_cast<int>(mask);  // highest and lowest value together
   int padding_low = 1, padding_high = 0;
-  if (format.padding) {
+  // One that no pixel can have says nothing: its upper bits are neither zero nor the sign.
+  const auto fits = [&](std::uint32_t pattern) {
+    const std::uint32_t upper = pattern & 0xffffU & ~mask;
+    return upper == 0 || (format.is_signed && upper == (0xffffU & ~mask) && (pattern & sign) != 0);
+  };
+  if (format.padding && fits(*format.padding) && fits(format.padding_limit.value_or(*format.padding))) {
     const int one = value_of(*format.padding << shift),
               other = value_of(format.padding_limit.value_or(*format.padding) << shift);
     padding_low = std::min(one, other), padding_high = std::max(one, other);

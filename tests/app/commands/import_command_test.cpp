@@ -205,6 +205,11 @@ TEST_F(ImportDicom, TakesTheLabelsOfAnOutsideCommand) {
   EXPECT_TRUE(fs::is_empty(at("tmp")));
   expectRefusal(import + " --force --segment-with 'no_such_program {ct} {labels}'", "cannot be started");
   expectRefusal(import + " --force --segment-with 'sh {ct}'", "{ct} and {labels}");
+  expectRefusal(import + " --force --labels made.nii --segment-with 'sh {ct} {labels}'", "give one of them");
+  // A signal to the program ends what it started, too, and leaves nothing of the scan.
+  write("stop.sh", "kill -INT $PPID\nsleep 600\n");
+  expectRefusal(import + " --force --segment-with 'sh " + at("stop.sh") + " {ct} {labels}'", "stopped");
+  EXPECT_TRUE(fs::is_empty(at("tmp")));
 }
 
 class ImportDicomRealData : public ImportDicom {};

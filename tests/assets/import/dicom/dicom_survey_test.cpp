@@ -91,6 +91,45 @@ TEST(DicomSurvey, NeverInventsAPosition) {
   EXPECT_NEAR(survey.plan->geometry.step_P_mm[2].z, 0.6, 1e-12);
 }
 
+// Of a series without positions, its numbers from 1.
+TEST(DicomSurvey, NumbersThatAreMissingOrTwiceAreNotPassedOver) {
+  const on_disk::Folder folder;
+  Series series;
+  series.slices = 70;
+  const auto write = [&](const std::string& name, int k, int number) {
+    Elements file = dicom_on_disk::sliceOf(series, k, ramp);
+    file.erase(0x00200032);
+    file[0x00200013] = dicom_on_disk::text("IS", std::to_string(number));
+    on_disk::write(folder.at(name), dicom_on_disk::bytesOf(file));
+  };
+  for (int k = 0; k < series.slices; ++k)
+    if (k < 20 || k > 22) write("IM" + std::to_string(k), k, 2 * k + 2);
+  DicomChoices ordered;
+  ordered.assume_order = true;
+  ordered.spacing_mm = glm::dvec3(0.5);
+  EXPECT_NE(sentenceOf(surveyed(folder, ordered), "G3").find("21 to 23 of 70"), std::string::npos);
+  for (int k = 20; k < 23; ++k) write("IM" + std::to_string(k), k, 2 * k + 2);
+  EXPECT_EQ(codes(surveyed(folder, ordered)), "P2");
+  write("again", 5, 12);
+  const DicomSurvey survey = surveyed(folder, ordered);
+  EXPECT_NE(sentenceOf(survey, "D1").find("1 slice is there twice"), std::string::npos);
+  EXPECT_EQ(survey.plan->geometry.size.z, 70);
+}
+
+TEST(DicomSurvey, PlacesWithoutDirectionsAreRefused) {
+  const on_disk::Folder folder;
+  Series series;
+  series.slices = 70;
+  for (int k = 0; k < series.slices; ++k) {
+    Elements file = dicom_on_disk::sliceOf(series, k, ramp);
+    file.erase(0x00200037);
+    on_disk::write(folder.at("IM" + std::to_string(k)), dicom_on_disk::bytesOf(file));
+  }
+  DicomChoices touching;
+  touching.spacing_from_thickness = true;
+  EXPECT_NE(sentenceOf(surveyed(folder, touching), "P2").find("not which way its rows"), std::string::npos);
+}
+
 TEST(DicomSurvey, RefusesMissingSlicesUnlessTheyMayBeBridged) {
   const on_disk::Folder folder;
   Series series;

@@ -144,6 +144,11 @@ TEST(StoredFrame, GreyValuesAreExact) {
   EXPECT_EQ(greyOf(format, 1, -1024, {0xf830, 0xf831}), (Greys{assets::kNoGrey, -3023}));
   format.padding_limit = 0xf840;
   EXPECT_EQ(greyOf(format, 1, 0, {0xf838, 0xf841}), (Greys{assets::kNoGrey, -1983}));
+  // A padding value that 12 bits cannot hold is no pixel's.
+  format = {16, 12, 11, false, false, 0xf830, {}};
+  EXPECT_EQ(greyOf(format, 1, 0, {0x0830, 0x0831}), (Greys{0x0830, 0x0831}));
+  format.padding = 0x0830;
+  EXPECT_EQ(greyOf(format, 1, 0, {0x0830, 0x0831}), (Greys{assets::kNoGrey, 0x0831}));
 }
 
 TEST(DicomVolume, EverySliceHasItsOwnScale) {
