@@ -38,6 +38,7 @@
 #include "app/session/data_folder.h"
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
+#include "app/session/session_reader.h"
 #include "app/station/case_reach.h"
 #include "app/station/patient_list.h"
 #include "app/text/list.h"
@@ -290,11 +291,20 @@ assets::JawParameters jawOf(const RehearseOptions& options) {
 
 /// What a block has none of.
 void refuseUnlessForBlock(const RehearseOptions& options) {
-  const std::string on = " needs a patient, leave it or --case " + options.case_name + " out";
+  const std::string block =
+      options.continued.empty() ? "--case " + options.case_name : "--continue " + options.continued;
+  const std::string on = " needs a patient, leave it or " + block + " out";
   if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + on);
   if (options.flap == "closed") throw UsageError("--flap closed:" + on);
   if (!options.face.empty()) throw UsageError("--face " + options.face + ":" + on);
   if (options.opening_mm) throw UsageError("--opening:" + on);
+}
+
+/// Lines of another case lie anywhere.
+void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {
+  const StoredStart start = SessionReader(sessionNamed(options.drawn)).start();
+  if (!(start.grid == ct.grid) || start.label != ct.label)
+    throw UsageError("--drawn " + options.drawn + ": was drawn in another case, name a session of this one");
 }
 
 /// "replay:last" with the file.
@@ -508,6 +518,7 @@ int run(RehearseOptions& options) {
     goOn(options, *former);
     if (!former->setup.practice.empty()) {
       options.case_name = former->setup.practice;
+      refuseUnlessForBlock(options);
       options.jaw.spacing_mm = former->grid.spacing_mm;
       plan.instruction = assets::textOf(*practiceOf(options)).instruction;
     }
@@ -542,6 +553,7 @@ int run(RehearseOptions& options) {
   plan.shows_whole_operation = plan.soft_tissue_is_held_away = isShown(options);
   if (options.flap == "closed") closeFlap(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
+  if (!options.drawn.empty()) refuseUnlessDrawnHere(options, plan.patient.ct);
   // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.
   static const RehearseOptions kUntouched;
   if (!former && options.tools == kUntouched.tools && plan.patient.site) {

@@ -85,7 +85,7 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
           .option("--procedure", options.procedure,
                   "Follow it step by step: " + joined(shippedProcedures()) +
                       ", or a teacher's own FILE.toml (app/procedure/steps). third-molar with --device scripted: the "
-                      "whole operation is shown, from the gutter to the last piece of the tooth")
+                      "whole operation is shown, from the gutter (with --flap closed: the incision) to the stitches")
           .valueNamed("NAME");
   command
       .option("--guidance", options.guidance,

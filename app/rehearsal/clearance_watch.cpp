@@ -4,10 +4,11 @@
 
 namespace app {
 
-void ClearanceWatch::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
+void ClearanceWatch::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
+                            std::uint64_t serial) {
   if (!(command.tool == tool_)) {
     former_ = std::exchange(tool_, command.tool);
-    serial_ = command.serial;
+    serial_ = serial;
   }
   for (const haptics::Tick& tick : ticks) measures_.add(tick, tick.command_serial < serial_ ? former_ : tool_);
 }

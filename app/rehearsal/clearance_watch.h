@@ -17,8 +17,8 @@ class ClearanceWatch {
   /// Borrowed.
   explicit ClearanceWatch(const assets::RiskStructures& risks) : risks_(risks), measures_(risks) {}
 
-  /// All ticks, in order; `command` in force now.
-  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command);
+  /// All ticks, in order; `command` in force now, with the number that ticks tell of it.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::uint64_t serial);
   /// Forceps are near to nothing: what is between their beaks is to go.
   void update(const haptics::Tick& newest, const haptics::Tool& tool);
 

@@ -15,6 +15,9 @@ DrawnPlan drawnPlanOf(const std::string& path) {
   DrawnPlan drawn;
   for (const SessionEvent& event : SessionReader(path).events())
     if (event.kind == kDrawnPlanEvent) drawn = drawnPlanFrom(event.text).value_or(DrawnPlan{});
+  // A point is no line.
+  for (auto& line : drawn.line_P_mm)
+    if (line.size() == 1) line.clear();
   return drawn;
 }
 

@@ -15,9 +15,13 @@ constexpr double kDrawnBall_mm = 0.3, kDrawnStep_mm = 0.5;
 
 /// Of all its pieces, each where it came from.
 std::vector<std::uint8_t> toothOf(const haptics::Bodies& bodies) {
-  std::vector<std::uint8_t> tooth = bodies.bones()[1].solidInGridOrder();
+  const auto copy = [&](std::size_t n) {
+    const haptics::CarvedBone& piece = bodies.bones()[n + 1];
+    return piece.copyBox(glm::ivec3(0), piece.grid().size);
+  };
+  std::vector<std::uint8_t> tooth = copy(0);
   for (std::size_t n = 1; n < bodies.pieces(); ++n) {
-    const std::vector<std::uint8_t> piece = bodies.bones()[n + 1].solidInGridOrder();
+    const std::vector<std::uint8_t> piece = copy(n);
     for (std::size_t v = 0; v < tooth.size(); ++v)
       tooth[v] = static_cast<std::uint8_t>(std::min(255, tooth[v] + piece[v]));
   }
@@ -35,7 +39,7 @@ DrawnPlanFollower::DrawnPlanFollower(const RehearsalPlan& plan, const haptics::B
   if (plan.drawn.isEmpty()) return;
   begin();
   drawn_ = plan.drawn;
-  drawing_ = Drawing::done;
+  drawing_ = drawn_[DrawnLine::section].empty() ? Drawing::section : Drawing::done;
   record();
 }
 

@@ -26,7 +26,7 @@ class DrawnPlanFollower {
   /// The trough's line is drawn; the section's; once more: all anew.
   std::string nextLine();
   std::vector<render::Bead> beads() const;
-  /// With the servo stopped: the cut against the lines; none: nothing was drawn.
+  /// Before the station stops, which takes the event: the cut against the lines; none: nothing was drawn.
   std::optional<DrawnComparison> finish();
 
  private:

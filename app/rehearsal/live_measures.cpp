@@ -18,8 +18,8 @@ LiveMeasures::LiveMeasures(const assets::CtVolume& ct, bool waits) {
   if (waits) surface_ = coming_.get();
 }
 
-void LiveMeasures::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
-  if (commands_.empty() || commands_.back().serial != command.serial) commands_.push_back(command);
+void LiveMeasures::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::uint64_t serial) {
+  if (commands_.empty() || commands_.back().serial != serial) commands_.push_back({serial, command});
   for (const haptics::Tick& tick : ticks) {
     // The newest that this tick was made with.
     std::size_t in_force = commands_.size() - 1;
@@ -34,7 +34,7 @@ void LiveMeasures::follow(std::span<const haptics::Tick> ticks, const haptics::C
 void LiveMeasures::measure(std::size_t most) {
   for (; most > 0 && !waiting_.empty(); --most) {
     const Given& given = waiting_.front();
-    work_.add(workSample(given.tick, commands_[given.command], surface_.get()));
+    work_.add(workSample(given.tick, commands_[given.command].command, surface_.get()));
     waiting_.pop_front();
   }
 }

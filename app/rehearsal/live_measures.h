@@ -1,6 +1,6 @@
 // The main measures during a rehearsal, for the instructor: by the library that measures the recording later, from the
-// same ticks and commands, so the numbers at the end are those of molar metrics (which are an event of the recording,
-// too). The bone's surface is found on a worker; ticks wait for it. Main thread, once a frame: 2 µs a tick, at most
+// same ticks and commands, so the numbers at the end, an event of the recording, are those of molar metrics but for the
+// ticks after the last frame. The bone's surface is found on a worker; ticks wait for it. Main thread, once a frame: 2 µs a tick, at most
 // kMostTicks of those that waited.
 #pragma once
 
@@ -29,8 +29,8 @@ class LiveMeasures {
   /// Borrows the volume, as it lies at the start. `waits`: for the surface.
   LiveMeasures(const assets::CtVolume& ct, bool waits);
 
-  /// All ticks, in order; `command` in force now.
-  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command);
+  /// All ticks, in order; `command` in force now, with the number that ticks tell of it.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::uint64_t serial);
   /// What waits is measured, and the last stroke ends.
   void finish();
 
@@ -49,7 +49,11 @@ class LiveMeasures {
   HandWork work_;
   std::future<std::unique_ptr<OriginalSurface>> coming_;
   std::unique_ptr<OriginalSurface> surface_;
-  std::vector<haptics::Command> commands_;
+  struct Numbered {
+    std::uint64_t serial;
+    haptics::Command command;
+  };
+  std::vector<Numbered> commands_;
   std::deque<Given> waiting_;
 };
 

@@ -262,13 +262,13 @@ class Rehearsal {
     followLuxation(ticks);
     if (sound_)
       sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
-    if (measures_) measures_->follow(ticks, command);
+    if (measures_) measures_->follow(ticks, command, station().commandSerial());
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     socket_->follow(ticks, command);
     if (flap_) flap_->follow(ticks, command, station().commandSerial());
     head_up_.follow(ticks, command.irrigating);
-    clearance_.follow(ticks, command);
+    clearance_.follow(ticks, command, station().commandSerial());
     if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest(), flapFacts());
     if (coach_) coach_->follow(ticks, command, clearance_.now(), steps_ && steps_->usesOtherInstrument());
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
