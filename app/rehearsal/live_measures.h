@@ -1,7 +1,7 @@
 // The main measures during a rehearsal, for the instructor: by the library that measures the recording later, from the
 // same ticks and commands, so the numbers at the end, an event of the recording, are those of molar metrics but for the
-// ticks after the last frame. The bone's surface is found on a worker; ticks wait for it. Main thread, once a frame: 2 µs a tick, at most
-// kMostTicks of those that waited.
+// ticks after the last frame. The bone's surface is found on a worker; ticks wait for it. Main thread, once a frame:
+// 2 µs a tick, at most kMostTicks of those that waited.
 #pragma once
 
 #include <deque>
