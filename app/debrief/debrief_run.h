@@ -39,7 +39,6 @@ class DebriefRun {
   /// File without its folder.
   std::string name() const;
   const assets::Patient& patient() const { return patient_; }
-  bool hasPatient() const { return has_patient_; }
   const std::optional<assets::PlannedCut>& cut() const { return cut_; }
   const assets::RiskStructures& risks() const { return risks_; }
   const SessionStory& story() const { return story_; }

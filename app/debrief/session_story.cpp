@@ -90,15 +90,6 @@ std::span<const StorySample> SessionStory::samplesBefore(double t_s, double leng
   return first < last ? std::span(first, last) : std::span<const StorySample>();
 }
 
-std::string SessionStory::stepAt(double t_s) const {
-  std::string step;
-  for (const SessionMark& mark : marks_) {
-    if (mark.t_s > t_s) break;
-    if (mark.kind == MarkKind::step) step = mark.what;
-  }
-  return step;
-}
-
 std::vector<render::Bead> trailOf(std::span<const StorySample> samples, TrailColour colour) {
   constexpr float kLeastApart_mm = 0.25F;
   constexpr double kRadius_mm = 0.18;

@@ -59,8 +59,6 @@ class SessionStory {
   /// Those of the last `length_s` before a moment.
   std::span<const StorySample> samplesBefore(double t_s, double length_s) const;
   double mostForce_N() const { return most_force_N_; }
-  /// The step of a procedure in which a moment lies; empty: none.
-  std::string stepAt(double t_s) const;
 
  private:
   void note(const haptics::Tick& tick, const SessionEvent& event);

@@ -1,5 +1,6 @@
 // The rehearsals of a folder over time, by case: a few measures of each, and from three runs of a case on their median
-// and range; a grade against a named set of references alone. For `molar trend`. Any thread; a second a session.
+// and range; a grade against a named set of references alone. For `molar trend`. Any thread; some seconds a session, as
+// metricsOf().
 #pragma once
 
 #include <filesystem>

@@ -145,9 +145,11 @@ class Onlooker {
   std::vector<HeldFrom> held_;
 };
 
+constexpr MeasureName kOutOfSight{"S7", "share of removal out of sight of both eyes", ""};
+
 MeasureValue outOfSight(const RemovalClock* clock, const StoredStart& start, std::span<const std::uint8_t> after,
                         const SessionCase& about, Onlooker& onlooker, std::optional<double> out_s) {
-  MeasureValue value{"S7", "share of removal out of sight of both eyes", "", {}, {}, {}};
+  MeasureValue value{kOutOfSight.id, kOutOfSight.name, kOutOfSight.unit, {}, {}, {}};
   const bool is_recorded = onlooker.isRecorded();
   if (clock == nullptr)
     value.why = "the bone at the end is not known";
@@ -183,7 +185,9 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
   addEvents(metrics, events);
 
   const SessionCase about = case_of ? case_of(start) : SessionCase();
-  const auto after = boneLeft(session, start, metrics);
+  // A replay, of a recording that was not closed, is for who looks at the case.
+  std::optional<std::vector<std::uint8_t>> after;
+  if (case_of) after = boneLeft(session, start, metrics);
   std::optional<RemovalClock> clock;
   if (after) clock.emplace(start.grid, start.solid, *after);
   std::vector<float> work_us;
@@ -237,6 +241,7 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
   }
   if (metrics.missing_log && metrics.ticks == 0) throw missingLogError(path, *metrics.missing_log);
   metrics.lost = session.lost();
+  if (!is_removal_stored && !case_of) boneLeft(session, start, metrics);
   if (is_removal_stored) {
     metrics.removed_mm3 = 0.0;
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) metrics.removed_mm3 += removed_mm3;
@@ -253,8 +258,9 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
   add(case_of ? clearance.values() : noClearances(kNotLookedAt));
   add(case_of ? near.values() : noNearWork(kNotLookedAt));
   add(noEnvelope());
-  add({outOfSight(clock ? &*clock : nullptr, start, after.value_or(std::vector<std::uint8_t>()), about, onlooker,
-                  out_s)});
+  add({!case_of ? MeasureValue{kOutOfSight.id, kOutOfSight.name, kOutOfSight.unit, {}, kNotLookedAt, {}}
+                : outOfSight(clock ? &*clock : nullptr, start, after.value_or(std::vector<std::uint8_t>()), about,
+                             onlooker, out_s)});
   add(!case_of ? noOutcome(kNotLookedAt)
       : !clock ? noOutcome("the bone at the end is not known")
                : outcomeMeasures({start, *after, *clock, surface, about, metrics.socket, parted_s}));

@@ -116,7 +116,8 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
 });
 
 /// Throws SessionError if the file is missing, not a session, or damaged. `case_of` a session's start: what its bur had
-/// to keep off and what was to be removed (app/station/session_case); without it neither is told. 4 s for ten minutes.
+/// to keep off and what was to be removed (app/station/session_case); without it neither is told. 8 to 10 s for ten
+/// minutes; of a recording that was not closed the time of its replay as well, where a case is asked for.
 SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of = {});
 
 /// Units as people write them: mm³, mm², °.

@@ -155,7 +155,6 @@ std::unique_ptr<haptics::PieceSite> Rerun::newSite(const haptics::SiteOrder& ord
   // Of a stranger's file: a field has at least a cell.
   if (glm::any(glm::lessThan(scene.around_grid.size, glm::ivec3(2)))) return nullptr;
   if (!first_socket_) first_socket_.emplace(sockets_.firstSocket());
-  ++made_sites_;
   return haptics::makePieceSite(scene, *first_socket_);
 }
 

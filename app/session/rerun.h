@@ -67,7 +67,6 @@ class Rerun {
   /// Bricks of the jaw's grid that have changed since the last call, also those that a search for chips has taken from
   /// the bodies; only with Keeping::all.
   std::vector<glm::ivec3> takeChanged();
-  std::size_t sites() const { return made_sites_; }
 
  private:
   struct MadeSite {
@@ -93,7 +92,6 @@ class Rerun {
   std::map<std::size_t, std::unique_ptr<haptics::ChipPlan>> chips_;
   std::map<std::size_t, MadeSite> kept_sites_;                                                   ///< with Keeping::all
   std::array<std::deque<std::unique_ptr<haptics::PieceSite>>, haptics::kMaxPieces> used_sites_;  ///< else
-  std::size_t made_sites_ = 0;
   std::optional<haptics::FirstBytes> first_;  ///< none: no chips are looked for, or search_ has them
   std::optional<haptics::ChipSearch> search_;
   std::vector<glm::ivec3> unsearched_, changed_;  ///< bricks of the jaw's grid, each once

@@ -3,9 +3,9 @@
 // P. One thread, not the servo; may be handed from one to another. index() takes the CPU time of the recorded steps;
 // goTo() 20 to 50 ms for the keyframe and that of up to a second of steps.
 // Memory: the bodies (4 bytes a voxel), 70 MB for the undo of the servo and its copy, 1 byte a voxel of the initial
-// bone, 5 to 10 MB for each site that was made for a piece (a few a session), and what changed between keyframes: 256
-// bytes a block of 4x4x4 voxels and as much for its undo, at most Options::most_bytes. Where that is reached every
-// second keyframe is dropped, and jumps take twice the time.
+// bone, 5 to 10 MB for each site that was made for a piece, one each time pieces came to rest beside an elevator or
+// forceps: not bounded; and what changed between keyframes: 256 bytes a block of 4x4x4 voxels and as much for its undo,
+// at most Options::most_bytes. Where that is reached every second keyframe is dropped, and jumps take twice the time.
 #pragma once
 
 #include <cstdint>

@@ -114,6 +114,4 @@ std::vector<MeasureValue> TissueWork::values(std::optional<double> planned_radiu
   return values;
 }
 
-std::vector<MeasureValue> noTissueWork(std::string_view why) { return untold(kTissueWork, why); }
-
 }  // namespace app

@@ -55,6 +55,4 @@ class TissueWork {
   std::vector<BySize> sizes_;
 };
 
-std::vector<MeasureValue> noTissueWork(std::string_view why);
-
 }  // namespace app
