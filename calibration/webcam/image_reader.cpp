@@ -11,10 +11,8 @@
 #include <vector>
 
 #include <zlib.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
-#include "calibration/webcam/image_matrix.h"
+#include "calibration/opencv_module.h"
 
 namespace calibration {
 namespace {
@@ -113,14 +111,9 @@ GreyImage readGreyImage(const std::string& path) {
     refuse("a side of it is under 16 or beyond 16384 pixels");
   if (std::int64_t{size->x} * size->y > kMaxPixels) refuse("it has more than 64 megapixels");
 
-  cv::Mat grey;
-  try {
-    grey = cv::imdecode(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    refuse("it is damaged");
-  }
-  if (grey.cols != size->x || grey.rows != size->y || grey.type() != CV_8U) refuse("it is damaged");
-  return greyImageOf(grey);
+  GreyImage image = openCvModule().decodedGrey(file);
+  if (image.size_px != *size) refuse("it is damaged");
+  return image;
 }
 
 }  // namespace calibration

@@ -13,7 +13,7 @@ set(calibration calibration/)
 set(calibration/geometry calibration/geometry/)
 set(calibration/arm calibration/geometry/ calibration/arm/)
 set(calibration_words calibration/geometry/ calibration/arm/ calibration/random.h calibration/rig.h calibration/median.h
-    calibration/calibration_error.h calibration/checked_yaml.h calibration/yaml_writer.h calibration/png_file.h)
+    calibration/calibration_error.h calibration/checked_yaml.h calibration/yaml_writer.h calibration/png_file.h calibration/opencv_module.h)
 set(calibration/fit ${calibration_words} calibration/fit/)
 set(calibration/webcam ${calibration_words} calibration/fit/ calibration/webcam/)
 set(calibration/verification ${calibration_words} calibration/fit/ calibration/verification/)

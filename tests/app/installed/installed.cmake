@@ -3,7 +3,7 @@ file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(file bin/molar share/man/man1/molar.1.gz share/man/man1/molar-rehearse.1.gz
-        share/man/man1/molar-calibrate-fit.1.gz share/bash-completion/completions/molar lib/udev/rules.d/70-molar.rules share/applications/molar.desktop
+        lib/molar/molar_pictures.so share/man/man1/molar-calibrate-fit.1.gz share/bash-completion/completions/molar lib/udev/rules.d/70-molar.rules share/applications/molar.desktop
         share/icons/hicolor/scalable/apps/molar.svg share/doc/molar/copyright share/doc/molar/NEWS.gz
         share/doc/molar/changelog.gz share/doc/molar/examples/feel.toml)
   if(NOT EXISTS ${PREFIX}/${file})
@@ -14,6 +14,16 @@ endforeach()
 execute_process(COMMAND ${PREFIX}/bin/molar --version OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
 if(NOT printed MATCHES "^${VERSION}( \\([0-9a-f]+\\+?\\))?\n$")
   message(SEND_ERROR "molar --version prints: ${printed}")
+endif()
+
+# The library that writes pictures is found where it was installed.
+string(REPEAT "255 " 512 cube)
+file(WRITE ${PREFIX}/cube.nrrd "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspace: left-posterior-superior\n\
+space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: ascii\n\n${cube}\n")
+execute_process(COMMAND ${PREFIX}/bin/molar see --volume ${PREFIX}/cube.nrrd --field solid --renderer cpu --size 32x32
+  --bone-only --out ${PREFIX}/picture.png OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+if(NOT EXISTS ${PREFIX}/picture.png)
+  message(SEND_ERROR "the installed program writes no picture")
 endif()
 
 # The change log has an entry for this version.
