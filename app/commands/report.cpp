@@ -4,11 +4,14 @@
 #include <optional>
 
 #include "app/commands/command.h"
+#include "app/debrief/moment_pictures.h"
 #include "app/review/review_page.h"
+#include "app/review/session_trend.h"
 #include "app/session/session_folder.h"
 #include "app/station/patient_list.h"
 #include "app/station/session_case.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "calibration/output_file.h"
 
@@ -16,7 +19,7 @@ namespace app {
 namespace {
 
 struct ReportOptions {
-  std::string session, out, patient, compare, reference;
+  std::string session, out, patient, compare, reference, trend;
   bool force = false;
 };
 
@@ -26,7 +29,10 @@ int report(const ReportOptions& options) {
   const std::string patient = options.patient.empty() ? "" : patientNamed(options.patient);
   std::optional<ReferenceSet> set;
   if (!options.reference.empty()) set = loadReference(options.reference);
-  SessionReview review = reviewOf(sessionNamed(options.session), patient);
+  const std::string session = sessionNamed(options.session);
+  SessionReview review = reviewOf(session, patient, [&](const std::vector<ToldMoment>& moments) {
+    return momentPictures(session, patient, moments);
+  });
   if (set) tellAgainst(review.metrics, *set);
   std::optional<SessionMetrics> other;
   if (!options.compare.empty()) {
@@ -35,7 +41,10 @@ int report(const ReportOptions& options) {
       throw UsageError("--compare " + options.compare + ": is of another case (" + other->patient_title +
                        "), name a session of " + review.metrics.patient_title);
   }
-  out.commit(reviewHtml(review, other ? &*other : nullptr, set ? &*set : nullptr));
+  std::vector<CaseTrend> trend;
+  if (!options.trend.empty()) trend = trendOf(options.trend, printMessage, review.metrics.patient_title);
+  out.commit(
+      reviewHtml(review, {other ? &*other : nullptr, set ? &*set : nullptr, trend.empty() ? nullptr : &trend.front()}));
   return 0;
 }
 
@@ -50,6 +59,8 @@ void addReport(CommandLine& molar) {
   command.option("--patient", options->patient, "Of an imported patient: its folder, for plan and pictures");
   command.option("--compare", options->compare, "A session of the same case, its measures beside");
   command.option("--reference", options->reference, kReferenceHelp).valueNamed("SET");
+  command.option("--trend", options->trend, "Measures of all sessions of the case in this folder over time")
+      .valueNamed("FOLDER");
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] { return report(*options); });
 }

@@ -18,7 +18,7 @@ DebriefRun::DebriefRun(const std::string& session, const std::string& patient_fo
     : path_(session),
       bookmarks_(Bookmarks::fileFor(session)),
       moments_(session),
-      risks_(risksOfSession(moments_.start())),
+      risks_(risksOfSession(moments_.start(), patientWithinSession(moments_.start()))),
       story_(moments_.events(), risks_) {
   const StoredStart& start = moments_.start();
   std::optional<assets::Patient> known = patientOfSession(start, patient_folder);

@@ -40,6 +40,13 @@ bool DebriefScene::prepare(double most_s) {
   return goes_on;
 }
 
+void DebriefScene::prepareTo(double t_s) {
+  constexpr double kPart_s = 1.0;
+  for (const auto& run : runs_)
+    while (run->preparedTo_s() <= t_s && run->prepare(kPart_s)) {
+    }
+}
+
 bool DebriefScene::isPrepared() const {
   return std::ranges::all_of(runs_, [](const auto& run) { return run->isPrepared(); });
 }

@@ -27,6 +27,8 @@ class DebriefScene {
   double length_s() const;
   /// Runs about `most_s` more of each; false: all are prepared.
   bool prepare(double most_s);
+  /// Runs all until that moment at least.
+  void prepareTo(double t_s);
   double preparedShare() const;
   bool isPrepared() const;
 

@@ -19,17 +19,10 @@
 namespace app {
 namespace {
 
-constexpr double kExportPart_s = 5.0;
 constexpr std::size_t kMostPictures = 20'000;
 
 double secondsSince(std::chrono::steady_clock::time_point begun) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
-
-void prepareTo(DebriefScene& scene, double t_s) {
-  for (const auto& run : scene.runs())
-    while (run->preparedTo_s() <= t_s && run->prepare(kExportPart_s)) {
-    }
 }
 
 std::vector<std::string> pictureNames(std::size_t count) {
@@ -61,7 +54,7 @@ int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted) {
   options.backend = rendererWithoutWindow(plan.backend, context, printMessage);
   options.samples = 2;
   const auto begun = std::chrono::steady_clock::now();
-  prepareTo(scene, std::max(snapshot ? plan.at_s : 0.0, clip ? wanted.to_s : 0.0));
+  scene.prepareTo(std::max(snapshot ? plan.at_s : 0.0, clip ? wanted.to_s : 0.0));
   const double prepared_s = secondsSince(begun);
   if (clip && wanted.from_s > scene.length_s())
     throw UsageError(fmt::format("--from {:.1f}: the session has {:.1f} s", wanted.from_s, scene.length_s()));

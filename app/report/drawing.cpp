@@ -198,6 +198,18 @@ void Drawing::image(const render::Image& picture, const glm::dvec2& corner, cons
       cairo_image_surface_create_for_data(static_cast<unsigned char*>(data), CAIRO_FORMAT_RGB24, picture.w, picture.h,
                                           4 * picture.w),
       cairo_surface_destroy);
+  if (isSvg()) {
+    // Not by Cairo, whose patterns have the same ids in every drawing of a page.
+    std::string png;
+    cairo_surface_write_to_png_stream(source.get(), append, &png);
+    const std::unique_ptr<char, decltype(&g_free)> text(
+        g_base64_encode(reinterpret_cast<const unsigned char*>(png.data()), png.size()), g_free);
+    images_ += fmt::format(
+        "<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
+        "href=\"data:image/png;base64,{}\"/>\n",
+        corner.x, corner.y, size.x, size.y, text.get());
+    return;
+  }
   cairo_save(pen());
   cairo_translate(pen(), corner.x, corner.y);
   cairo_scale(pen(), size.x / picture.w, size.y / picture.h);
@@ -287,7 +299,7 @@ std::string Drawing::markup(std::string_view description) {
              "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{:.2f}\" "
              "height=\"{:.2f}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" aria-label=\"",
              size_.x, size_.y, size_.x, size_.y) +
-         escaped(description) + "\">" + drawn + words_ + hints_ + "</svg>\n";
+         escaped(description) + "\">" + images_ + drawn + words_ + hints_ + "</svg>\n";
 }
 
 void Drawing::save(calibration::OutputFile& file) const {

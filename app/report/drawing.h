@@ -65,7 +65,7 @@ class Drawing {
   /// Clips `draw` to the box.
   void inside(const glm::dvec2& corner, const glm::dvec2& size, const std::function<void()>& draw) const;
 
-  /// An opaque picture, scaled to the box and smoothed.
+  /// An opaque picture, scaled to the box and smoothed; of SVG below all shapes.
   void image(const render::Image& picture, const glm::dvec2& corner, const glm::dvec2& size) const;
 
   /// Width of one line.
@@ -100,7 +100,8 @@ class Drawing {
   void show(PangoLayout* layout, const glm::dvec2& corner, Align align, const Ink& ink) const;
 
   glm::dvec2 size_{0.0};
-  std::string svg_;            ///< output of Cairo
+  std::string svg_;  ///< output of Cairo
+  mutable std::string images_;
   mutable std::string words_;  ///< text elements of SVG, above all shapes
   std::string hints_;          ///< of SVG, above its text
   std::unique_ptr<_cairo, void (*)(_cairo*)> pen_;

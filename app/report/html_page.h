@@ -28,5 +28,8 @@ std::string figureMarkup(const std::string& drawing, const std::string& caption_
 
 /// A table of words, one row of heads above; no heads: none.
 std::string tableMarkup(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows);
+/// The same of cells that are markup.
+std::string tableOfMarkup(const std::vector<std::string>& heads,
+                          const std::vector<std::vector<std::string>>& rows_markup);
 
 }  // namespace app

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "assets/tissue.h"
+#include "app/session/measures/plan_comparison.h"
 #include "assets/trilinear.h"
 #include "render/display/camera.h"
 #include "render/display/eye_projection.h"
@@ -25,8 +25,7 @@ bool isBone(const BoneStates& bone, const glm::dvec3& p_P_mm) {
   if (bone.label.empty()) return true;
   const glm::ivec3 ijk(glm::round(bone.grid.indexFromPoint(p_P_mm)));
   if (!bone.grid.contains(ijk)) return false;
-  const auto tissue = static_cast<assets::Tissue>(bone.label[bone.grid.index(ijk)]);
-  return tissue == assets::Tissue::cortical || tissue == assets::Tissue::trabecular;
+  return countsAsBone(bone.label[bone.grid.index(ijk)]);
 }
 
 enum class PlanColour { none, over, under };

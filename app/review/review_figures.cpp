@@ -85,7 +85,10 @@ std::vector<TimeSpan> stepsAsSpans(const ProcedureRun& run) {
 
 std::string markId(int number) { return fmt::format("moment-{}", number); }
 
-std::string timelineFigure(const SessionCourse& course, const std::optional<ProcedureRun>& procedure) {
+std::string pictureId(std::size_t number) { return fmt::format("picture-{}", number + 1); }
+
+std::string timelineFigure(const SessionCourse& course, const std::optional<ProcedureRun>& procedure,
+                           const std::vector<MomentPicture>& moments) {
   const Axis time = timeAxis(course.duration_s);
   const double steps = procedure ? 26.0 : 0.0;
   Drawing drawing({kWidth, 372.0 + steps});
@@ -105,15 +108,26 @@ std::string timelineFigure(const SessionCourse& course, const std::optional<Proc
   drawing.path(stepsOf(removed, rate, SessionCourse::kBin_s), 1.2, paper::kBlue);
 
   hintBins(drawing, force, removed, course);
-  // What happened, numbered, over both plots.
+  // What is shown, by a picture's place; what happened, numbered, over both plots.
+  for (std::size_t n = 0; n < moments.size(); ++n) {
+    const double x = force.at({moments[n].moment.t_s, 0.0}).x, y = removed.foot().y;
+    drawing.polygon({{x, y}, {x - 5.0, y + 9.0}, {x + 5.0, y + 9.0}}, paper::kBlue);
+    drawing.hint({x - 6.0, y}, {12.0, 11.0},
+                 fmt::format("picture: {} at {}", moments[n].moment.what, clockText(moments[n].moment.t_s)),
+                 pictureId(n));
+  }
+  const auto leads_to = [&moments](const SessionMark& mark, int at) {
+    const auto shown = pictureOf(moments, mark.t_s);
+    return shown ? pictureId(*shown) : markId(at);
+  };
   int number = 0;
   double last_x = -1e9;
-  for (const TimeMark& mark : course.marks) {
+  for (const SessionMark& mark : course.marks) {
     const double x = force.at({mark.t_s, 0.0}).x;
     drawing.line({x, force.corner.y}, {x, removed.foot().y}, 0.8, paper::kQuiet, {3.0, 3.0});
     ++number;
     drawing.hint({x - 3.0, force.corner.y}, {6.0, removed.foot().y - force.corner.y},
-                 fmt::format("{}: {} at {}", number, mark.what, clockText(mark.t_s)), markId(number));
+                 fmt::format("{}: {} at {}", number, mark.what, clockText(mark.t_s)), leads_to(mark, number));
     if (x - last_x < 18.0) continue;
     drawing.text(std::to_string(number), {x + 3.0, force.corner.y + 8.0}, kNumberLine, paper::kInk, Align::left, true);
     last_x = x;
@@ -147,20 +161,59 @@ std::string forceFigure(const SessionCourse& course) {
   return drawing.markup("Histogram of the force while drilling in bone");
 }
 
-std::string picturesFigure(const std::vector<BonePicture>& pictures) {
+std::string picturesFigure(const std::vector<BonePicture>& pictures, std::string_view description, bool has_words) {
   if (pictures.empty()) return "";
-  constexpr double kColumn = 400.0, kWords = 20.0;
+  constexpr double kColumn = 400.0;
+  const double words = has_words ? 20.0 : 0.0;
   const render::Image& first = pictures.front().image;
   const double height = (kColumn - 8.0) * first.h / first.w;
   const double rows = std::ceil(static_cast<double>(pictures.size()) / 2.0);
-  Drawing drawing({2.0 * kColumn, rows * (height + kWords + 4.0)});
+  Drawing drawing({2.0 * kColumn, rows * (height + words + 4.0)});
   for (std::size_t n = 0; n < pictures.size(); ++n) {
-    const glm::dvec2 corner{static_cast<double>(n % 2) * kColumn, static_cast<double>(n / 2) * (height + kWords + 4.0)};
+    const glm::dvec2 corner{static_cast<double>(n % 2) * kColumn, static_cast<double>(n / 2) * (height + words + 4.0)};
     drawing.image(pictures[n].image, corner, {kColumn - 8.0, height});
-    drawing.text(pictures[n].from, corner + glm::dvec2(0.0, height + 0.5 * kWords), kLabelLine, paper::kInk,
-                 Align::left);
+    if (has_words)
+      drawing.text(pictures[n].from, corner + glm::dvec2(0.0, height + 0.5 * words), kLabelLine, paper::kInk,
+                   Align::left);
   }
-  return drawing.markup("The site as it was left");
+  return drawing.markup(description);
+}
+
+std::string trendFigure(const CaseTrend& trend, const SessionMetrics& own) {
+  constexpr double kColumn = 200.0, kRow = 118.0;
+  constexpr std::size_t kInRow = 4;
+  const TrendTable table = trendTable(trend);
+  const auto rows = static_cast<double>((table.names.size() + kInRow - 1) / kInRow);
+  Drawing drawing({kColumn * kInRow, kRow * rows});
+  for (std::size_t n = 0; n < table.names.size(); ++n) {
+    std::vector<double> values;
+    for (const TrendTable::Row& run : table.runs)
+      if (run.values[n]) values.push_back(*run.values[n]);
+    const glm::dvec2 corner{static_cast<double>(n % kInRow) * kColumn, static_cast<double>(n / kInRow) * kRow};
+    drawing.text(table.names[n], corner + glm::dvec2(8.0, 12.0), kNumberLine, paper::kInk, Align::left);
+    if (values.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(values);
+    Axes axes;
+    axes.corner = corner + glm::dvec2(46.0, 26.0);
+    axes.size = {kColumn - 58.0, kRow - 46.0};
+    axes.x = {0.5, static_cast<double>(table.runs.size()) + 0.5, {}, ""};
+    axes.y = axisOf(axisTicks(std::min(0.0, low), high, 2, true), "");
+    axes.draw(drawing);
+    if (!table.spread.empty() && table.spread.front().values[n]) {
+      const double y = axes.at({0.5, *table.spread.front().values[n]}).y;
+      drawing.line({axes.corner.x, y}, {axes.foot().x, y}, 1.0, paper::kQuiet, {4.0, 3.0});
+    }
+    for (std::size_t run = 0; run < table.runs.size(); ++run) {
+      const auto& value = table.runs[run].values[n];
+      if (!value) continue;
+      const SessionMetrics& of = trend.runs[run].metrics;
+      const bool is_own = of.ticks == own.ticks && of.duration_s == own.duration_s && of.removed_mm3 == own.removed_mm3;
+      const glm::dvec2 at = axes.at({static_cast<double>(run) + 1.0, *value});
+      is_own ? drawing.box(at - 4.0, glm::dvec2(8.0), paper::kOrange) : drawing.disc(at, 3.5, paper::kBlue);
+      drawing.hint(at - 6.0, glm::dvec2(12.0), fmt::format("{}: {:.2f}", table.runs[run].name, *value));
+    }
+  }
+  return drawing.markup("Measures of the rehearsals of this case from old to new");
 }
 
 std::string answerSymbol(std::optional<bool> is_error) {

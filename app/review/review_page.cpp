@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -23,7 +24,9 @@ int digitsOf(double value) { return std::abs(value) < 10.0 ? 2 : std::abs(value)
 
 std::string valueWords(const MeasureValue& measure) {
   if (!measure.value) return "not told: " + std::string(measure.why);
-  std::string words = fixedText(*measure.value, digitsOf(*measure.value));
+  // What is counted, a share of all or nothing.
+  const bool is_whole = measure.unit.empty() && *measure.value == std::round(*measure.value);
+  std::string words = fixedText(*measure.value, is_whole ? 0 : digitsOf(*measure.value));
   if (!measure.unit.empty()) words += " " + unitText(measure.unit);
   if (measure.t_s) words += " at " + clockText(*measure.t_s);
   return words;
@@ -51,10 +54,38 @@ std::string caseSection(const SessionReview& review) {
   return tableMarkup({}, rows);
 }
 
-std::string answer(std::optional<bool> is_error, const std::string& question, const std::string& words) {
-  const char* said = !is_error ? "Not known" : *is_error ? "Yes" : "No";
-  return "<div class=\"verdict\">\n" + answerSymbol(is_error) + "<div><b>" + said + "</b>: " + escaped(question) +
-         (words.empty() ? "" : "<br><span class=\"quiet\">" + escaped(words) + "</span>") + "</div>\n</div>\n";
+/// "2:39", leading to its picture where it has one.
+std::string momentLink(const SessionReview& review, double t_s) {
+  const auto shown = pictureOf(review.moments, t_s);
+  return shown ? "<a href=\"#" + pictureId(*shown) + "\">" + clockText(t_s) + "</a>" : clockText(t_s);
+}
+
+const MeasureValue* measureOf(const SessionReview& review, std::string_view id) {
+  const auto named = std::ranges::find(review.metrics.measures, id, &MeasureValue::id);
+  return named == review.metrics.measures.end() ? nullptr : &*named;
+}
+
+/// When the event of a gate happened; none: it did not, or is of no moment.
+std::optional<double> momentOf(const SessionReview& review, const Gate& gate) {
+  if (!gate.is_open.value_or(false)) return {};
+  for (const auto& [key, id] : {std::pair("perforation", "O5.area"), std::pair("second_molar", "O10.second_molar")})
+    if (const MeasureValue* const measure = measureOf(review, id);
+        gate.key == key && measure != nullptr && measure->value.value_or(0.0) > 0.0 && measure->t_s)
+      return measure->t_s;
+  for (const auto& [key, what] :
+       {std::pair("second_molar", "second molar touched"), std::pair("canal", "mandibular canal touched")})
+    for (const SessionMark& mark : review.course.marks)
+      if (gate.key == key && mark.kind == MarkKind::touch && mark.what.ends_with(what)) return mark.t_s;
+  return {};
+}
+
+std::string answer(const SessionReview& review, const Gate& gate, const std::string& question) {
+  const char* said = !gate.is_open ? "Not known" : *gate.is_open ? "Yes" : "No";
+  std::string words = escaped(gate.words);
+  if (const auto t_s = momentOf(review, gate); t_s && pictureOf(review.moments, *t_s))
+    words += ", picture " + momentLink(review, *t_s);
+  return "<div class=\"verdict\">\n" + answerSymbol(gate.is_open) + "<div><b>" + said + "</b>: " + escaped(question) +
+         (words.empty() ? "" : "<br><span class=\"quiet\">" + words + "</span>") + "</div>\n</div>\n";
 }
 
 /// "Lingual plate broken through".
@@ -65,9 +96,9 @@ std::string begun(std::string_view name) {
 }
 
 std::string errorsSection(const SessionReview& review) {
-  std::string content;
-  for (const Gate& gate : gatesOf(review.metrics)) content += answer(gate.is_open, begun(gate.name), gate.words);
-  return content;
+  std::string content = "<div class=\"beside\">\n";
+  for (const Gate& gate : gatesOf(review.metrics)) content += answer(review, gate, begun(gate.name));
+  return content + "</div>\n";
 }
 
 std::string againstSection(const SessionReview& review, const ReferenceSet& set) {
@@ -88,14 +119,43 @@ std::string againstSection(const SessionReview& review, const ReferenceSet& set)
 bool isSafety(const MeasureValue& measure) { return measure.id.starts_with("S"); }
 bool isOutcome(const MeasureValue& measure) { return measure.id.starts_with("O"); }
 
+/// Least clearance by structure, with force and speed then, and time in the bands that are measured.
+std::string clearanceTable(const SessionReview& review) {
+  Rows rows;
+  const auto cell = [&](const std::string& id) {
+    const MeasureValue* const measure = measureOf(review, id);
+    return measure == nullptr || !measure->value
+               ? std::string("-")
+               : fixedText(*measure->value, digitsOf(*measure->value)) + " " + escaped(unitText(measure->unit));
+  };
+  for (const auto& [id, name] :
+       {std::pair("canal", "mandibular canal"), std::pair("lingual", "outer lingual surface"),
+        std::pair("second_molar", "second molar"), std::pair("lingual_nerve", "lingual nerve's band (modelled)")}) {
+    const std::string least = std::string("S1.") + id, near = std::string("S2.") + id;
+    const MeasureValue* const measure = measureOf(review, least);
+    if (measure == nullptr) continue;
+    if (!measure->value) {
+      rows.push_back({name, "not told: " + escaped(measure->why), "", "", "", "", "", ""});
+      continue;
+    }
+    rows.push_back({name, "<b>" + cell(least) + "</b>", measure->t_s ? momentLink(review, *measure->t_s) : "",
+                    cell(least + "_force"), cell(least + "_speed"), cell(near + "_1mm"), cell(near + "_2mm"),
+                    cell(near + "_4mm")});
+  }
+  if (rows.empty()) return "";
+  return tableOfMarkup({"Turning bur to", "nearest", "at", "force then", "speed then", "below 1 mm", "2 mm", "4 mm"},
+                       rows);
+}
+
 std::string nearSection(const SessionReview& review) {
   const SessionMetrics& metrics = review.metrics;
   Rows rows;
   // Of work near lingual plate and second molar only what there was.
   const auto is_told = [](const MeasureValue& measure) {
+    if (measure.id.starts_with("S1.") || measure.id.starts_with("S2.")) return false;
     const bool of_neighbour = measure.id.ends_with("molar") || measure.id.find("molar_") != std::string_view::npos ||
                               measure.id.find("lingual") != std::string_view::npos;
-    return measure.id.starts_with("S1") || !of_neighbour || measure.value.value_or(0.0) != 0.0;
+    return !of_neighbour || measure.value.value_or(0.0) != 0.0;
   };
   for (const MeasureValue& measure : metrics.measures)
     if (isSafety(measure) && is_told(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
@@ -106,7 +166,25 @@ std::string nearSection(const SessionReview& review) {
                     pressed = softTouchesText(metrics.soft_touches.touched);
   rows.push_back({"bur turned on soft tissue", cut.empty() ? "never" : cut});
   rows.push_back({"soft tissue pressed", pressed.empty() ? "never" : pressed});
-  return tableMarkup({}, rows);
+  return clearanceTable(review) + tableMarkup({}, rows);
+}
+
+std::string momentsSection(const SessionReview& review) {
+  if (review.moments.empty()) return "";
+  std::string content = "<div class=\"beside\">\n";
+  for (std::size_t n = 0; n < review.moments.size(); ++n) {
+    const auto& [moment, force_N, views] = review.moments[n];
+    const std::string words =
+        fmt::format("{} {}; force {} N", clockText(moment.t_s), moment.what, fixedText(force_N, 1));
+    content += "<figure id=\"" + pictureId(n) + "\">\n" + picturesFigure(views, words, false) + "<figcaption><b>" +
+               clockText(moment.t_s) + "</b> " + escaped(moment.what) + "; force " + fixedText(force_N, 1) +
+               " N</figcaption></figure>\n";
+  }
+  content +=
+      "</div>\n<p class=\"quiet\">Drawn from the recording as it was run again: on the left as the surgeon saw "
+      "it, on the right the jaw alone from aside with the mandibular canal.";
+  for (const std::string& remark : review.remarks) content += " " + escaped(remark) + ".";
+  return content + "</p>\n";
 }
 
 std::string removedSection(const SessionReview& review) {
@@ -115,16 +193,14 @@ std::string removedSection(const SessionReview& review) {
     for (const auto& [tissue, removed_mm3] : *review.metrics.removed_mm3_by_label)
       if (const std::string_view name = hardTissueName(tissue); !name.empty() && removed_mm3 >= 0.05)
         rows.push_back({std::string(name), fixedText(removed_mm3, 1) + " mm³"});
-  if (review.against_plan)
-    rows.push_back({"bone planned to go", fixedText(review.against_plan->planned_mm3, 1) + " mm³"});
   for (const MeasureValue& measure : review.metrics.measures)
     if (isOutcome(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
   const std::string caption =
-      review.against_plan
+      review.is_against_plan
           ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
             "the plan that stands. What sectioning and clearing took beyond the gutter is red, too."
           : "The site as it was left.";
-  return tableMarkup({}, rows) + figureMarkup(picturesFigure(review.pictures), caption);
+  return tableMarkup({}, rows) + figureMarkup(picturesFigure(review.pictures, "The site as it was left"), caption);
 }
 
 std::string handSection(const SessionReview& review, const SessionMetrics* other) {
@@ -150,19 +226,42 @@ std::string handSection(const SessionReview& review, const SessionMetrics* other
 }
 
 std::string courseSection(const SessionReview& review) {
-  std::string content = figureMarkup(timelineFigure(review.course, review.metrics.procedure),
-                                     "Instruments, drilling, force and removal; the numbers are those of the list.");
+  std::string content = figureMarkup(timelineFigure(review.course, review.metrics.procedure, review.moments),
+                                     "Instruments, drilling, force and removal; the numbers are those of the list, "
+                                     "the blue marks below lead to the pictures.");
   if (!review.course.marks.empty()) {
-    content += "<ol>\n";
+    content += "<ol class=\"columns\">\n";
     int number = 0;
-    for (const TimeMark& mark : review.course.marks)
-      content += "<li id=\"" + markId(++number) + "\">" + clockText(mark.t_s) + " " + escaped(mark.what) + "</li>\n";
+    for (const SessionMark& mark : review.course.marks)
+      content +=
+          "<li id=\"" + markId(++number) + "\">" + momentLink(review, mark.t_s) + " " + escaped(mark.what) + "</li>\n";
     content += "</ol>\n";
   }
   if (!review.metrics.procedure) return content;
   content += "<p>" + escaped(procedureInWords(*review.metrics.procedure)) + "</p>\n<ul>\n";
   for (const std::string& step : stepsInWords(*review.metrics.procedure)) content += "<li>" + escaped(step) + "</li>\n";
   return content + "</ul>\n";
+}
+
+std::string trendSection(const SessionReview& review, const CaseTrend& trend) {
+  const TrendTable table = trendTable(trend);
+  std::vector<std::string> heads{"Rehearsal"};
+  heads.insert(heads.end(), table.names.begin(), table.names.end());
+  Rows rows;
+  for (const auto* const part : {&table.runs, &table.spread})
+    for (const TrendTable::Row& row : *part) {
+      std::vector<std::string>& cells = rows.emplace_back(1, row.name);
+      for (const auto& value : row.values) cells.push_back(value ? fixedText(*value, digitsOf(*value)) : "-");
+    }
+  std::string words =
+      fmt::format("{} of this case.", trend.runs.size() == 1 ? std::string("One rehearsal")
+                                                             : fmt::format("{} rehearsals", trend.runs.size()));
+  if (table.spread.empty()) words += fmt::format(" Median and range are told from {} on.", kRunsForTrend);
+  return figureMarkup(
+             trendFigure(trend, review.metrics),
+             escaped(words +
+                     " Each dot is one, from old to new; the square is this one, the broken line the median.")) +
+         tableMarkup(heads, rows);
 }
 
 std::string conditionsSection(const SessionReview& review) {
@@ -185,7 +284,8 @@ std::string conditionsSection(const SessionReview& review) {
 
 }  // namespace
 
-std::string reviewHtml(const SessionReview& review, const SessionMetrics* other, const ReferenceSet* reference) {
+std::string reviewHtml(const SessionReview& review, const HeldAgainst& against) {
+  const auto& [other, reference, trend] = against;
   std::string below = clockText(review.metrics.duration_s) + " min";
   if (!review.started_utc.empty()) below = timeText(review.started_utc) + " \u00b7 " + below;
   HtmlPage page("Rehearsal: " + review.metrics.patient_title, below);
@@ -193,9 +293,11 @@ std::string reviewHtml(const SessionReview& review, const SessionMetrics* other,
   page.section("Errors", errorsSection(review));
   if (reference != nullptr) page.section("Against the reference", againstSection(review, *reference));
   page.section("How near, and on what", nearSection(review));
+  page.section("These moments", momentsSection(review));
   page.section("Bone and tooth removed", removedSection(review));
   page.section("The hand's work", handSection(review, other));
   page.section("The course", courseSection(review));
+  if (trend != nullptr) page.section("Over time", trendSection(review, *trend));
   page.section("Conditions", conditionsSection(review));
   return page.text(std::string("Measures as in molar metrics; ") +
                    (reference == nullptr ? "no score is given, for no reference was named"

@@ -9,7 +9,6 @@
 #include "app/station/session_case.h"
 #include "app/text/clock_text.h"
 #include "app/text/usage_error.h"
-#include "assets/tissue.h"
 
 namespace app {
 namespace {
@@ -58,10 +57,8 @@ SessionComparison comparisonOf(const std::string& path_a, const std::string& pat
   const BoneAtTime a = boneAtTime(path_a, {}), b = boneAtTime(path_b, {});
   if (!(a.start.grid == b.start.grid) || a.start.label != b.start.label || a.start.solid != b.start.solid)
     throw UsageError(path_b + ": begins with another bone than " + path_a + ", compare two rehearsals of one case");
-  comparison.bone = compareRemovals(a.start.grid, a.start.solid, a.solid, b.solid, [&](std::size_t v) {
-    const auto tissue = static_cast<assets::Tissue>(a.start.label[v]);
-    return tissue == assets::Tissue::cortical || tissue == assets::Tissue::trabecular;
-  });
+  comparison.bone = compareRemovals(a.start.grid, a.start.solid, a.solid, b.solid,
+                                    [&](std::size_t v) { return countsAsBone(a.start.label[v]); });
   return comparison;
 }
 

@@ -2,29 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 
 #include "app/options/bur_name.h"
-#include "app/session/touch_event.h"
-#include "app/text/clock_text.h"
 
 namespace app {
 namespace {
 
 constexpr double kBridged_s = 0.5;
-
-/// What is worth a mark on a timeline; empty: not that. Never a path or a calibration's name.
-std::string markOf(const SessionEvent& event) {
-  if (event.kind == kTouchEvent) {
-    // The tooth that is operated on is meant to be touched.
-    const auto touch = touchFrom(event.text);
-    return touch && !touch->what.ends_with("third molar") ? touch->what + " touched" : "";
-  }
-  if (event.kind == "soft tissue") return event.text.starts_with("bur on") ? event.text : "";
-  for (const char* kind : {"tooth", "forceps", "elevator", "stitch", "emergency stop"})
-    if (event.kind == kind) return event.text;
-  return "";
-}
 
 void extend(std::vector<TimeSpan>& spans, double t_s, double dt_s) {
   if (spans.empty() || t_s - spans.back().to_s > kBridged_s) spans.push_back({t_s, t_s, ""});
@@ -43,28 +28,22 @@ T& binAt(std::vector<T>& bins, double t_s) {
 SessionCourse courseOf(SessionReader& session) {
   SessionCourse course;
   const std::vector<SessionCommand> commands = session.commands();
-  const std::vector<SessionEvent> events = session.events();
   auto command = commands.begin();
-  auto event = events.begin();
-  double restored_mm3 = 0.0;
+  SessionMarks marks(session.events());
+  haptics::Tool tool;
   session.rewind();
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
     for (const haptics::Tick& tick : block.ticks) {
       course.duration_s = tick.t_s + tick.dt_s;
       for (; command != commands.end() && command->first_tick <= tick.index; ++command) {
-        const std::string name = toolName(command->command.tool);
+        tool = command->command.tool;
+        const std::string name = toolName(tool);
         if (!course.tools.empty() && !(course.tools.back().to_s > course.tools.back().from_s)) course.tools.pop_back();
         if (course.tools.empty() || course.tools.back().what != name)
           course.tools.push_back({tick.t_s, tick.t_s, name});
       }
       if (!course.tools.empty()) course.tools.back().to_s = course.duration_s;
-      for (; event != events.end() && event->tick <= tick.index; ++event)
-        if (std::string what = markOf(*event); !what.empty()) course.marks.push_back({tick.t_s, std::move(what)});
-      if (tick.broken.piece != 0) course.marks.push_back({tick.t_s, "a bridge of the tooth broke"});
-      if (tick.restored_total_mm3 > restored_mm3 &&
-          (course.marks.empty() || course.marks.back().what != "undone" || tick.t_s - course.marks.back().t_s > 1.0))
-        course.marks.push_back({tick.t_s, "undone"});
-      restored_mm3 = tick.restored_total_mm3;
+      marks.follow(tick, tool);
 
       const double force_N = glm::length(tick.law_force_P_N.xyz);
       if (double& most_N = binAt(course.most_force_N, tick.t_s); force_N > most_N) most_N = force_N;
@@ -75,6 +54,11 @@ SessionCourse courseOf(SessionReader& session) {
       course.force_s[std::min(bin, SessionCourse::kForceBins - 1)] += tick.dt_s;
     }
   session.rewind();
+  // The figure has rows of its own for steps and instruments.
+  std::ranges::copy_if(marks.all(), std::back_inserter(course.marks), [](const SessionMark& mark) {
+    return mark.kind != MarkKind::step && mark.kind != MarkKind::tool;
+  });
+  std::ranges::stable_sort(course.marks, {}, &SessionMark::t_s);
   return course;
 }
 

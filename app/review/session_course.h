@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/review/session_marks.h"
 #include "app/session/session_reader.h"
 
 namespace app {
@@ -15,11 +16,6 @@ struct TimeSpan {
   std::string what{};
 };
 
-struct TimeMark {
-  double t_s = 0.0;
-  std::string what;
-};
-
 struct SessionCourse {
   static constexpr double kBin_s = 0.5;
   static constexpr double kForceBin_N = 0.25;
@@ -27,7 +23,7 @@ struct SessionCourse {
 
   std::vector<double> most_force_N, removed_mm3;  ///< by bin
   std::vector<TimeSpan> drilling, tools;          ///< in bone, pauses below half a second bridged; in the hand
-  std::vector<TimeMark> marks;                    ///< touches, soft tissue under the bur, undo, breaks, in order
+  std::vector<SessionMark> marks;                 ///< in order of time, without steps and instruments
   std::array<double, kForceBins> force_s{};       ///< time drilling in bone by the force of the model
   double duration_s = 0.0;
 };

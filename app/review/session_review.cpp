@@ -1,14 +1,12 @@
 #include "app/review/session_review.h"
 
-#include <limits>
+#include <utility>
 
 #include "app/case/operated_crown.h"
 #include "app/options/law_text.h"
-#include "app/session/replay.h"
 #include "app/station/session_case.h"
 #include "app/station/session_patient.h"
 #include "assets/synthetic/practice_block.h"
-#include "assets/tissue.h"
 
 namespace app {
 namespace {
@@ -41,42 +39,34 @@ SiteView siteOfBlock() {
           assets::fromBlock({0.0, 0.0, 1.0})};
 }
 
-PlanComparison comparisonOf(const StoredStart& start, std::span<const std::uint8_t> after,
-                            const std::function<double(const glm::dvec3&)>& from_plan_mm) {
-  const auto is_bone = [&](std::size_t v) {
-    const auto tissue = static_cast<assets::Tissue>(start.label[v]);
-    return tissue == assets::Tissue::cortical || tissue == assets::Tissue::trabecular;
-  };
-  return compareWithPlan(start.grid, start.solid, after, is_bone, from_plan_mm);
-}
-
 }  // namespace
 
-SessionReview reviewOf(const std::string& path, const std::string& patient_folder) {
+SessionReview reviewOf(const std::string& path, const std::string& patient_folder, const RunsAgain& runs_again) {
   SessionReview review;
-  review.metrics = metricsOf(path, caseOfSession);
+  SessionCase about;
+  review.metrics = metricsOf(path, [&about](const StoredStart& start) { return about = caseOfSession(start); });
   SessionReader session(path);
   review.course = courseOf(session);
-  const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
-  const StoredStart& start = end.start;
+  const StoredStart start = session.start();
   review.started_utc = start.started_utc;
-  review.law = lawName(end.command.law.kind);
-  // As recorded; which pieces are out is the replay's.
-  const std::vector<std::uint8_t> in_mouth = end.bodies.solidInMouth(), whole = boneAtTime(path, {}).solid;
+  const std::vector<SessionCommand> commands = session.commands();
+  review.law = lawName((commands.empty() ? haptics::Command() : commands.back().command).law.kind);
+  RunAgain again = runs_again(toldMoments(review.metrics, review.course));
+  review.moments = std::move(again.moments);
+  review.remarks = std::move(again.remarks);
 
   const std::optional<assets::Patient> patient = patientOfSession(start, patient_folder);
-  const SessionCase about = caseOfSession(start);
   if (patient && patient->site)
     review.plan = extractionPlan(*patient, patient->title);
   else
     review.why_no_plan = start.setup.practice.empty() ? "the patient's folder was not named, or is of another version"
                                                       : "a practice block has none";
-  if (about.from_plan_mm) review.against_plan = comparisonOf(start, whole, about.from_plan_mm);
+  review.is_against_plan = static_cast<bool>(about.from_plan_mm);
   const SiteView site = !start.setup.practice.empty() ? siteOfBlock()
                         : patient && patient->site    ? siteOf(*patient)
-                                                      : siteFromBone(start, whole);
+                                                      : siteFromBone(start, again.in_mouth);
   review.pictures =
-      bonePictures({start.grid, start.label, start.solid, in_mouth}, site, about.from_plan_mm, {480, 420});
+      bonePictures({start.grid, start.label, start.solid, again.in_mouth}, site, about.from_plan_mm, {480, 420});
   return review;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -18,18 +18,20 @@ namespace app {
 namespace {
 
 struct Column {
-  std::string_view key, head;
+  std::string_view key, head, name;
   std::optional<double> (*of)(const SessionMetrics& metrics);
 };
 
 constexpr std::array kColumns{
-    Column{"minutes", "min", [](const SessionMetrics& m) { return std::optional(m.duration_s / 60.0); }},
-    Column{"removed_mm3", "mm³", [](const SessionMetrics& m) { return std::optional(m.removed_mm3); }},
-    Column{"rate_mm3_per_s", "mm³/s", [](const SessionMetrics& m) { return valueOf(m, "M3.rate"); }},
-    Column{"painting_index", "painting", [](const SessionMetrics& m) { return valueOf(m, "PI"); }},
-    Column{"smoothness", "SPARC", [](const SessionMetrics& m) { return valueOf(m, "M5.SPARC"); }},
-    Column{"dry_s", "dry s", [](const SessionMetrics& m) { return std::optional(m.dry_drilling_s); }},
-    Column{"max_force_N", "most N", [](const SessionMetrics& m) { return std::optional(m.max_force_N); }},
+    Column{"minutes", "min", "length, min", [](const SessionMetrics& m) { return std::optional(m.duration_s / 60.0); }},
+    Column{"removed_mm3", "mm³", "removed, mm³", [](const SessionMetrics& m) { return std::optional(m.removed_mm3); }},
+    Column{"rate_mm3_per_s", "mm³/s", "removed, mm³/s drilling",
+           [](const SessionMetrics& m) { return valueOf(m, "M3.rate"); }},
+    Column{"painting_index", "painting", "painting index", [](const SessionMetrics& m) { return valueOf(m, "PI"); }},
+    Column{"smoothness", "SPARC", "smoothness, SPARC", [](const SessionMetrics& m) { return valueOf(m, "M5.SPARC"); }},
+    Column{"dry_s", "dry s", "drilled dry, s", [](const SessionMetrics& m) { return std::optional(m.dry_drilling_s); }},
+    Column{"max_force_N", "most N", "largest force, N",
+           [](const SessionMetrics& m) { return std::optional(m.max_force_N); }},
 };
 
 struct Spread {
@@ -64,7 +66,30 @@ std::string gradeText(const Grade& grade) {
 
 }  // namespace
 
-std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report) {
+TrendTable trendTable(const CaseTrend& one) {
+  TrendTable table;
+  for (const Column& column : kColumns) {
+    table.heads.emplace_back(column.head);
+    table.names.emplace_back(column.name);
+  }
+  for (const TrendRun& run : one.runs) {
+    TrendTable::Row& row = table.runs.emplace_back(TrendTable::Row{localDateTime(run.unix_s), {}});
+    for (const Column& column : kColumns) row.values.push_back(column.of(run.metrics));
+  }
+  if (one.runs.size() < kRunsForTrend) return table;
+  for (const auto& [name, part] :
+       {std::pair("median", &Spread::median), std::pair("least", &Spread::low), std::pair("most", &Spread::high)}) {
+    TrendTable::Row& row = table.spread.emplace_back(TrendTable::Row{name, {}});
+    for (const Column& column : kColumns) {
+      const auto spread = spreadOf(one, column);
+      row.values.push_back(spread ? std::optional((*spread).*part) : std::nullopt);
+    }
+  }
+  return table;
+}
+
+std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report,
+                               const std::string& only_title) {
   if (std::error_code failed; !std::filesystem::is_directory(folder, failed))
     throw SessionError(folder.string() + ": there is no such folder, name one that molar rehearse recorded into");
   std::map<std::string, CaseTrend> by_title;
@@ -72,6 +97,7 @@ std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const Report
   std::ranges::reverse(listed);
   for (const SessionListing& session : listed) {
     const std::string file = std::filesystem::path(session.path).filename().string();
+    if (session.isReadable() && !only_title.empty() && session.case_title != only_title) continue;
     if (!session.isReadable()) {
       report(file + ": " + session.remark + ", left out");
       continue;
@@ -95,33 +121,22 @@ std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const Report
 std::string trendText(const std::vector<CaseTrend>& cases, const ReferenceSet* reference) {
   std::string words;
   for (const CaseTrend& one : cases) {
+    const TrendTable table = trendTable(one);
     words += (words.empty() ? "" : "\n") + one.title + "\n" + fmt::format("{:<18}", "");
-    for (const Column& column : kColumns) words += fmt::format("{:>10}", column.head);
+    for (const std::string& head : table.heads) words += fmt::format("{:>10}", head);
     words += "\n";
-    for (const TrendRun& run : one.runs) {
-      words += fmt::format("{:<18}", localDateTime(run.unix_s));
-      for (const Column& column : kColumns) {
-        const auto value = column.of(run.metrics);
-        words += value ? fmt::format("{:>10.2f}", *value + 0.0) : fmt::format("{:>10}", "-");
+    const auto add = [&words](const std::vector<TrendTable::Row>& rows) {
+      for (const TrendTable::Row& row : rows) {
+        words += fmt::format("{:<18}", row.name);
+        for (const auto& value : row.values)
+          words += value ? fmt::format("{:>10.2f}", *value + 0.0) : fmt::format("{:>10}", "-");
+        words += "\n";
       }
-      words += "\n";
-    }
-    if (const auto grade = gradeOf(one, reference)) words += gradeText(*grade);
-    if (one.runs.size() < kRunsForTrend) {
-      words += fmt::format("median and range from {} runs on\n", kRunsForTrend);
-      continue;
-    }
-    const auto line = [&](std::string_view name, double Spread::*part) {
-      words += fmt::format("{:<18}", name);
-      for (const Column& column : kColumns) {
-        const auto spread = spreadOf(one, column);
-        words += spread ? fmt::format("{:>10.2f}", (*spread).*part + 0.0) : fmt::format("{:>10}", "-");
-      }
-      words += "\n";
     };
-    line("median", &Spread::median);
-    line("least", &Spread::low);
-    line("most", &Spread::high);
+    add(table.runs);
+    if (const auto grade = gradeOf(one, reference)) words += gradeText(*grade);
+    if (table.spread.empty()) words += fmt::format("median and range from {} runs on\n", kRunsForTrend);
+    add(table.spread);
   }
   return words;
 }

@@ -3,7 +3,9 @@
 // metricsOf().
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,21 @@ struct CaseTrend {
 /// Runs below this have no median.
 inline constexpr std::size_t kRunsForTrend = 3;
 
-/// Complete or killed sessions; what cannot be read is told and left out. Throws SessionError where the folder holds
-/// none.
-std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report);
+/// Complete or killed sessions, `only_title`: of this case; what cannot be read is told and left out. Throws
+/// SessionError where the folder holds none.
+std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report,
+                               const std::string& only_title = {});
+
+/// A few measures of each run, and from kRunsForTrend on median, least and most of each.
+struct TrendTable {
+  struct Row {
+    std::string name;  ///< when it was, or "median"
+    std::vector<std::optional<double>> values;
+  };
+  std::vector<std::string> heads, names;  ///< short; for people, with the unit
+  std::vector<Row> runs, spread;
+};
+TrendTable trendTable(const CaseTrend& one);
 
 /// `reference`: the grade of the runs of its case against it; null: none.
 std::string trendText(const std::vector<CaseTrend>& cases, const ReferenceSet* reference = nullptr);

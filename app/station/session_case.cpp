@@ -50,7 +50,7 @@ SessionCase caseOfSession(const StoredStart& start) {
   if (const auto task = assets::practiceTaskOf(start.setup.practice)) return practiceCase(*task, start);
   const assets::Patient patient = patientWithinSession(start);
   SessionCase known;
-  known.risks = risksOfSession(start);
+  known.risks = risksOfSession(start, patient);
   if (!patient.site) {
     known.why_no_plan = "no operated tooth is known";
     return known;

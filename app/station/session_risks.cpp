@@ -1,20 +1,18 @@
 #include "app/station/session_risks.h"
 
 #include "app/case/clearance_source.h"
-#include "app/station/session_patient.h"
 #include "assets/synthetic/jaw.h"
 
 namespace app {
 
-assets::RiskStructures risksOfSession(const StoredStart& start) {
-  const assets::Patient patient = patientWithinSession(start);
+assets::RiskStructures risksOfSession(const StoredStart& start, const assets::Patient& within) {
   const bool is_old = start.teeth.empty() && !start.setup.site;
   if (is_old && start.setup.built_in) {
     const assets::Patient again = assets::syntheticJaw(*start.setup.built_in);
     // Of another revision of the built-in patient: not the same jaw.
     if (again.ct.grid == start.grid && again.ct.label == start.label) return cachedRiskStructures(again);
   }
-  return cachedRiskStructures(patient);
+  return cachedRiskStructures(within);
 }
 
 }  // namespace app

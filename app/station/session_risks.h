@@ -4,10 +4,12 @@
 #pragma once
 
 #include "app/session/session_start.h"
+#include "assets/patient.h"
 #include "assets/risk_structures.h"
 
 namespace app {
 
-assets::RiskStructures risksOfSession(const StoredStart& start);
+/// `within`: patientWithinSession(start).
+assets::RiskStructures risksOfSession(const StoredStart& start, const assets::Patient& within);
 
 }  // namespace app

@@ -15,6 +15,16 @@ constexpr std::array<std::string_view, assets::kRiskStructures> kLeastIds{"S1.ca
 constexpr std::array<std::string_view, assets::kRiskStructures> kLeastNames{
     "least clearance to the mandibular canal", "least clearance to the outer lingual surface",
     "least clearance to the second molar", "least clearance to the lingual nerve's band (modelled)"};
+constexpr std::array<std::string_view, assets::kRiskStructures> kForceIds{
+    "S1.canal_force", "S1.lingual_force", "S1.second_molar_force", "S1.lingual_nerve_force"};
+constexpr std::array<std::string_view, assets::kRiskStructures> kForceNames{
+    "force at the least clearance to the mandibular canal", "force at the least clearance to the outer lingual surface",
+    "force at the least clearance to the second molar", "force at the least clearance to the lingual nerve's band"};
+constexpr std::array<std::string_view, assets::kRiskStructures> kSpeedIds{
+    "S1.canal_speed", "S1.lingual_speed", "S1.second_molar_speed", "S1.lingual_nerve_speed"};
+constexpr std::array<std::string_view, assets::kRiskStructures> kSpeedNames{
+    "speed at the least clearance to the mandibular canal", "speed at the least clearance to the outer lingual surface",
+    "speed at the least clearance to the second molar", "speed at the least clearance to the lingual nerve's band"};
 constexpr std::array<std::string_view, 3> kBandIds{"S2.canal_1mm", "S2.canal_2mm", "S2.canal_4mm"};
 constexpr std::array<std::string_view, 3> kBandNames{"time nearer than 1 mm to the mandibular canal",
                                                      "time nearer than 2 mm to the mandibular canal",
@@ -43,6 +53,9 @@ void ClearanceMeasures::add(const haptics::Tick& tick, const haptics::Tool& tool
   if (!tick.drilling || !tool.turns() || has(tick.faults, haptics::Fault::bad_pose)) return;
   turned_ = true;
   const auto X_PT = heldPose(tick);
+  // Of a bur that has just begun to turn it is not known.
+  const bool goes_on = last_ && tick.t_s - last_s_ < 1.5 * tick.dt_s;
+  const double speed_mm_per_s = goes_on ? glm::distance(X_PT.translation_mm, last_->translation_mm) / tick.dt_s : 0.0;
   if (!(tool == tool_) || !last_) {
     tool_ = tool;
     asked_ = {};
@@ -56,12 +69,14 @@ void ClearanceMeasures::add(const haptics::Tick& tick, const haptics::Tool& tool
       if (asked) asked->moved_mm += moved_mm;
   }
   last_ = X_PT;
+  last_s_ = tick.t_s;
   for (std::size_t n = 0; n < assets::kRiskStructures; ++n) {
     if (structures_.distance[n].isEmpty()) continue;
     if (!asked_[n] || !isSettled(n, *asked_[n])) {
       const double mm = haptics::clearance_mm(structures_.distance[n], tool, X_PT);
       asked_[n] = Asked{mm, 0.0};
-      if (!least_[n] || mm < least_[n]->mm) least_[n] = Least{mm, tick.t_s};
+      if (!least_[n] || mm < least_[n]->mm)
+        least_[n] = Least{mm, tick.t_s, glm::length(tick.law_force_P_N.xyz), speed_mm_per_s};
     }
     if (n == static_cast<std::size_t>(assets::RiskStructure::canal))
       for (std::size_t band = 0; band < kBands_mm.size(); ++band)
@@ -85,6 +100,10 @@ std::vector<MeasureValue> ClearanceMeasures::values() const {
   for (std::size_t n = 0; n < assets::kRiskStructures; ++n)
     if (add(kLeastIds[n], kLeastNames[n], "mm", n) && least_[n])
       values.back().value = least_[n]->mm, values.back().t_s = least_[n]->t_s;
+  for (std::size_t n = 0; n < assets::kRiskStructures; ++n) {
+    if (add(kForceIds[n], kForceNames[n], "N", n) && least_[n]) values.back().value = least_[n]->force_N;
+    if (add(kSpeedIds[n], kSpeedNames[n], "mm/s", n) && least_[n]) values.back().value = least_[n]->speed_mm_per_s;
+  }
   for (std::size_t band = 0; band < kBands_mm.size(); ++band)
     if (add(kBandIds[band], kBandNames[band], "s", 0)) values.back().value = in_band_s_[band];
   return values;

@@ -1,7 +1,8 @@
 // How near the turning bur came to nerve and neighbours (reference/product 4.3): S1 the least clearance of its surface
-// with the shaft, and when; S2 the time nearer than 1, 2 and 4 mm to the canal. Over all ticks with the drill on, at
-// the place where the bur is felt and cuts. A stream: live and from the file the same ticks give the same numbers. One
-// thread; a structure is asked where it can have come nearer than before or into another band: 5 µs each, then.
+// with the shaft, when, and force and speed then; S2 the time nearer than 1, 2 and 4 mm to the canal. Over all ticks
+// with the drill on, at the place where the bur is felt and cuts. A stream: live and from the file the same ticks give
+// the same numbers. One thread; a structure is asked where it can have come nearer than before or into another band: 5
+// µs each, then.
 #pragma once
 
 #include <array>
@@ -29,8 +30,9 @@ class ClearanceMeasures {
   /// `tool` of that tick.
   void add(const haptics::Tick& tick, const haptics::Tool& tool);
 
+  /// With the force of the model and the speed of the head's centre then.
   struct Least {
-    double mm = 0.0, t_s = 0.0;
+    double mm = 0.0, t_s = 0.0, force_N = 0.0, speed_mm_per_s = 0.0;
   };
   /// None: the drill was not on, or the case has no such structure.
   const std::array<std::optional<Least>, assets::kRiskStructures>& least() const { return least_; }
@@ -48,6 +50,7 @@ class ClearanceMeasures {
   std::array<std::optional<Asked>, assets::kRiskStructures> asked_;
   std::array<double, kBands_mm.size()> in_band_s_{};
   std::optional<calibration::Pose<calibration::Patient, calibration::Tool>> last_;
+  double last_s_ = 0.0;  ///< of last_
   haptics::Tool tool_;
   bool turned_ = false;
 };

@@ -20,6 +20,7 @@ constexpr std::string_view kNothingGone = "no bone was removed";
 
 constexpr std::array kOutcomes = std::to_array<MeasureName>({
     {"O2.plan", "share of the planned bone that is gone", ""},
+    {"O3.planned", "bone planned to go", "mm3"},
     {"O3.over", "bone removed outside of the plan", "mm3"},
     {"O3.under", "bone of the plan that stands", "mm3"},
     {"O3.dice", "overlap with the plan (Dice)", ""},
@@ -71,22 +72,20 @@ class Outcome {
   void refuse(std::initializer_list<std::string_view> ids, std::string_view why) {
     for (const std::string_view id : ids) tell(id, {}, why);
   }
-  bool isBone(std::size_t v) const {
-    const std::uint8_t label = of_.start.label[v];
-    return assets::isHard(label) && !assets::isTooth(label);
-  }
+  bool isBone(std::size_t v) const { return countsAsBone(of_.start.label[v]); }
   bool isLabelled() const { return !of_.start.label.empty(); }
 
   void againstPlan() {
-    const auto ids = {std::string_view("O2.plan"), std::string_view("O3.over"), std::string_view("O3.under"),
-                      std::string_view("O3.dice"), std::string_view("O4.mean"), std::string_view("O4.p95"),
-                      std::string_view("O4.max")};
+    const auto ids = {std::string_view("O2.plan"),  std::string_view("O3.planned"), std::string_view("O3.over"),
+                      std::string_view("O3.under"), std::string_view("O3.dice"),    std::string_view("O4.mean"),
+                      std::string_view("O4.p95"),   std::string_view("O4.max")};
     if (!of_.about.from_plan_mm || !isLabelled()) return refuse(ids, of_.about.why_no_plan);
     const PlanComparison found = compareWithPlan(
         of_.start.grid, of_.start.solid, of_.after, [this](std::size_t v) { return isBone(v); },
         of_.about.from_plan_mm);
     if (!(found.planned_mm3 > 0.0)) return refuse(ids, "there is no bone in the plan");
     tell("O2.plan", found.both_mm3 / found.planned_mm3);
+    tell("O3.planned", found.planned_mm3);
     tell("O3.over", found.over_mm3());
     tell("O3.under", found.under_mm3());
     tell("O3.dice", found.dice());

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "assets/tissue.h"
+
 namespace app {
 
 namespace {
@@ -15,6 +17,8 @@ std::optional<double> diceOf(double a, double b, double both) {
 double lost(std::uint8_t before, std::uint8_t after) { return before > after ? (before - after) / 255.0 : 0.0; }
 
 }  // namespace
+
+bool countsAsBone(std::uint8_t label) { return assets::isHard(label) && !assets::isTooth(label); }
 
 std::optional<double> PlanComparison::dice() const { return diceOf(removed_mm3, planned_mm3, both_mm3); }
 std::optional<double> RemovalDifference::dice() const { return diceOf(a_mm3, b_mm3, both_mm3); }

@@ -15,6 +15,9 @@
 
 namespace app {
 
+/// Of a label: what the volumes of bone count.
+bool countsAsBone(std::uint8_t label);
+
 struct PlanComparison {
   double removed_mm3 = 0.0, planned_mm3 = 0.0, both_mm3 = 0.0;
   /// Of what was cut outside of the plan, by volume; none: nothing was.

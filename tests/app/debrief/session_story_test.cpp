@@ -47,7 +47,7 @@ TEST(SessionStory, MarksWhatIsWorthIt) {
     marks.emplace_back(mark.kind, static_cast<int>(std::lround(1e3 * mark.t_s)));
   EXPECT_EQ(marks, (std::vector<std::pair<MarkKind, int>>{{MarkKind::step, 1000},
                                                           {MarkKind::coach, 1200},
-                                                          {MarkKind::touch, 1400},
+                                                          {MarkKind::touch, 1150},
                                                           {MarkKind::error, 1500},
                                                           {MarkKind::tool, 2000},
                                                           {MarkKind::undo, 2500}}));

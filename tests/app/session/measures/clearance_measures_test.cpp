@@ -55,6 +55,27 @@ TEST(ClearanceMeasures, StoppingThreeMillimetresOffIsTwo) {
   EXPECT_NE(least.conditions.find("0.25"), std::string::npos);
 }
 
+TEST(ClearanceMeasures, TellForceAndSpeedAtTheNearest) {
+  const assets::RiskStructures risks = canalAndCrown();
+  ClearanceMeasures measures(risks);
+  for (int n = 0; n <= 1000; ++n) {
+    haptics::Tick tick;
+    tick.dt_s = 0.001;
+    tick.t_s = 0.001 * n;
+    // 5 mm/s towards the canal for half a second, then back; the force rises all the time.
+    tick.proxy_P.mm = {-8.0, 0.0, -(8.0 - 0.005 * (n <= 500 ? n : 1000 - n))};
+    tick.hand.X_PT.translation_mm = tick.proxy_P.mm;
+    tick.law_force_P_N.xyz = {0.0, 0.0, 0.004 * n};
+    tick.drilling = true;
+    measures.add(tick, kRound);
+  }
+  const auto values = measures.values();
+  EXPECT_NEAR(*named(values, "S1.canal").t_s, 0.5, 0.01);
+  EXPECT_NEAR(*named(values, "S1.canal_force").value, 2.0, 0.04);
+  EXPECT_NEAR(*named(values, "S1.canal_speed").value, 5.0, 0.01);
+  EXPECT_EQ(named(values, "S1.canal_speed").unit, "mm/s");
+}
+
 TEST(ClearanceMeasures, ARampOfFourMillimetresIsOneTwoAndFourSecondsInTheBands) {
   const assets::RiskStructures risks = canalAndCrown();
   Way way(risks);

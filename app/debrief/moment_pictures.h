@@ -1,0 +1,18 @@
+// Moments of a recorded session as pictures for its report: what the surgeon saw, with the line that was read, and the
+// jaw alone from aside, where the bur and the canal are seen. Drawn on the processor while the session is run again
+// once. Any one thread; the CPU time of the recorded steps, and about half a second a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/review/session_review.h"
+
+namespace app {
+
+/// `moments` in order of time. `patient_folder`: of an imported patient, empty: not named. Throws SessionError,
+/// UsageError, LoadError.
+RunAgain momentPictures(const std::string& session, const std::string& patient_folder,
+                        const std::vector<ToldMoment>& moments);
+
+}  // namespace app
