@@ -17,8 +17,8 @@
 namespace render {
 namespace {
 
-constexpr double kLegendHeight = 0.12,
-                 kMaxLegendHeight = 0.3;  // of the viewer's screen
+constexpr double kLegendLine = 0.023, kMaxLegendHeight = 0.3;  // of the viewer's screen
+constexpr int kLeastLegendLine_px = 11;
 
 // Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.
 PixelBox sliceBox(std::size_t n, const glm::dvec2& per_height) {
@@ -135,16 +135,16 @@ void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
       add(seen, slice(kSlicePlanes[n], frame, seen.size_px.y));
     }
   // Translucent bone shows no bands; in a small image the legend would cover what it explains.
-  const bool has_room = clearanceLegendSize(1).y <= kMaxLegendHeight * per_height.y;
+  const bool has_room = clearanceLegendSize(kLeastLegendLine_px).y <= kMaxLegendHeight * per_height.y;
   if (frame.layers.clearance && has_canal_ && frame.mode != ViewMode::dvr && has_room) {
-    const int dot_px = std::max(static_cast<int>(kLegendHeight * per_height.y) / clearanceLegendSize(1).y, 1);
-    const glm::dvec2 size_px = glm::dvec2(clearanceLegendSize(dot_px)) * glm::dvec2(per_height.x / per_height.y, 1.0);
+    const int line_px = std::max(static_cast<int>(kLegendLine * per_height.y), kLeastLegendLine_px);
+    const glm::dvec2 size_px = glm::dvec2(clearanceLegendSize(line_px)) * glm::dvec2(per_height.x / per_height.y, 1.0);
     PixelBox seen;
     seen.size_px = glm::max(glm::ivec2(glm::round(size_px)), 1);
     seen.corner_px = seen_px - seen.size_px - glm::ivec2(kInsetGap * per_height);
     // Above the last line of text, which lies over the picture.
     seen.corner_px.y -= static_cast<int>(0.06 * per_height.y);
-    if (glm::all(glm::greaterThanEqual(seen.corner_px, glm::ivec2(0)))) add(seen, clearanceLegend(dot_px));
+    if (glm::all(glm::greaterThanEqual(seen.corner_px, glm::ivec2(0)))) add(seen, clearanceLegend(line_px));
   }
   scene_->setInsets(std::move(insets));
 }

@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "render/shaders/light_constants.glsl"
-#include "render/volume/slice_font.h"
+#include "render/volume/slice_text.h"
 
 namespace render {
 namespace {
 
-// In dots.
-constexpr int kMargin = 3, kSwatchWidth = 11, kRowHeight = kLetterHeight + 3;
-constexpr std::string_view kTitle = "TO CANAL";
-constexpr std::array<std::string_view, 3> kBands{"<1 MM", "<2 MM", "<3 MM"};
-constexpr int kLegendWidth = 2 * kMargin + static_cast<int>(kTitle.size()) * (kLetterWidth + 1);
-constexpr int kLegendHeight = 2 * kMargin + 4 * kRowHeight - 3;
+const std::string kTitle = "to the canal";
+const std::array<std::string, 3> kBands{"< 1 mm", "< 2 mm", "< 3 mm"};
+
+int marginOf(int line_px) { return line_px / 2; }
+int rowOf(int line_px) { return line_px + line_px / 3; }
+/// A swatch's width; its patterns are drawn in dots.
+int swatchOf(int line_px) { return 3 * line_px / 2; }
+int dotOf(int line_px) { return std::max(1, line_px / 9); }
 
 const glm::vec3 kLegendGround{18.0f, 20.0f, 22.0f}, kLegendBone{196.0f, 184.0f, 160.0f},
     kLegendText{225.0f, 232.0f, 235.0f};
@@ -32,34 +35,42 @@ float coverAt(std::size_t band, int x, int y) {
 
 }  // namespace
 
-glm::ivec2 clearanceLegendSize(int dot_px) { return dot_px * glm::ivec2(kLegendWidth, kLegendHeight); }
+glm::ivec2 clearanceLegendSize(int line_px) {
+  int wide = wordPixels(kTitle, line_px).size_px.x;
+  for (const std::string& band : kBands)
+    wide = std::max(wide, swatchOf(line_px) + marginOf(line_px) + wordPixels(band, line_px).size_px.x);
+  return {2 * marginOf(line_px) + wide, 2 * marginOf(line_px) + 3 * rowOf(line_px) + line_px};
+}
 
-Image clearanceLegend(int dot_px) {
-  const glm::ivec2 size = clearanceLegendSize(dot_px);
+Image clearanceLegend(int line_px) {
+  const glm::ivec2 size = clearanceLegendSize(line_px);
   Image image;
   image.w = size.x, image.h = size.y;
   image.rgba.assign(4 * static_cast<std::size_t>(size.x * size.y), 255);
-  const auto set = [&](int x, int y, const glm::vec3& colour) {
+  const auto blend = [&](int x, int y, const glm::vec3& colour, float share) {
     if (x < 0 || y < 0 || x >= size.x || y >= size.y) return;
     std::uint8_t* const to = &image.rgba[4 * static_cast<std::size_t>(y * size.x + x)];
-    for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(std::clamp(colour[c], 0.0f, 255.0f) + 0.5f);
+    for (int c = 0; c < 3; ++c)
+      to[c] = static_cast<std::uint8_t>(
+          glm::mix(static_cast<float>(to[c]), std::clamp(colour[c], 0.0f, 255.0f), share) + 0.5f);
   };
   for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) set(x, y, kLegendGround);
-  const auto write = [&](std::string_view word, int left, int top) {
-    forWordPixels(word, dot_px * left, dot_px * top, dot_px, [&](int x, int y, bool is_rim) {
-      if (!is_rim) set(x, y, kLegendText);
+    for (int x = 0; x < size.x; ++x) blend(x, y, kLegendGround, 1.0f);
+  const auto write = [&](const std::string& word, int left, int top) {
+    forWordPixels(wordPixels(word, line_px), {left, top}, [&](int x, int y, bool is_rim, float share) {
+      if (!is_rim) blend(x, y, kLegendText, share);
     });
   };
-  write(kTitle, kMargin, kMargin);
+  const int margin = marginOf(line_px), dot = dotOf(line_px);
+  write(kTitle, margin, margin);
   const std::array<glm::vec3, 3> colours{{{GUIDE_NEAR_COLOUR}, {GUIDE_MIDDLE_COLOUR}, {GUIDE_FAR_COLOUR}}};
   for (std::size_t band = 0; band < kBands.size(); ++band) {
-    const int top = kMargin + (static_cast<int>(band) + 1) * kRowHeight;
-    for (int y = 0; y < kLetterHeight * dot_px; ++y)
-      for (int x = 0; x < kSwatchWidth * dot_px; ++x)
-        set(dot_px * kMargin + x, dot_px * top + y,
-            glm::mix(kLegendBone, shownColour(colours[band]), coverAt(band, x / dot_px, y / dot_px)));
-    write(kBands[band], kMargin + kSwatchWidth + 4, top);
+    const int top = margin + (static_cast<int>(band) + 1) * rowOf(line_px);
+    for (int y = 0; y < line_px; ++y)
+      for (int x = 0; x < swatchOf(line_px); ++x)
+        blend(margin + x, top + y, glm::mix(kLegendBone, shownColour(colours[band]), coverAt(band, x / dot, y / dot)),
+              1.0f);
+    write(kBands[band], 2 * margin + swatchOf(line_px), top);
   }
   return image;
 }

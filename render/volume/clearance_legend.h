@@ -8,8 +8,8 @@
 
 namespace render {
 
-/// Size of a picture with letters of `dot_px` pixels a dot.
-glm::ivec2 clearanceLegendSize(int dot_px);
-Image clearanceLegend(int dot_px);
+/// Size of a picture whose lines are `line_px` high.
+glm::ivec2 clearanceLegendSize(int line_px);
+Image clearanceLegend(int line_px);
 
 }  // namespace render

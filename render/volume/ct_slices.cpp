@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <string_view>
 
 #include "render/gpu/gpu_error.h"
 #include "render/shaders/shared_constants.glsl"
 #include "render/volume/bur_distance.h"
-#include "render/volume/slice_font.h"
+#include "render/volume/slice_text.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
@@ -18,7 +17,7 @@ namespace {
 constexpr float kLevel_HU = 500.0f, kWindow_HU = 2500.0f;
 constexpr float kAir_HU = -1000.0f;
 constexpr double kScale_mm = 5.0;
-constexpr int kLeastEdgeForText_px = 78;
+constexpr int kLeastEdgeForText_px = 96, kLeastLine_px = 12;
 constexpr float kFar_mm = 1e3f;
 constexpr double kCanalStep_mm = 0.25;
 constexpr double kRulerSlab_mm = 0.5;  // half of the thickness in which the ruler belongs to a slice
@@ -32,12 +31,12 @@ const glm::vec3 kCarved{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBu
 struct Layout {
   int right_axis, down_axis, normal_axis;
   int down_sign;  // right is always towards larger voxel indices: left, or posterior
-  std::string_view name, left_side, right_side;
+  const char *name, *left_side, *right_side;
 };
 
 // In the order of SlicePlane.
 constexpr std::array<Layout, 3> kLayouts{
-    {{0, 1, 2, 1, "AXIAL", "R", "L"}, {0, 2, 1, -1, "CORONAL", "R", "L"}, {1, 2, 0, -1, "SAGITTAL", "A", "P"}}};
+    {{0, 1, 2, 1, "axial", "R", "L"}, {0, 2, 1, -1, "coronal", "R", "L"}, {1, 2, 0, -1, "sagittal", "A", "P"}}};
 
 /// The image of a slice, and the positions of its pixels in P.
 class SliceImage {
@@ -249,19 +248,24 @@ void drawCross(SliceImage& slice, double gap_mm) {
   }
 }
 
+/// Height of a line of text in an image, and the gap around it.
+int lineOf(int edge_px) { return std::max(kLeastLine_px, edge_px / 14); }
+int gapOf(int edge_px) { return std::max(2, edge_px / 60); }
+
 // With a dark outline, legible on bone too.
-void drawText(SliceImage& slice, std::string_view word, int left, int top, int dot_px) {
-  forWordPixels(word, left, top, dot_px, [&](int x, int y, bool is_rim) { slice.set(x, y, is_rim ? kRim : kText); });
+void drawText(SliceImage& slice, const std::string& word, const glm::ivec2& corner_px) {
+  forWordPixels(wordPixels(word, lineOf(slice.edge_px())), corner_px,
+                [&](int x, int y, bool is_rim, float share) { slice.blend(x, y, is_rim ? kRim : kText, share); });
 }
 
 /// The way from bur to canal, below the middle, where the image has room for it.
 void drawCanalDistance(SliceImage& slice, const Frame& frame, const CtScan& scan) {
   const auto mm = canalDistance_mm(frame, scan);
-  const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
+  const int edge = slice.edge_px(), gap = gapOf(edge);
   if (!mm || edge < kLeastEdgeForText_px) return;
   char text[32];
-  std::snprintf(text, sizeof text, *mm < 10.0 ? "CANAL %.1f MM" : "CANAL %.0f MM", *mm);
-  drawText(slice, text, gap, edge - 2 * gap - 2 * kLetterHeight * dot, dot);
+  std::snprintf(text, sizeof text, *mm < 10.0 ? "canal %.1f mm" : "canal %.0f mm", *mm);
+  drawText(slice, text, {gap, edge - 2 * gap - 2 * lineOf(edge)});
 }
 
 /// The part of the ruler in the slice, and its whole length; nothing where it does not pass through.
@@ -300,10 +304,9 @@ void drawRuler(SliceImage& slice, const Layout& layout, const glm::dvec3& middle
                return static_cast<float>(std::clamp(bead_px + 0.5 - away, 0.0, 1.0));
              });
   if (!frame.ruler->to_P || edge < kLeastEdgeForText_px) return;
-  const int dot = std::max(1, edge / 200), gap = 3 * dot + 1;
   char text[32];
-  std::snprintf(text, sizeof text, "RULER %.1f MM", frame.ruler->length_mm());
-  drawText(slice, text, gap, 2 * gap + kLetterHeight * dot, dot);
+  std::snprintf(text, sizeof text, "ruler %.1f mm", frame.ruler->length_mm());
+  drawText(slice, text, {gapOf(edge), gapOf(edge) + lineOf(edge)});
 }
 
 /// Trilinear, of values in the order of a grid.
@@ -345,11 +348,11 @@ void drawMovedPiece(SliceImage& slice, const PlacedFields& piece, const assets::
 }
 
 void drawLabels(SliceImage& slice, const Layout& layout) {
-  const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
-  const int high = kLetterHeight * dot, wide = (kLetterWidth + 1) * dot;
-  drawText(slice, layout.name, gap, gap, dot);
-  drawText(slice, layout.left_side, gap, edge / 2 - high / 2, dot);
-  drawText(slice, layout.right_side, edge - gap - wide + dot, edge / 2 - high / 2, dot);
+  const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = gapOf(edge), line = lineOf(edge);
+  const auto width = [&](const std::string& word) { return wordPixels(word, line).size_px.x; };
+  drawText(slice, layout.name, {gap, gap});
+  drawText(slice, layout.left_side, {gap, (edge - line) / 2});
+  drawText(slice, layout.right_side, {edge - gap - width(layout.right_side), (edge - line) / 2});
 
   // The scale, with ends.
   const int length = static_cast<int>(std::lround(kScale_mm / slice.mm_per_px()));
@@ -360,7 +363,8 @@ void drawLabels(SliceImage& slice, const Layout& layout) {
     for (const int x : {left, left + length})
       slice.fill(x - rim, base - 3 * dot + 1 - rim, 1 + 2 * rim, 3 * dot + 2 * rim, colour);
   }
-  drawText(slice, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
+  const std::string scale = "5 mm";
+  drawText(slice, scale, {left - gap - width(scale), edge - gap - line});
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ set(third_parties
   "zlib" "calibration|assets"
   "fmt/" "calibration|app"
   "toml\\+\\+/" "assets|app"
-  "cairo|pango/" "app"
+  "cairo|pango/" "render|app"
   "nlohmann/" "assets|app"
   "tbb/|oneapi/" "assets|haptics|render"
   "libevdev/" "haptics"
