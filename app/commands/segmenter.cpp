@@ -17,6 +17,7 @@
 
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
+#include "assets/scan/confined_child.h"
 
 namespace app {
 namespace {
@@ -89,13 +90,9 @@ class StopSignals {
     struct sigaction stop {};
     stop.sa_handler = [](int) { stop_asked = 1; };
     for (std::size_t n = 0; n < kStops.size(); ++n) sigaction(kStops[n], &stop, &before_[n]);
-    struct sigaction usual {};
-    usual.sa_handler = SIG_DFL;
-    sigaction(SIGCHLD, &usual, &child_before_);
   }
   ~StopSignals() {
     for (std::size_t n = 0; n < kStops.size(); ++n) sigaction(kStops[n], &before_[n], nullptr);
-    sigaction(SIGCHLD, &child_before_, nullptr);
   }
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
@@ -103,7 +100,7 @@ class StopSignals {
  private:
   static constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
   std::array<struct sigaction, kStops.size()> before_{};
-  struct sigaction child_before_ {};
+  assets::DefaultChildSignal child_;
 };
 
 /// Its exit status. Throws LoadError.

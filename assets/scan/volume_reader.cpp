@@ -1,12 +1,8 @@
 #include "assets/scan/volume_reader.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,12 +11,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <span>
 #include <utility>
 
 #include "assets/load_error.h"
+#include "assets/scan/confined_child.h"
 #include "assets/scan/resampling.h"
 #include "assets/scan/vdb_parse.h"
 
@@ -28,16 +24,9 @@ namespace assets {
 
 namespace {
 
-constexpr int kAnswerDescriptor = 3;
 constexpr int kRefused = 3;
 constexpr int kFailed = 4;
 constexpr int kOutOfMemory = 5;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryCanBeLimited = false;  // sanitizers reserve terabytes
-#else
-constexpr bool kMemoryCanBeLimited = true;
-#endif
 
 /// Header of the answer, followed by Hounsfield, labels, solid and, if present, teeth.
 struct Head {
@@ -67,40 +56,6 @@ bool readAll(int descriptor, std::span<std::byte> bytes, std::uint64_t from_byte
   return true;
 }
 
-/// Default signal handling, no open file but the answer, no terminal.
-void detachFromParent(int answer_descriptor) {
-  for (int number = 1; number < NSIG; ++number) ::signal(number, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  ::dup2(answer_descriptor, kAnswerDescriptor);
-  const int null = ::open("/dev/null", O_RDWR);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, standard);
-  ::close_range(kAnswerDescriptor + 1, ~0U, 0);
-}
-
-/// Data segment of the program, which the fork inherits.
-std::uint64_t dataBytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
-  file >> total >> resident >> shared >> text >> library >> data;
-  return data * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-itimerval onceAfter(std::uint32_t ms) { return {{0, 0}, {ms / 1000, 1000 * (ms % 1000)}}; }
-
-void applyLimits(const ReaderLimits& limits) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  ::prctl(PR_SET_DUMPABLE, 0);
-  const itimerval processor = onceAfter(limits.processor_ms), wait = onceAfter(limits.wait_ms);
-  ::setitimer(ITIMER_PROF, &processor, nullptr);
-  ::setitimer(ITIMER_REAL, &wait, nullptr);
-  if (!kMemoryCanBeLimited) return;
-  const std::uint64_t bytes = dataBytes() + limits.memory_bytes;
-  const rlimit memory{bytes, bytes};
-  ::setrlimit(RLIMIT_DATA, &memory);
-}
-
 [[noreturn]] void refuseFailure(const std::string& path) {
   throw LoadError(path + ": it is damaged (its reader failed on it); import the scan again");
 }
@@ -116,9 +71,9 @@ ReaderLimits readerLimits(std::uint64_t file_bytes) {
 }
 
 void runVolumeReader(const std::string& path, const ReaderLimits& limits, int answer_descriptor) {
-  detachFromParent(answer_descriptor);
-  answer_descriptor = kAnswerDescriptor;
-  applyLimits(limits);
+  confineChild(limits.memory_bytes, answer_descriptor);
+  answer_descriptor = kKeptDescriptor;
+  limitChildTime(limits.processor_ms, limits.wait_ms);
   try {
     const CtVolume volume = parseVdb(path);
     const VolumeGrid& grid = volume.grid;
@@ -188,22 +143,6 @@ struct VolumeInChild::Process {
 
    private:
     int descriptor_;
-  };
-
-  /// Default action of SIGCHLD in scope, so that waitpid reports the status of children.
-  class DefaultChildSignal {
-   public:
-    DefaultChildSignal() {
-      struct sigaction standard {};
-      standard.sa_handler = SIG_DFL;
-      ::sigaction(SIGCHLD, &standard, &before_);
-    }
-    ~DefaultChildSignal() { ::sigaction(SIGCHLD, &before_, nullptr); }
-    DefaultChildSignal(const DefaultChildSignal&) = delete;
-    DefaultChildSignal& operator=(const DefaultChildSignal&) = delete;
-
-   private:
-    struct sigaction before_ {};
   };
 
   DefaultChildSignal children_wait;

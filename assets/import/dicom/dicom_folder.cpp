@@ -50,14 +50,15 @@ fs::path rootOf(const std::string& source) {
 
 bool isDirectoryList(const fs::path& path) { return lowerCase(path.filename().string()).starts_with("dicomdir"); }
 
-/// Header of one file; a file that cannot be opened is no DICOM.
 DicomHeader headerOf(const fs::path& path) {
+  DicomHeader unread;
+  unread.fault = DicomFault::unread;
+  std::error_code error;
+  if (fs::file_size(path, error) == 0 || error) return unread;
   try {
     return openDicom(path.string(), path.stem().string()).header;
   } catch (const LoadError&) {
-    DicomHeader unreadable;
-    unreadable.fault = DicomFault::not_dicom;
-    return unreadable;
+    return unread;
   }
 }
 
@@ -82,11 +83,18 @@ bool isPlainFileName(const std::string& name) {
 bool holdsDicom(const std::string& source) {
   const fs::path root = rootOf(source);
   std::error_code error;
-  if (!fs::is_directory(root, error))
-    return fs::is_regular_file(root, error) && headerOf(root).fault != DicomFault::not_dicom;
-  return std::ranges::any_of(filesBelow(root), [](const fs::path& path) {
-    return isDirectoryList(path) || headerOf(path).fault != DicomFault::not_dicom;
-  });
+  if (!fs::is_directory(root, error)) return fs::is_regular_file(root, error) && headerOf(root).isDicom();
+  return std::ranges::any_of(filesBelow(root),
+                             [](const fs::path& path) { return isDirectoryList(path) || headerOf(path).isDicom(); });
+}
+
+std::string numberedName(const std::string& path) {
+  std::string name;
+  for (const char letter : path) {
+    const bool is_digit = std::isdigit(static_cast<unsigned char>(letter)) != 0;
+    if (!is_digit || name.empty() || name.back() != '#') name += is_digit ? '#' : letter;
+  }
+  return name;
 }
 
 DicomFolder readDicomFolder(const std::string& source, const std::vector<std::string>& without) {

@@ -30,6 +30,9 @@ bool holdsDicom(const std::string& source);
 /// `without` that is not there.
 DicomFolder readDicomFolder(const std::string& source, const std::vector<std::string>& without);
 
+/// A path with # for each number: the same for files of one series.
+std::string numberedName(const std::string& path);
+
 /// Whether a file's name may be shown, whatever the patient is called.
 bool isPlainFileName(const std::string& name);
 

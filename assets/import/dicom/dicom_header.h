@@ -41,6 +41,7 @@ struct DicomPixelFormat {
 enum class DicomFault {
   none,
   not_dicom,
+  unread,          ///< the file is empty or cannot be opened
   damaged,         ///< no data set can be followed to its pixels
   cut,             ///< ends before all its pixels: held_bytes of expected_bytes
   unread_packing,  ///< a transfer syntax that is not read: `unread_name`
@@ -77,6 +78,7 @@ struct DicomHeader {
   std::uint64_t data_set_at = 0, pixels_at = 0;
   std::vector<DicomFragment> fragments;  ///< of encapsulated pixels, the table of offsets first; empty: plain
 
+  bool isDicom() const { return fault != DicomFault::not_dicom && fault != DicomFault::unread; }
   std::size_t pixelCount() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
   std::uint64_t frameBytes() const {
     return std::uint64_t{pixelCount()} * static_cast<unsigned>(format.bits_allocated / 8);

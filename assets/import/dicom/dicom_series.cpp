@@ -52,7 +52,7 @@ Likeness likenessOf(const DicomFolder& folder, const DicomSlice& slice) {
 
 /// Sorts a file's picture into the counts; true: it may be part of a volume.
 bool isSlice(const DicomHeader& header, DicomCounts& counts) {
-  if (header.fault == DicomFault::not_dicom) return ++counts.not_dicom, false;
+  if (!header.isDicom()) return ++counts.not_dicom, false;
   if (header.kind == DicomKind::no_image) return ++counts.not_images, false;
   if (header.kind == DicomKind::localizer) return ++counts.localizers, false;
   if (header.modality != "CT") return ++counts.other_modalities, false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "assets/import/dicom/frame_reader.h"
 #include "assets/load_error.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr double kCoarse_mm = 1.0, kTooCoarse_mm = 1.5;
 constexpr std::size_t kFewestSlices = 60;
 constexpr double kSmallestSide_mm = 25.0;
+constexpr int kLargestSide_px = 8192;  // of a slice: scanners make 512 to 1024
 constexpr double kSmallestSpacing_mm = 0.02, kLargestSpacing_mm = 5.0;
 constexpr double kNotedTilt_deg = 0.1, kSteepestTilt_deg = 45.0;
 
@@ -30,6 +32,10 @@ class Judge {
     }
     choose();
     judgeFiles();
+    judgeUnread();
+    if (std::max(series().rows, series().columns) > kLargestSide_px)
+      return refuse("R3", "its slices are " + std::to_string(series().columns) + " x " + std::to_string(series().rows) +
+                              " pixels; at most " + std::to_string(kLargestSide_px) + " on a side are read");
     const auto spacing_mm = pixelSpacing_mm();
     auto stack = spacing_mm ? sliceStack() : std::nullopt;
     if (!stack) return;
@@ -147,6 +153,19 @@ class Judge {
              "the files say that text is written into the pictures, which may hold names; look at them, then run "
              "again with --burnt-in-checked",
              std::move(burnt));
+  }
+
+  /// Files that are named as those of the series, but hold nothing: slices that were lost in copying.
+  void judgeUnread() {
+    std::set<std::string> names;
+    for (const DicomSlice& slice : series().slices) names.insert(numberedName(file(slice.file).path));
+    for (const DicomFile& one : survey_.folder.files)
+      if (one.header.fault == DicomFault::unread && names.contains(numberedName(one.path)))
+        refuse("F1",
+               "scan/" + one.shown +
+                   ": the file is empty or cannot be opened; copy it from the CD again, or leave it out with " +
+                   without(one),
+               {one.shown});
   }
 
   static bool isSpacing(double value_mm) { return value_mm >= kSmallestSpacing_mm && value_mm <= kLargestSpacing_mm; }
@@ -292,15 +311,15 @@ class Judge {
     std::size_t identical = 0, different = 0;
     std::vector<std::string> same_files, other_files;
     for (const std::vector<std::size_t>& place : stack.doubles) {
-      std::vector<DicomSlice> slices;
-      for (const std::size_t n : place) slices.push_back(series().slices[n]);
+      const DicomSlice& first = series().slices[place.front()];
       const std::size_t pixels = fileOf(place.front()).header.pixelCount();
-      std::vector<std::int16_t> grey(pixels * slices.size());
-      const std::vector<std::size_t> lost = readFrames(survey_.folder, slices, grey);
-      bool is_same = lost.empty();
-      for (std::size_t n = 1; n < slices.size(); ++n)
-        is_same = is_same && std::equal(grey.begin(), grey.begin() + static_cast<std::ptrdiff_t>(pixels),
-                                        grey.begin() + static_cast<std::ptrdiff_t>(n * pixels));
+      std::vector<std::int16_t> grey(2 * pixels);
+      bool is_same = true;
+      for (std::size_t n = 1; n < place.size() && is_same; ++n) {
+        const std::vector<std::size_t> lost = readFrames(survey_.folder, {first, series().slices[place[n]]}, grey);
+        const auto half = grey.begin() + static_cast<std::ptrdiff_t>(pixels);
+        is_same = lost.empty() && std::equal(grey.begin(), half, half);
+      }
       is_same ? identical += place.size() - 1 : different += place.size();
       for (const std::size_t n : place) (is_same ? same_files : other_files).push_back(fileOf(n).shown);
     }
@@ -339,7 +358,11 @@ class Judge {
     made.geometry.step_P_mm[2] = stack.per_mm_P * made.even.step_mm;
     made.geometry.origin_P_mm = planeOf(stack.order.front()).position_P_mm.value_or(glm::dvec3(0.0));
     made.invented_slices = static_cast<std::size_t>(std::ranges::count_if(made.even.slices, &MadeSlice::isInvented));
-    requireValidGeometry(made.geometry, "scan");
+    try {
+      requireValidGeometry(made.geometry, "the volume");
+    } catch (const LoadError& unfit) {
+      return refuse("R3", unfit.what());
+    }
     made.stack = std::move(stack);
     survey_.plan = std::move(made);
   }

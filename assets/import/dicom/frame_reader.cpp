@@ -1,11 +1,7 @@
 #include "assets/import/dicom/frame_reader.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/time.h>
 #include <sys/wait.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -15,28 +11,20 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <optional>
 
 #include "assets/import/dicom/picture_decoder.h"
 #include "assets/import/dicom/stored_frame.h"
 #include "assets/load_error.h"
+#include "assets/scan/confined_child.h"
 
 namespace assets {
 namespace {
 
 constexpr int kChildren = 2;
 constexpr std::uint64_t kChild_bytes = std::uint64_t{1} << 30;  // beyond what the program has
-constexpr long kFrame_s = 20;                                   // processor time; 0.04 s is usual at 512 x 512
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kDecoderMemoryCanBeLimited = false;  // sanitizers reserve terabytes
-#else
-constexpr bool kDecoderMemoryCanBeLimited = true;
-#endif
+constexpr std::uint32_t kFrame_ms = 20'000;                     // processor time; 40 ms is usual at 512 x 512
 
 enum class FrameState : std::uint8_t { waiting, begun, done, failed };
 
@@ -113,53 +101,6 @@ class SharedMemory {
   void* at_ = nullptr;
 };
 
-/// SIGCHLD has its default action in scope, so that waitpid tells how children end.
-class ChildSignal {
- public:
-  ChildSignal() {
-    struct sigaction standard {};
-    standard.sa_handler = SIG_DFL;
-    ::sigaction(SIGCHLD, &standard, &before_);
-  }
-  ~ChildSignal() { ::sigaction(SIGCHLD, &before_, nullptr); }
-  ChildSignal(const ChildSignal&) = delete;
-  ChildSignal& operator=(const ChildSignal&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
-
-std::uint64_t ownDataBytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
-  file >> total >> resident >> shared >> text >> library >> data;
-  return data * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-/// No handler, file or terminal of the program; limits.
-void becomeDecoder() {
-  for (int number = 1; number < NSIG; ++number) ::signal(number, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  ::prctl(PR_SET_DUMPABLE, 0);
-  const int null = ::open("/dev/null", O_RDWR);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, standard);
-  ::close_range(STDERR_FILENO + 1, ~0U, 0);
-  if (!kDecoderMemoryCanBeLimited) return;
-  const std::uint64_t bytes = ownDataBytes() + kChild_bytes;
-  const rlimit memory{bytes, bytes};
-  ::setrlimit(RLIMIT_DATA, &memory);
-}
-
-/// The processor time of one frame, and twenty times as long by the clock.
-void startFrameTimer() {
-  const itimerval processor{{0, 0}, {kFrame_s, 0}}, wall{{0, 0}, {20 * kFrame_s, 0}};
-  ::setitimer(ITIMER_PROF, &processor, nullptr);
-  ::setitimer(ITIMER_REAL, &wall, nullptr);
-}
-
 class Decoders {
  public:
   Decoders(const DicomFolder& folder, const std::vector<DicomSlice>& slices, const std::vector<std::size_t>& packed,
@@ -215,10 +156,10 @@ class Decoders {
   }
 
   [[noreturn]] void run(int child) const {
-    becomeDecoder();
+    confineChild(kChild_bytes);
     OpenFile open(folder_);
     for (auto n = static_cast<std::size_t>(child); n < packed_.size(); n += kChildren) {
-      startFrameTimer();
+      limitChildTime(kFrame_ms, 20 * kFrame_ms);
       states()[n].store(FrameState::begun, std::memory_order_release);
       bool is_read = false;
       try {
@@ -234,7 +175,7 @@ class Decoders {
   const std::vector<DicomSlice>& slices_;
   const std::vector<std::size_t>& packed_;
   std::size_t pixels_;
-  ChildSignal children_wait_;
+  DefaultChildSignal children_wait_;
   SharedMemory greys_, states_;
   std::array<pid_t, kChildren> children_{};
 };
@@ -250,7 +191,13 @@ std::vector<std::size_t> readFrames(const DicomFolder& folder, const std::vector
 
   const std::unique_ptr<std::atomic<bool>[]> is_lost = std::make_unique<std::atomic<bool>[]>(slices.size());
   std::atomic<std::size_t> count{0};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plain.size(), 8), [&](const auto& range) {
+  // A deflated file is inflated once for each range that reads of it.
+  std::size_t grain = 8;
+  for (const std::size_t n : plain) {
+    const DicomHeader& header = folder.files[slices[n].file].header;
+    if (header.syntax->is_deflated) grain = std::max(grain, static_cast<std::size_t>(header.frames));
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plain.size(), grain), [&](const auto& range) {
     OpenFile open(folder);
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
       const std::size_t slice = plain[n];

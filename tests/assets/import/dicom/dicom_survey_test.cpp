@@ -236,6 +236,28 @@ TEST(DicomSurvey, NamesAFileThatEndsTooSoonUnlessItIsLeftOut) {
   EXPECT_THAT(tests::refusalOf<assets::LoadError>([&] { surveyed(folder, without); }), HasSubstr("not in it"));
 }
 
+TEST(DicomSurvey, AnEmptyFileAmongTheNumbersOfASeriesIsNotPassedOver) {
+  const on_disk::Folder folder;
+  writeSeries(folder, {});
+  on_disk::write(folder.at("notes.txt"), "");
+  on_disk::write(folder.at("other/IM900"), "");
+  EXPECT_EQ(codes(surveyed(folder)), "") << "of another name or folder";
+  on_disk::write(folder.at("IM900"), "");
+  EXPECT_EQ(codes(surveyed(folder)), "F1!");
+  EXPECT_THAT(sentenceOf(surveyed(folder), "F1"), HasSubstr("scan/IM900: the file is empty"));
+  DicomChoices choices;
+  choices.without = {"IM900"};
+  EXPECT_EQ(codes(surveyed(folder, choices)), "");
+}
+
+TEST(DicomSurvey, RefusesSlicesOfMorePixelsThanAreRead) {
+  const on_disk::Folder folder;
+  Series wide;
+  wide.columns = 8200, wide.slices = 2;
+  writeSeries(folder, wide);
+  EXPECT_EQ(codes(surveyed(folder)), "R3!");
+}
+
 TEST(DicomSurvey, SaysNoToTooFewTooCoarseAndTooSmall) {
   const on_disk::Folder few, coarse, low;
   Series series;
