@@ -6,6 +6,7 @@
 #include "app/options/law_text.h"
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
+#include "app/text/anonymous_id.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
 
@@ -15,18 +16,6 @@ namespace {
 constexpr std::size_t kMostLevels = 50;
 constexpr std::int64_t kMostTrials = 5000;
 constexpr double kFarthest_mm = 1e4;
-
-/// One to three capitals, an optional hyphen, one to four digits: too short for a name or a date.
-bool isAnonymousId(const std::string& id) {
-  std::size_t at = 0;
-  while (at < id.size() && id[at] >= 'A' && id[at] <= 'Z') ++at;
-  if (at < 1 || at > 3) return false;
-  if (at < id.size() && id[at] == '-') ++at;
-  const std::size_t digits = id.size() - at;
-  return digits >= 1 && digits <= 4 && std::all_of(id.begin() + static_cast<std::ptrdiff_t>(at), id.end(), [](char c) {
-           return c >= '0' && c <= '9';
-         });
-}
 
 BoneChoice boneOf(assets::TomlReader& keys) {
   BoneChoice bone;

@@ -78,6 +78,12 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   }
   if (said_.until && now >= *said_.until) said_ = {};
   content.said = said_.line;
+  // Until it has turned once: who works with a mouse looks for the drill when the bur lies on the bone.
+  has_drilled_ = has_drilled_ || content.turning;
+  const bool is_bur = !command.tool.isHandInstrument() && !command.tool.luxates();
+  if (content.said.empty() && !has_drilled_ && is_bur && tick.depth_mm > 0.0 && command.drill_enabled &&
+      !values.situation.has_motors)
+    content.said = "hold Space to drill";
   if (keys_shown_)
     for (const KeyMeaning& key : keyMeanings(with_laws_, values.situation.has_motors))
       content.keys.emplace_back(key.key, key.does);

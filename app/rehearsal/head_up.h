@@ -60,6 +60,7 @@ class HeadUp {
     std::optional<Time> until;  ///< none: not shown yet
   };
   bool line_shown_, with_laws_, keys_shown_ = false;
+  bool has_drilled_ = false;
   Said said_;
   std::string last_said_;
   Warnings warnings_;

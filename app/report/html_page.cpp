@@ -32,7 +32,7 @@ figure { margin: 8px 0; break-inside: avoid; }
 figure svg { max-width: 100%; height: auto; display: block; }
 figcaption { font-size: 13px; color: #444; }
 ul { margin: 6px 0; padding-left: 20px; }
-h2 { break-after: avoid; } tr { break-inside: avoid; }
+h2, h3 { break-after: avoid; } h2, h3, tr { break-inside: avoid; }
 @media print {
   body { margin: 0; max-width: none; font-size: 12px; } @page { size: A4; margin: 14mm; }
   table { font-size: 11px; } th, td { padding: 2px 8px 2px 0; } h2 { margin: 18px 0 4px; }

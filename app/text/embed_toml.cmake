@@ -1,4 +1,4 @@
-# Writes the shipped procedures as C++ to embed. Run: cmake -DFOLDER=… -DOUT=… -DFILES=a.toml,b.toml -P embed.cmake
+# Writes shipped TOML files as C++ to embed. Run: cmake -DFOLDER=… -DOUT=… -DFILES=a.toml,b.toml -P embed_toml.cmake
 cmake_minimum_required(VERSION 3.25)
 
 string(REPLACE "," ";" files "${FILES}")

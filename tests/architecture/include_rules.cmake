@@ -4,7 +4,7 @@
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
 #   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
 #     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
-#     | start_screen | review }; before commands, after rehearsal and review: debrief.
+#     | start_screen | study | review }; before commands, after rehearsal and review: debrief.
 #   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -52,7 +52,7 @@ foreach(room procedure evaluation)
   set(app/${room} ${seen} app/${room}/)
 endforeach()
 set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
-foreach(room pattern doctor calibrate psychophysics start_screen review)
+foreach(room pattern doctor calibrate psychophysics start_screen study review)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
 set(app/debrief ${seen} app/procedure/ app/rehearsal/ app/review/ app/debrief/)
@@ -96,6 +96,7 @@ set(third_parties
   "nlohmann/" "assets|app"
   "tbb/|oneapi/" "assets|haptics|render"
   "libevdev/" "haptics"
+  "boost/" "app/study"
   "libusb" "haptics"
   "GLFW/" "render|app"
   "embree3/" "render"

@@ -64,6 +64,21 @@ TEST(HeadUp, SaysALineForTwoSecondsFromItsFirstFrame) {
   EXPECT_EQ(picture.at(milliseconds(6700)).said, "");
 }
 
+TEST(HeadUp, SaysHowToDrillWhereABurRestsOnBoneAndHasNeverTurned) {
+  Picture picture;
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "") << "off the bone";
+  picture.tick.depth_mm = 0.1;
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "hold Space to drill");
+  EXPECT_EQ(picture.at(milliseconds(0), true).said, "") << "a device has a pedal or a button";
+  picture.command.tool = haptics::elevatorTool(haptics::ElevatorKind::straight_301);
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "");
+  picture.command.tool = {};
+  picture.tick.spindle_rad_per_s = haptics::radPerSecond(-39'800.0);
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "");
+  picture.tick.spindle_rad_per_s = 0.0;
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "") << "known by now";
+}
+
 TEST(HeadUp, ShowsTheKeysOfTheTableUntilF1OrEsc) {
   Picture picture;
   EXPECT_TRUE(picture.at(milliseconds(0)).keys.empty());

@@ -1,0 +1,128 @@
+#include "app/study/questionnaire.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "app/text/list.h"
+#include "app/text/usage_error.h"
+#include "assets/toml_reader.h"
+
+namespace app {
+namespace {
+
+struct ShippedQuestionnaire {
+  std::string_view name, text;
+};
+constexpr auto kShippedQuestionnaires = std::to_array<ShippedQuestionnaire>({
+#include "shipped_questionnaires.inc"
+});
+
+constexpr std::size_t kMostItems = 60, kMostScaleWords = 11, kLongestId = 16, kLongestWords = 300;
+
+std::string wordsFrom(assets::TomlReader& keys, const std::string& table, const std::string& key) {
+  std::string words = keys.text(table, key);
+  if (words.empty() || words.size() > kLongestWords)
+    keys.refuse(table, key, "give 1 to " + std::to_string(kLongestWords) + " bytes of text in quotes");
+  return words;
+}
+
+std::string idFrom(assets::TomlReader& keys, const std::string& table) {
+  const std::string id = keys.text(table, "id");
+  const bool is_plain = std::ranges::all_of(id, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  if (id.empty() || id.size() > kLongestId || !is_plain)
+    keys.refuse(table, "id", "give 1 to " + std::to_string(kLongestId) + " letters, digits, '-' or '_'");
+  return id;
+}
+
+void readScale(assets::TomlReader& keys, Questionnaire& made) {
+  made.low = static_cast<int>(keys.integer("", "low", 0, 10));
+  made.high = static_cast<int>(keys.integer("", "high", made.low + 1, 100));
+  made.scale = keys.texts("", "scale", kMostScaleWords);
+  const auto steps = static_cast<std::size_t>(made.high - made.low) + 1;
+  if (made.scale.size() != 2 && made.scale.size() != steps)
+    keys.refuse("", "scale", "give the words of both ends, or of all " + std::to_string(steps) + " steps");
+}
+
+Questionnaire questionnaireFrom(assets::TomlReader keys) {
+  Questionnaire made;
+  made.id = idFrom(keys, "");
+  made.title = wordsFrom(keys, "", "title");
+  made.source = wordsFrom(keys, "", "source");
+  made.scoring = static_cast<Scoring>(keys.choice("", "scoring", {"categories", "sus", "mean", "words"}));
+  if (!made.isOfWords()) readScale(keys, made);
+  const std::size_t count = keys.tables("item", 1, kMostItems);
+  std::set<std::string> known{"participant", "group", "session"};
+  for (std::size_t n = 1; n <= count; ++n) {
+    const std::string table = "item." + std::to_string(n);
+    QuestionItem item;
+    item.id = idFrom(keys, table);
+    if (!known.insert(item.id).second) keys.refuse(table, "id", "another column has this head, give each item its own");
+    item.category = keys.text(table, "category", "");
+    item.says = wordsFrom(keys, table, "says");
+    if (made.scoring == Scoring::categories && item.category.empty())
+      keys.refuse(table, "category", "an item that is scored by category needs one");
+    made.items.push_back(std::move(item));
+  }
+  if (made.scoring == Scoring::sus && (count != 10 || made.low != 1 || made.high != 5))
+    keys.refuse("", "scoring", "SUS has ten items from 1 to 5");
+  keys.refuseUnknownKeys();
+  return made;
+}
+
+const ShippedQuestionnaire* shippedNamed(const std::string& name) {
+  const auto found = std::ranges::find(kShippedQuestionnaires, name, &ShippedQuestionnaire::name);
+  return found == kShippedQuestionnaires.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::vector<std::string> Questionnaire::categories() const {
+  std::vector<std::string> names;
+  for (const QuestionItem& item : items)
+    if (!item.category.empty() && std::ranges::find(names, item.category) == names.end())
+      names.push_back(item.category);
+  return names;
+}
+
+std::optional<double> scoreOf(const Questionnaire& questionnaire, const std::vector<std::optional<double>>& answers) {
+  const auto missing = std::ranges::count_if(answers, [](const std::optional<double>& answer) { return !answer; });
+  double sum = 0.0;
+  if (questionnaire.scoring == Scoring::sus) {
+    if (missing > 1) return {};
+    const double middle = 0.5 * (questionnaire.low + questionnaire.high);
+    for (std::size_t n = 0; n < answers.size(); ++n) {
+      const double answer = answers[n].value_or(middle);
+      sum += n % 2 == 0 ? answer - questionnaire.low : questionnaire.high - answer;
+    }
+    return 2.5 * sum;
+  }
+  if (questionnaire.scoring != Scoring::mean || missing > 0 || answers.empty()) return {};
+  for (const std::optional<double>& answer : answers) sum += *answer;
+  return sum / static_cast<double>(answers.size());
+}
+
+std::vector<std::string> shippedQuestionnaires() {
+  std::vector<std::string> names;
+  for (const ShippedQuestionnaire& shipped : kShippedQuestionnaires) names.emplace_back(shipped.name);
+  return names;
+}
+
+std::string shippedQuestionnaireText(const std::string& name) {
+  const ShippedQuestionnaire* shipped = shippedNamed(name);
+  return shipped == nullptr ? "" : std::string(shipped->text);
+}
+
+Questionnaire questionnaireNamed(const std::string& name) {
+  if (name.ends_with(".toml")) return questionnaireFrom(assets::TomlReader::fromFile(name));
+  const ShippedQuestionnaire* shipped = shippedNamed(name);
+  if (shipped == nullptr)
+    throw UsageError("questionnaire " + name + ": there is none of that name, give one of " +
+                     joined(shippedQuestionnaires()) + ", or a file that ends in .toml");
+  return questionnaireFrom({shipped->text, name});
+}
+
+}  // namespace app

@@ -1,0 +1,229 @@
+#include "app/study/study_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace app {
+namespace {
+
+using ValueOf = std::function<std::optional<double>(const AnswerSheet&)>;
+
+std::optional<double> meanGiven(const Questionnaire& questionnaire, const AnswerSheet& sheet,
+                                const std::string& category) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t n = 0; n < questionnaire.items.size(); ++n)
+    if (questionnaire.items[n].category == category && sheet.values[n]) sum += *sheet.values[n], ++count;
+  return count == 0 ? std::nullopt : std::optional(sum / count);
+}
+
+template <class Kept>
+std::vector<std::string> namesOf(const std::vector<AnswerSheet>& sheets, const Kept& kept) {
+  std::set<std::string> names;
+  for (const AnswerSheet& sheet : sheets)
+    if (!kept(sheet).empty()) names.insert(kept(sheet));
+  return {names.begin(), names.end()};
+}
+
+/// Rows, and comparisons, of the answers to one questionnaire.
+class AnswerTables {
+ public:
+  AnswerTables(const Questionnaire& questionnaire, const std::vector<AnswerSheet>& sheets, StudyResult& result)
+      : questionnaire_(questionnaire), sheets_(sheets), result_(result) {}
+
+  void fill() {
+    result_.groups = namesOf(sheets_, std::mem_fn(&AnswerSheet::group));
+    result_.sessions = namesOf(sheets_, std::mem_fn(&AnswerSheet::session));
+    if (questionnaire_.isOfWords()) return list();
+    for (std::size_t n = 0; n < questionnaire_.items.size(); ++n) {
+      const QuestionItem& item = questionnaire_.items[n];
+      add({item.id, item.says, item.category, "", "", {}, 0, {}, {}, {}}, result_.items,
+          [n](const AnswerSheet& sheet) { return sheet.values[n]; });
+    }
+    for (const std::string& category : questionnaire_.categories())
+      add({category, category, category, "", "", {}, 0, {}, {}, {}}, result_.categories,
+          [&](const AnswerSheet& sheet) { return meanGiven(questionnaire_, sheet, category); });
+    if (questionnaire_.scoring != Scoring::categories)
+      add({questionnaire_.id, questionnaire_.title, "", "", "", {}, 0, {}, {}, {}}, result_.scores,
+          [&](const AnswerSheet& sheet) { return scoreOf(questionnaire_, sheet.values); });
+    adjust();
+  }
+
+ private:
+  void list() {
+    for (std::size_t n = 0; n < questionnaire_.items.size(); ++n)
+      for (const AnswerSheet& sheet : sheets_)
+        if (!sheet.words[n].empty())
+          result_.said.push_back({questionnaire_.items[n].says, sheet.participant, sheet.words[n]});
+  }
+
+  void add(const AnswerRow& names, std::vector<AnswerRow>& rows, const ValueOf& value_of) {
+    // Sessions are never pooled: a participant counts once in a row.
+    const std::vector<std::string> sessions =
+        result_.sessions.empty() ? std::vector<std::string>{""} : result_.sessions;
+    for (const std::string& session : sessions) {
+      rows.push_back(rowOf(names, "", session, value_of));
+      if (result_.groups.size() > 1)
+        for (const std::string& group : result_.groups) rows.push_back(rowOf(names, group, session, value_of));
+    }
+    if (sessions.size() == 1 && result_.groups.size() == 2) compareGroups(names.id, value_of);
+    if (sessions.size() == 2) compareSessions(names.id, value_of);
+  }
+
+  AnswerRow rowOf(AnswerRow row, const std::string& group, const std::string& session, const ValueOf& value_of) const {
+    row.group = group.empty() ? "all" : group;
+    row.session = session;
+    for (const AnswerSheet& sheet : sheets_) {
+      if ((!group.empty() && sheet.group != group) || sheet.session != session) continue;
+      if (const auto value = value_of(sheet))
+        row.values.push_back(*value);
+      else
+        ++row.missing;
+    }
+    std::ranges::sort(row.values);
+    row.summary = summaryOf(row.values);
+    if (row.values.size() >= kFewestForDeviation) row.mean_interval = meanInterval(row.values);
+    row.median_interval = medianInterval(row.values);
+    return row;
+  }
+
+  void compareGroups(const std::string& id, const ValueOf& value_of) {
+    std::map<std::string, std::vector<double>> of_group;
+    for (const AnswerSheet& sheet : sheets_)
+      if (const auto value = value_of(sheet)) of_group[sheet.group].push_back(*value);
+    const std::vector<double>&first = of_group[result_.groups[0]], &second = of_group[result_.groups[1]];
+    if (std::min(first.size(), second.size()) < kFewestForDeviation) return;
+    if (const auto test = rankSumTest(first, second))
+      result_.differences.push_back(
+          {id, result_.groups[1], result_.groups[0], false, first.size() + second.size(), *test, 1.0});
+  }
+
+  void compareSessions(const std::string& id, const ValueOf& value_of) {
+    std::map<std::string, std::map<std::string, double>> by_participant;
+    for (const AnswerSheet& sheet : sheets_)
+      if (const auto value = value_of(sheet)) by_participant[sheet.participant][sheet.session] = *value;
+    std::vector<double> differences;
+    for (const auto& [participant, values] : by_participant)
+      if (values.size() == 2) differences.push_back(values.at(result_.sessions[1]) - values.at(result_.sessions[0]));
+    if (differences.size() < kFewestForDeviation) return;
+    if (const auto test = signedRankTest(differences))
+      result_.differences.push_back(
+          {id, result_.sessions[1], result_.sessions[0], true, differences.size(), *test, 1.0});
+  }
+
+  void adjust() {
+    std::vector<double> p;
+    for (const Difference& difference : result_.differences) p.push_back(difference.test.p);
+    p = holmAdjusted(std::move(p));
+    for (std::size_t n = 0; n < p.size(); ++n) result_.differences[n].holm_p = p[n];
+  }
+
+  const Questionnaire& questionnaire_;
+  const std::vector<AnswerSheet>& sheets_;
+  StudyResult& result_;
+};
+
+std::vector<TaskRow> taskRows(const std::vector<TaskRun>& runs) {
+  std::vector<TaskRow> rows;
+  std::map<std::string, std::vector<double>> times_s;
+  for (const TaskRun& run : runs) {
+    auto row = std::ranges::find(rows, run.task, &TaskRow::task);
+    if (row == rows.end()) row = rows.insert(rows.end(), TaskRow{run.task, 0, 0, 0, 0, 0, {}, {}, {}});
+    ++row->count;
+    ++(run.result == TaskResult::success ? row->success : run.result == TaskResult::partly ? row->partly : row->failed);
+    row->helps += run.helps;
+    if (run.time_s && run.result == TaskResult::success) times_s[run.task].push_back(*run.time_s);
+  }
+  for (TaskRow& row : rows) {
+    row.success_share = shareInterval(row.success, row.count);
+    row.time_s = geometricMean(times_s[row.task]);
+    if (times_s[row.task].size() >= kFewestForDeviation) row.time_interval_s = geometricMeanInterval(times_s[row.task]);
+  }
+  return rows;
+}
+
+/// Participants who did one of its tasks; all, where tasks are not known.
+std::size_t couldMeet(const ProblemRow& problem, const StudyInput& input, std::size_t participants) {
+  std::set<std::string> met_the_task;
+  for (const TaskRun& run : input.tasks)
+    if (std::ranges::find(problem.tasks, run.task) != problem.tasks.end()) met_the_task.insert(run.participant);
+  return std::max(met_the_task.empty() ? participants : met_the_task.size(), problem.met_by);
+}
+
+std::vector<ProblemRow> problemRows(const StudyInput& input, std::size_t participants) {
+  std::vector<ProblemRow> rows;
+  std::map<std::string, std::set<std::string>> met_by;
+  std::map<std::string, std::map<std::string, int>> rated;  // the worst that each rater saw
+  for (const ProblemSeen& one : input.problems) {
+    auto row = std::ranges::find(rows, one.problem, &ProblemRow::problem);
+    if (row == rows.end()) row = rows.insert(rows.end(), ProblemRow{one.problem, one.title, {}, {}, 0, 0, {}, {}, 0.0});
+    met_by[one.problem].insert(one.participant);
+    if (!one.task.empty() && std::ranges::find(row->tasks, one.task) == row->tasks.end())
+      row->tasks.push_back(one.task);
+    if (!one.moment.empty() && std::ranges::find(row->moments, one.moment) == row->moments.end())
+      row->moments.push_back(one.moment);
+    if (!one.severity) continue;
+    int& worst = rated[one.problem].try_emplace(one.rater, *one.severity).first->second;
+    worst = std::max(worst, *one.severity);
+  }
+  for (ProblemRow& row : rows) {
+    row.met_by = met_by[row.problem].size();
+    row.could_meet = couldMeet(row, input, participants);
+    row.share = shareInterval(row.met_by, row.could_meet);
+    std::vector<double> severities;
+    for (const auto& [rater, severity] : rated[row.problem]) severities.push_back(severity);
+    row.severity = summaryOf(severities).median;
+    row.weight = row.severity.value_or(1.0) * static_cast<double>(row.met_by) / static_cast<double>(row.could_meet);
+  }
+  std::ranges::stable_sort(rows, std::greater(), &ProblemRow::weight);
+  return rows;
+}
+
+std::optional<double> agreementOf(const std::vector<ProblemSeen>& problems) {
+  std::vector<std::string> raters, units;
+  const auto place_of = [](std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::ranges::find(names, name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    names.push_back(name);
+    return names.size() - 1;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, int> worst;
+  for (const ProblemSeen& one : problems) {
+    if (!one.severity || one.rater.empty()) continue;
+    const std::pair key{place_of(raters, one.rater), place_of(units, one.problem)};
+    int& kept = worst.try_emplace(key, *one.severity).first->second;
+    kept = std::max(kept, *one.severity);
+  }
+  if (raters.size() < 2) return {};
+  std::vector<std::vector<std::optional<int>>> ratings(raters.size(), std::vector<std::optional<int>>(units.size()));
+  for (const auto& [key, severity] : worst) ratings[key.first][key.second] = severity;
+  return ordinalAgreement(ratings);
+}
+
+}  // namespace
+
+StudyResult studyResult(const StudyInput& input) {
+  StudyResult result;
+  std::set<std::string> participants;
+  for (const AnswerSheet& sheet : input.answers) participants.insert(sheet.participant);
+  for (const TaskRun& run : input.tasks) participants.insert(run.participant);
+  for (const ProblemSeen& one : input.problems) participants.insert(one.participant);
+  result.participants = std::max(participants.size(), input.participants);
+  if (input.questionnaire) {
+    result.title = input.questionnaire->title, result.source = input.questionnaire->source;
+    AnswerTables(*input.questionnaire, input.answers, result).fill();
+  }
+  result.tasks = taskRows(input.tasks);
+  result.problems = problemRows(input, result.participants);
+  std::vector<std::size_t> met_by;
+  for (const ProblemRow& row : result.problems) met_by.push_back(row.met_by);
+  result.discovery = discoveryOf(met_by, result.participants);
+  result.agreement = agreementOf(input.problems);
+  return result;
+}
+
+}  // namespace app

@@ -1,0 +1,86 @@
+// What a study says: answers by item, category and group, groups and sessions compared, tasks, and problems by how bad
+// and how common they are. Pure; any thread; a second for 60 participants.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/study/statistics.h"
+#include "app/study/study_data.h"
+
+namespace app {
+
+/// Below it answers are listed as they are, and nothing is claimed from a deviation.
+inline constexpr std::size_t kFewestForDeviation = 5;
+
+/// Answers of a group to an item, or to those of a category (each participant's mean), or the score of all.
+struct AnswerRow {
+  std::string id, says, category, group, session;  ///< group "all": everybody
+  Summary summary;
+  std::size_t missing = 0;
+  std::optional<ValueRange> mean_interval, median_interval;  ///< at 95 %
+  std::vector<double> values;                                ///< sorted
+
+  bool hasDeviation() const { return values.size() >= kFewestForDeviation; }
+};
+
+/// Two groups, or one group's two sessions, on an item, category or score.
+struct Difference {
+  std::string id, of, against;  ///< how far `of` lies above `against`
+  bool is_paired = false;
+  std::size_t count = 0;  ///< values, or pairs
+  RankTest test;
+  double holm_p = 1.0;  ///< for as many tests as there are of this study
+
+  /// "student against surgeon".
+  std::string words() const { return of + (is_paired ? " after " : " against ") + against; }
+};
+
+struct TaskRow {
+  std::string task;
+  std::size_t count = 0, success = 0, partly = 0, failed = 0;
+  int helps = 0;
+  std::optional<ValueRange> success_share;    ///< at 95 %
+  std::optional<double> time_s;               ///< geometric mean of those who succeeded
+  std::optional<ValueRange> time_interval_s;  ///< at 95 %
+};
+
+struct ProblemRow {
+  std::string problem, title;
+  std::vector<std::string> tasks, moments;
+  std::size_t met_by = 0, could_meet = 0;  ///< participants
+  std::optional<ValueRange> share;         ///< at 95 %
+  std::optional<double> severity;          ///< median of raters
+  double weight = 0.0;                     ///< severity (1 where it is not rated) times share
+};
+
+/// A sentence that somebody answered with.
+struct SaidAnswer {
+  std::string item, participant, words;
+};
+
+struct StudyResult {
+  std::string title, source;
+  std::size_t participants = 0;
+  std::vector<std::string> groups, sessions;
+  std::vector<AnswerRow> items, categories, scores;
+  std::vector<SaidAnswer> said;
+  std::vector<Difference> differences;
+  std::vector<TaskRow> tasks;
+  std::vector<ProblemRow> problems;    ///< the heaviest first
+  std::optional<Discovery> discovery;  ///< of problems
+  std::optional<double> agreement;     ///< of raters on severity
+};
+
+struct StudyInput {
+  std::optional<Questionnaire> questionnaire;
+  std::vector<AnswerSheet> answers;
+  std::vector<TaskRun> tasks;
+  std::vector<ProblemSeen> problems;
+  std::size_t participants = 0;  ///< as many took part, at least; who met no problem is in no table of problems
+};
+
+StudyResult studyResult(const StudyInput& input);
+
+}  // namespace app
