@@ -24,7 +24,7 @@ constexpr std::string_view kNoDeviation = "Below five values there is no deviati
 std::string fixedOr(const std::optional<double>& value, int digits) { return value ? fixedText(*value, digits) : "–"; }
 
 std::string rangeText(const std::optional<ValueRange>& range, int digits) {
-  return range ? fixedText(range->low, digits) + "–" + fixedText(range->high, digits) : "–";
+  return range ? fixedText(range->low, digits) + "\u2060–\u2060" + fixedText(range->high, digits) : "–";
 }
 
 std::string percentText(double share) { return fixedText(100.0 * share, 0) + "\u00a0%"; }
