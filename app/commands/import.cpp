@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -151,30 +152,86 @@ assets::GreyWindow windowOf(const std::string& text) {
   return {*low_hu, *high_hu};
 }
 
+/// Prints and keeps how long each stage of the segmentation took.
+class StageClock {
+ public:
+  void begin(std::string_view stage) {
+    end();
+    stage_ = stage;
+    begun_ = std::chrono::steady_clock::now();
+  }
+  void end() {
+    if (stage_.empty()) return;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun_;
+    printMessage(fmt::format("{}: {:.1f} s", stage_, took.count()));
+    stages_.push_back({{"stage", std::exchange(stage_, {})}, {"seconds", took.count()}});
+  }
+  const nlohmann::json& stages() const { return stages_; }
+
+ private:
+  std::string stage_;
+  std::chrono::steady_clock::time_point begun_;
+  nlohmann::json stages_ = nlohmann::json::array();
+};
+
+/// What was found in a scan without labels.
+nlohmann::json jsonOf(const assets::FoundJaw& jaw) {
+  nlohmann::json teeth = nlohmann::json::array();
+  for (const assets::FoundTooth& tooth : jaw.teeth)
+    teeth.push_back({{"fdi", tooth.fdi == 0 ? nlohmann::json(nullptr) : nlohmann::json(tooth.fdi)},
+                     {"volume_mm3", tooth.volume_mm3},
+                     {"centre_P_mm", {tooth.centre_P_mm.x, tooth.centre_P_mm.y, tooth.centre_P_mm.z}}});
+  return {{"cortical_hu", jaw.levels.cortical_hu}, {"dentine_hu", jaw.levels.dentine_hu}, {"teeth", teeth}};
+}
+
 /// A DICOM source is surveyed before; its path may name a person and is said nowhere. The report is written whether it
 /// is refused or not.
-assets::ImportedScan importDicom(const ImportOptions& options) {
+assets::ImportedScan importDicom(const ImportOptions& options, nlohmann::json& report) {
   assets::DicomSurvey survey = assets::surveyDicom(options.source, dicomChoices(options.dicom));
-  const auto report = [&] {
-    if (!options.report.empty()) calibration::OutputFile(options.report, options.force).commit(dicomReportJson(survey));
-  };
   try {
     assets::ImportedScan imported = assets::importScan(survey, options.choices);
-    report();
+    report = nlohmann::json::parse(dicomReportJson(survey));
     for (const assets::DicomVerdict& verdict : survey.verdicts) printMessage(assets::lineOf(verdict));
     return imported;
   } catch (const assets::LoadError&) {
-    report();
+    report = nlohmann::json::parse(dicomReportJson(survey));
     throw;
   }
 }
 
-assets::ImportedScan importAny(const ImportOptions& options) {
+assets::ImportedScan importFile(const ImportOptions& options, nlohmann::json& report) {
+  report = {{"kind", "volume"}, {"verdicts", nlohmann::json::array()}};
+  try {
+    return assets::importScan(options.source, options.choices);
+  } catch (const assets::JawRefused& refused) {
+    report["verdicts"].push_back(
+        {{"code", refused.refusal.code}, {"sentence", refused.refusal.sentence}, {"stops", true}});
+    throw;
+  }
+}
+
+assets::ImportedScan importAny(ImportOptions& options) {
+  nlohmann::json report;
+  StageClock clock;
+  options.choices.stage = [&clock](std::string_view stage) { clock.begin(stage); };
+  const auto write = [&] {
+    clock.end();
+    if (report.is_null()) return;
+    report["stages"] = clock.stages();
+    if (!options.report.empty()) calibration::OutputFile(options.report, options.force).commit(report.dump(2) + "\n");
+  };
   const bool is_dicom = assets::isDicomSource(options.source);
-  if (!is_dicom && !options.report.empty()) throw UsageError("--json: only a DICOM source has a report");
-  assets::ImportedScan imported = is_dicom ? importDicom(options) : assets::importScan(options.source, options.choices);
-  for (const std::string& remark : imported.remarks) printMessage((is_dicom ? "scan" : options.source) + ": " + remark);
-  return imported;
+  try {
+    assets::ImportedScan imported = is_dicom ? importDicom(options, report) : importFile(options, report);
+    report["jaw"] = imported.jaw ? jsonOf(*imported.jaw) : nlohmann::json(nullptr);
+    write();
+    for (const std::string& remark : imported.remarks)
+      printMessage((is_dicom ? "scan" : options.source) + ": " + remark);
+    return imported;
+  } catch (const assets::LoadError&) {
+    write();
+    throw;
+  }
 }
 
 int import(ImportOptions options) {
@@ -252,7 +309,11 @@ void addImport(CommandLine& molar) {
   command.option("--segment-with", options->segment_with,
                  "Command that makes the label map: 'PROGRAM … {ct} … {labels} …', run without a shell");
   command.flag("--force", options->force, "Replace the patient folder if it exists");
-  command.option("--json", options->report, "What the DICOM source holds and what was said of it, written to this file")
+  command.flag("--grey-only", options->choices.grey_only,
+               "Without labels: tissues by grey value alone, teeth are not looked for");
+  command
+      .option("--json", options->report,
+              "What the source holds, what was found and said, seconds by stage: to this file")
       .valueNamed("REPORT");
   addDicomOptions(command, options->dicom);
   command.option("--scale", options->scale,

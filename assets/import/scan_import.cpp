@@ -170,6 +170,52 @@ struct Volume {
   std::optional<std::string> labels, teeth;
 };
 
+/// Smaller scans are a part of a jaw.
+bool isToSegment(const Volume& volume, const ScanImportOptions& options) {
+  return !options.grey_only && !options.segment && !options.labels && !volume.labels && !volume.teeth &&
+         canHoldJaw(volume.image.grid);
+}
+
+/// Jaw and teeth of a scan without labels; hard tissue elsewhere by grey value.
+FoundJaw findJaw(const std::string& name, const ReportStage& stage, CtVolume& ct) {
+  if (stage) stage("shading");
+  std::vector<std::int16_t> flat = ct.hounsfield;
+  flattenShading(ct.grid, flat);
+  JawSegmentation found = segmentJaw(ct.grid, flat, stage);
+  if (found.refusal) throw JawRefused(name, *found.refusal);
+  ct.label = labelsFromGrey(ct.grid, ct.hounsfield);
+  for (std::size_t v = 0; v < ct.label.size(); ++v) {
+    if (found.label[v] != 0)
+      ct.label[v] = found.label[v];
+    else if (isToothPart(ct.label[v]))
+      ct.label[v] = static_cast<std::uint8_t>(Tissue::other_teeth);
+  }
+  ct.tooth = std::move(found.tooth);
+  return {found.levels, std::move(found.teeth), std::move(found.canals)};
+}
+
+/// On the site's side; without a site the first.
+const CanalProposal* proposalFor(const FoundJaw& jaw, const std::optional<OperativeSite>& site) {
+  for (const CanalProposal& canal : jaw.canals)
+    if (!site || canal.is_right == isRight(site->fdi)) return &canal;
+  return nullptr;
+}
+
+/// What a person must see before it counts.
+void remarkProposals(const Patient& patient, const FoundJaw& jaw, std::vector<std::string>& remarks) {
+  const std::string tooth = patient.site ? "tooth " + std::to_string(patient.site->fdi) : "";
+  const std::string canal = patient.mandibular_canal_P_mm.empty() ? "" : "the mandibular canal";
+  const std::string what = tooth + (tooth.empty() || canal.empty() ? "" : " and ") + canal;
+  if (!what.empty())
+    remarks.push_back(what + " " + (tooth.empty() || canal.empty() ? "was" : "were") +
+                      " found by the program and not confirmed: look at them before a figure counts");
+  if (canal.empty()) remarks.push_back("no mandibular canal was found on the side of the site");
+  const auto spare = std::ranges::count(jaw.teeth, 0, &FoundTooth::fdi);
+  if (spare > 0)
+    remarks.push_back(std::to_string(spare) + (spare == 1 ? " dense piece fits" : " dense pieces fit") +
+                      " no tooth's number and have none");
+}
+
 ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const ScanImportOptions& options) {
   ImportedScan imported;
   imported.remarks = std::move(remarks);
@@ -192,23 +238,30 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
     const LabelTable table = foreignLabelTable(*foreign, options.label_set);
     for (std::string& remark : takeForeignLabels(*foreign, table, patient.ct))
       imported.remarks.push_back(std::move(remark));
+  } else if (isToSegment(volume, options)) {
+    imported.jaw = findJaw(volume.name, options.stage, patient.ct);
   } else {
     tissues = readTissues(volume.labels, volume.name, patient.ct, imported.remarks);
   }
   if (volume.teeth)
     readTeeth(*volume.teeth, volume.name, patient.ct, imported.remarks);
-  else if (tissues == Tissues::labelled && patient.ct.tooth.empty())
+  else if (!imported.jaw && tissues == Tissues::labelled && patient.ct.tooth.empty())
     numberLabelledTooth(options.tooth_fdi, patient.ct, imported.remarks);
   if (tissues == Tissues::labelled) labelPartialVoxels(patient.ct);
   patient.site = siteOf(patient.ct, options.tooth_fdi, volume.name, imported.remarks);
   const auto near_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
-  if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
+  const CanalProposal* const proposed = imported.jaw ? proposalFor(*imported.jaw, patient.site) : nullptr;
+  if (proposed != nullptr) {
+    patient.mandibular_canal_P_mm = proposed->line_P_mm;
+  } else if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
     patient.mandibular_canal_radius_mm = canal->radius_mm;
   }
+  if (imported.jaw) remarkProposals(patient, *imported.jaw, imported.remarks);
   if (patient.site) {
     patient.jaw_P_mm = patient.site->centre_P_mm;
-    patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")";
+    patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")" +
+                    (imported.jaw ? ", found by the program, not confirmed" : "");
     return imported;
   }
   const auto jaw_P_mm = lowerJawCentre_P_mm(patient.ct, patient.mandibular_canal_P_mm);
@@ -219,12 +272,56 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
   return imported;
 }
 
+std::string placesOf(const std::vector<GreyPeak>& peaks) {
+  if (peaks.empty()) return "no peak";
+  std::string list;
+  for (const GreyPeak& peak : peaks) list += (list.empty() ? "" : ", ") + std::to_string(std::lround(peak.grey));
+  return (peaks.size() == 1 ? "one peak at " : "peaks at ") + list;
+}
+
+std::string noScaleSentence(const GreyJudgement& judged) {
+  return "grey values follow no known scale (" + placesOf(judged.peaks) +
+         "); show Molar three places: --scale AIR,MUSCLE,DENTINE, the grey values there";
+}
+
+/// What was made of grey values that are not Hounsfield; empty where they are.
+std::string scaleSentence(const GreyMap& map, const std::vector<GreyPeak>& peaks) {
+  const std::string formula = "HU = " + shortNumber(map.slope, 3) + " x grey value " +
+                              (map.offset_hu < 0.0 ? "- " : "+ ") + shortNumber(std::abs(map.offset_hu), 0);
+  if (map.scale == GreyScale::shifted)
+    return "grey values are stored higher than Hounsfield without saying so: " + formula;
+  if (map.scale == GreyScale::two_points)
+    return "grey values are not Hounsfield (" + placesOf(peaks) + "); mapped by air and soft tissue: " + formula +
+           "; --scale AIR,MUSCLE,DENTINE states it better";
+  return {};
+}
+
+/// Slices farther apart show no roots (as of DICOM, dicom_survey.cpp).
+constexpr double kTooCoarseScan_mm = 1.5;
+
+/// A file without labels need not be in Hounsfield; throws for what cannot be segmented.
+void prepareForSegmentation(Volume& volume, const ScanImportOptions& options, std::vector<std::string>& remarks) {
+  if (volume.image.coarsest_mm > kTooCoarseScan_mm)
+    throw JawRefused(volume.name, {"R1", "slices are " + shortNumber(volume.image.coarsest_mm, 1) +
+                                             " mm apart; below 1 mm a third molar cannot be rehearsed"});
+  if (options.window) return;
+  const GreyJudgement judged =
+      options.scale ? GreyJudgement{options.scale, {}} : judgeGreyScale(volume.image.hounsfield, kNoGrey);
+  if (!judged.map) throw JawRefused(volume.name, {"V1", noScaleSentence(judged)});
+  applyGreyMap(*judged.map, kNoGrey, volume.image.hounsfield);
+  if (judged.map->scale == GreyScale::two_points || judged.map->scale == GreyScale::stated)
+    flattenShading(volume.image.grid, volume.image.hounsfield);
+  if (std::string said = scaleSentence(*judged.map, judged.peaks); !said.empty()) remarks.push_back(std::move(said));
+}
+
 }  // namespace
 
 ImportedScan importScan(const std::string& source, const ScanImportOptions& options) {
   const Sources sources = sourcesAt(source);
-  return patientOf({readHounsfield(sources.ct, options.window), sources.ct, sources.labels, sources.teeth}, {},
-                   options);
+  Volume volume{readHounsfield(sources.ct, options.window), sources.ct, sources.labels, sources.teeth};
+  std::vector<std::string> remarks;
+  if (isToSegment(volume, options)) prepareForSegmentation(volume, options, remarks);
+  return patientOf(std::move(volume), std::move(remarks), options);
 }
 
 namespace {
@@ -259,38 +356,16 @@ ScanOrigin originOf(const DicomSurvey& survey, const ScanImportOptions& options)
   return origin;
 }
 
-std::string placesOf(const std::vector<GreyPeak>& peaks) {
-  if (peaks.empty()) return "no peak";
-  std::string list;
-  for (const GreyPeak& peak : peaks) list += (list.empty() ? "" : ", ") + std::to_string(std::lround(peak.grey));
-  return (peaks.size() == 1 ? "one peak at " : "peaks at ") + list;
-}
-
 /// The scale that the owner states, or the one that the values show; says which. Throws LoadError: none.
 GreyMap greyMapOf(DicomSurvey& survey, std::span<const std::int16_t> grey, const std::optional<GreyMap>& stated) {
   if (stated) return *stated;
   const GreyJudgement judged = judgeGreyScale(grey, kNoGrey);
   if (!judged.map) {
-    survey.verdicts.push_back({"V1",
-                               "grey values follow no known scale (" + placesOf(judged.peaks) +
-                                   "); show Molar three places: --scale AIR,MUSCLE,DENTINE, the grey values there",
-                               {},
-                               true});
+    survey.verdicts.push_back({"V1", noScaleSentence(judged), {}, true});
     throw LoadError(lineOf(survey.verdicts.back()));
   }
-  const std::string formula = "HU = " + shortNumber(judged.map->slope, 3) + " x grey value " +
-                              (judged.map->offset_hu < 0.0 ? "- " : "+ ") +
-                              shortNumber(std::abs(judged.map->offset_hu), 0);
-  if (judged.map->scale == GreyScale::shifted)
-    survey.verdicts.push_back(
-        {"V2", "grey values are stored higher than Hounsfield without saying so: " + formula, {}, false});
-  if (judged.map->scale == GreyScale::two_points)
-    survey.verdicts.push_back({"V2",
-                               "grey values are not Hounsfield (" + placesOf(judged.peaks) +
-                                   "); mapped by air and soft tissue: " + formula +
-                                   "; --scale AIR,MUSCLE,DENTINE states it better",
-                               {},
-                               false});
+  if (std::string said = scaleSentence(*judged.map, judged.peaks); !said.empty())
+    survey.verdicts.push_back({"V2", std::move(said), {}, false});
   return *judged.map;
 }
 
@@ -327,9 +402,15 @@ ImportedScan importScan(DicomSurvey& survey, const ScanImportOptions& options) {
                         " cm3 of soft tissue farther than 12 mm from bone were removed, so that no face is left; "
                         "--keep-face keeps them");
   }
-  ImportedScan imported = patientOf({std::move(image), name, std::nullopt, std::nullopt}, std::move(remarks), options);
-  imported.origin = std::move(origin);
-  return imported;
+  try {
+    ImportedScan imported =
+        patientOf({std::move(image), name, std::nullopt, std::nullopt}, std::move(remarks), options);
+    imported.origin = std::move(origin);
+    return imported;
+  } catch (const JawRefused& refused) {
+    survey.verdicts.push_back({refused.refusal.code, refused.refusal.sentence, {}, true});
+    throw;
+  }
 }
 
 bool isDicomSource(const std::string& source) {

@@ -2,9 +2,9 @@
 // labels.nrrd (Tissue values) and teeth.nrrd (FDI numbers), or a single volume file in Hounsfield; .nrrd, .nhdr, .nii,
 // .nii.gz, .mha, .mhd in any orientation (image_file.h). The site is the requested tooth, or a third molar: one
 // numbered in teeth.nrrd, or the only tooth with labelled enamel and dentine if the scan shows its side. The canal's
-// line comes from labels; without labels tissues are estimated from grey values and no tooth is. Only voxels and
-// geometry are kept: no name, date or identifier, not even the file name. Gingiva and face are made elsewhere. Any
-// thread, at start-up; about 2 s per 10^7 voxels.
+// line comes from labels. A scan without labels is segmented (assets/segment), from 35 mm on; what holds no lower jaw
+// with teeth is refused. Only voxels and geometry are kept: no name, date or identifier, not even the file name.
+// Gingiva and face are made elsewhere. Any thread, at start-up; about 2 s per 10^7 voxels.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,11 @@
 #include "assets/import/dicom/dicom_survey.h"
 #include "assets/import/grey_scale.h"
 #include "assets/import/label_table.h"
+#include "assets/load_error.h"
 #include "assets/patient.h"
 #include "assets/scan/grey_window.h"
 #include "assets/scan_origin.h"
+#include "assets/segment/jaw_segmentation.h"
 
 namespace assets {
 
@@ -26,19 +28,36 @@ struct ScanImportOptions {
   Classification classification{};
   std::optional<int> tooth_fdi{};       ///< the site; default: a third molar
   std::optional<GreyWindow> window{};   ///< for an 8-bit volume
-  std::optional<GreyMap> scale{};       ///< of a DICOM scan: HU of its grey values; judged by their histogram otherwise
+  std::optional<GreyMap> scale{};       ///< HU of the grey values; judged by their histogram otherwise
   bool keep_face = false;               ///< of a DICOM scan: skin farther than 12 mm from bone is not removed
   bool keep_age_band = false;           ///< of a DICOM scan: the patient's age in decades, and sex
   std::optional<std::string> labels{};  ///< a label map from elsewhere (foreign_labels.h), instead of one beside it
   std::optional<LabelSet> label_set{};  ///< whose values those are, where the file does not name them
   /// Makes such a file of the scan's own grey values and returns its path; empty: none is made.
   std::function<std::string(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield)> segment{};
+  bool grey_only = false;  ///< without labels: tissues by grey value alone, no jaw and no teeth are looked for
+  ReportStage stage{};     ///< called when a stage of the segmentation begins
+};
+
+/// What was found in a scan without labels.
+struct FoundJaw {
+  GreyLevels levels;
+  std::vector<FoundTooth> teeth;
+  std::vector<CanalProposal> canals;
+};
+
+/// No teeth can be found in the scan.
+struct JawRefused : LoadError {
+  JawRefused(const std::string& name, JawRefusal why)
+      : LoadError(name + ": " + why.sentence + "; --grey-only imports it without teeth"), refusal(std::move(why)) {}
+  JawRefusal refusal;
 };
 
 struct ImportedScan {
   Patient patient;
   std::vector<std::string> remarks;  ///< notes and warnings for the user, a line each
   std::optional<ScanOrigin> origin;  ///< of a DICOM scan
+  std::optional<FoundJaw> jaw;       ///< of a scan without labels
 };
 
 /// Throws LoadError of one line.

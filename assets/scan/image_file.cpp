@@ -88,7 +88,9 @@ HounsfieldImage readHounsfield(const std::string& path, const std::optional<Grey
   const Scan scan(path);
   auto values = voxelsOf<std::int16_t>(scan.header, "rescale it to Hounsfield");
   applyGreyWindow(values, window, path);
-  return {scan.resampling.grid(), scan.resampling.linear(std::move(values), kAirHu), scan.header.orientation_known};
+  const glm::dmat3& step_P_mm = scan.header.geometry.step_P_mm;
+  return {scan.resampling.grid(), scan.resampling.linear(std::move(values), kAirHu), scan.header.orientation_known,
+          std::max({glm::length(step_P_mm[0]), glm::length(step_P_mm[1]), glm::length(step_P_mm[2])})};
 }
 
 ByteImage readSolid(const std::string& path) {

@@ -21,6 +21,7 @@ struct HounsfieldImage {
   VolumeGrid grid;
   std::vector<std::int16_t> hounsfield;
   bool orientation_known = true;  ///< stated in the file; LPS is assumed otherwise
+  double coarsest_mm = 0.0;       ///< the file's largest step from voxel to voxel
 };
 
 /// One byte a voxel: solid fraction or labels.

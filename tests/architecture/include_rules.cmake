@@ -1,7 +1,7 @@
 # Which folder may include which, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
 #   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
-#   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
+#   assets: root words < { mesh | scan | scenery } < { patient | instrument | segment | synthetic }, segment < import.
 #   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
 #     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
 #     | start_screen | study | review }; before commands, after rehearsal and review: debrief.
@@ -28,9 +28,10 @@ set(assets_root ${assets_words})
 foreach(room mesh scan scenery)
   set(assets/${room} ${assets_words} assets/${room}/)
 endforeach()
-foreach(room patient instrument import synthetic)
+foreach(room patient instrument segment synthetic)
   set(assets/${room} ${assets_words} assets/mesh/ assets/scan/ assets/scenery/ assets/${room}/)
 endforeach()
+set(assets/import ${assets_words} assets/mesh/ assets/scan/ assets/scenery/ assets/segment/ assets/import/)
 set(assets calibration/ assets/)
 
 # Folders of app: each may include itself and those before it; the last group is for commands only.

@@ -224,5 +224,34 @@ TEST_F(ImportDicomRealData, APackedFolderIsImportedAndItsPatientLoads) {
   EXPECT_NEAR(patient["spacing_mm"].get<double>(), 0.4, 1e-9);
 }
 
+TEST_F(ImportDicomRealData, AScanWithoutLabelsIsAPatientAtOnce) {
+  const std::string scan = tests::sharedData("patients/right_third_molar/ct.nrrd");
+  MOLAR_NEEDS(scan);
+  const ProgramOutput said = molar("import " + scan + " --out " + at("patient") + " --json " + at("report"));
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("not confirmed"), std::string::npos) << said.err;
+  const auto report = nlohmann::json::parse(read("report"));
+  EXPECT_EQ(report["stages"].size(), 7u);
+  EXPECT_EQ(report["jaw"]["teeth"].front()["fdi"], 48);
+  const auto patient = nlohmann::json::parse(molar("inspect " + at("patient") + " --json").out);
+  EXPECT_EQ(patient["third_molar"]["fdi"], 48);
+  const auto plan = nlohmann::json::parse(molar("plan " + at("patient") + " --json").out);
+  EXPECT_TRUE(plan["winter_angle"]["value"].is_number());
+  EXPECT_TRUE(plan["canal_distance"]["value"].is_number());
+}
+
+TEST_F(ImportDicom, AScanWithoutTeethIsRefusedUnlessItsGreyValuesAreEnough) {
+  const on_disk::Scan scan{{80, 80, 80}, glm::dmat3(0.5), {0, 0, 0}};
+  std::vector<std::int16_t> values(512000, -1000);
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (n % 80 > 20 && n % 80 < 60 && n / 80 % 80 > 30) values[n] = n / 6400 > 40 ? 900 : 40;
+  write("jaw.nrrd", on_disk::nrrd(scan, "short", on_disk::bytesOf(values)));
+  const std::string import = "import " + at("jaw.nrrd") + " --out " + at("patient");
+  expectRefusal(import + " --json " + at("report"), "no teeth found: the lower jaw seems toothless");
+  EXPECT_FALSE(fs::exists(at("patient")));
+  EXPECT_EQ(nlohmann::json::parse(read("report"))["verdicts"][0]["code"], "J2");
+  EXPECT_EQ(molar(import + " --grey-only").status, 0);
+}
+
 }  // namespace
 }  // namespace app

@@ -69,8 +69,26 @@ TEST_F(ScanImportRealData, HasItsThirdMolarAndCanalAtTheKnownPosition) {
   EXPECT_NEAR(patient.mandibular_canal_radius_mm, 1.3, 0.2);
 }
 
-TEST_F(ScanImportRealData, IsReadWithoutLabelsToo) {
-  const auto patient = importScan(folder_ + "/ct.nrrd", {}).patient;
+TEST_F(ScanImportRealData, WithoutLabelsJawAndTeethAreFound) {
+  const auto imported = importScan(folder_ + "/ct.nrrd", {});
+  ASSERT_TRUE(imported.jaw);
+  const auto& patient = imported.patient;
+  const auto truth = nlohmann::json::parse(on_disk::read(folder_ + "/truth.json"));
+  const auto centroid = truth["M3"]["centroid_ijk"];
+  ASSERT_TRUE(patient.site);
+  EXPECT_EQ(patient.site->fdi, 48);
+  EXPECT_LT(
+      glm::distance(patient.site->centre_P_mm,
+                    patient.ct.grid.origin_P_mm + 0.4 * glm::dvec3(centroid[0].get<double>(), centroid[1].get<double>(),
+                                                                   centroid[2].get<double>())),
+      1.0);
+  EXPECT_GT(patient.mandibular_canal_P_mm.size(), 30u) << "proposed";
+  EXPECT_THAT(patient.title, HasSubstr("not confirmed"));
+  EXPECT_THAT(imported.remarks, testing::Contains(HasSubstr("tooth 48 and the mandibular canal were found")));
+}
+
+TEST_F(ScanImportRealData, GreyOnlyFindsNoTeeth) {
+  const auto patient = importScan(folder_ + "/ct.nrrd", {.grey_only = true}).patient;
   EXPECT_FALSE(patient.site);
   EXPECT_TRUE(patient.mandibular_canal_P_mm.empty());
   EXPECT_EQ(patient.ct.label, assets::labelsFromGrey(patient.ct.grid, patient.ct.hounsfield));

@@ -1,0 +1,27 @@
+// A proposal for the mandibular canal of each side: the cheapest way through dark tubes (tubeness.h) inside the bone,
+// not through teeth and not along the surface, then centred on the darkness across it. Between its ends it follows the
+// canal; the ends, in the ramus above the bite and in the body below the premolars, are guesses of anatomy and may miss
+// by several millimetres. A person must confirm it before distances to it count. Frame P, mm. Any thread but the servo;
+// 3 s of CPU a side at 0.35 mm.
+#pragma once
+
+#include <vector>
+
+#include "assets/segment/bite_sheet.h"
+#include "assets/segment/mandible.h"
+#include "assets/segment/tooth_numbers.h"
+#include "assets/segment/tooth_regions.h"
+
+namespace assets {
+
+struct CanalProposal {
+  bool is_right = true;
+  std::vector<glm::dvec3> line_P_mm;  ///< about 1 mm apart, from the front
+};
+
+/// Right, then left; a side without a way from end to end has none.
+std::vector<CanalProposal> proposeCanals(const Mandible& jaw, const ToothRegions& regions,
+                                         const std::vector<FoundTooth>& teeth, const JawArch& arch,
+                                         const BiteSheet& sheet);
+
+}  // namespace assets

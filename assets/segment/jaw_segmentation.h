@@ -1,0 +1,41 @@
+// A lower jaw out of a grey cone-beam scan without labels: mandible, teeth, tissues. Classical image analysis, no
+// learned model; the stages are the files of this folder, in the order of the README. What it finds is a proposal that
+// a person must see before it is measured on. Hounsfield values may be off by a tenth: levels are taken from the jaw
+// itself. Any thread but the servo; parallel (TBB), the same labels for any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/segment/canal_path.h"
+#include "assets/segment/grey_levels.h"
+#include "assets/segment/jaw_verdict.h"
+#include "assets/segment/tooth_numbers.h"
+#include "assets/volume_grid.h"
+
+namespace assets {
+
+struct JawSegmentation {
+  std::optional<JawRefusal> refusal;  ///< then nothing else is set
+  std::vector<std::uint8_t> label;    ///< Tissue, on the scan's grid
+  std::vector<std::uint8_t> tooth;    ///< FDI number
+  GreyLevels levels;
+  std::vector<FoundTooth> teeth;  ///< from the right to the left along the arch, those without a number too
+  std::vector<CanalProposal> canals;
+};
+
+/// Called when a stage begins, with its name.
+using ReportStage = std::function<void(std::string_view stage)>;
+
+/// Smaller scans are parts of a jaw in which no row of teeth can be told.
+inline constexpr double kLeastJaw_mm = 35.0;
+bool canHoldJaw(const VolumeGrid& grid);
+
+JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
+                           const ReportStage& report = {});
+
+}  // namespace assets

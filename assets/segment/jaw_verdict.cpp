@@ -1,0 +1,48 @@
+#include "assets/segment/jaw_verdict.h"
+
+#include <algorithm>
+
+namespace assets {
+namespace {
+
+constexpr double kSmallTooth_mm3 = 90.0, kLargeTooth_mm3 = 2600.0, kLongTooth_mm = 32.0, kToothShare = 0.6;
+constexpr std::size_t kMostTeeth = 18;
+constexpr double kWidestJaw_mm = 150.0;
+constexpr int kCrownsDown = -2;
+
+bool hasToothSize(const FoundTooth& tooth) {
+  return tooth.volume_mm3 > kSmallTooth_mm3 && tooth.volume_mm3 < kLargeTooth_mm3 &&
+         std::max({tooth.extent_mm.x, tooth.extent_mm.y, tooth.extent_mm.z}) < kLongTooth_mm;
+}
+
+}  // namespace
+
+JawRefusal toothlessJaw() { return {"J2", "no teeth found: the lower jaw seems toothless"}; }
+
+JawRefusal upperArch() {
+  return {"J1", "the crowns point down: this is an upper arch; the lower jaw is not in the scan"};
+}
+
+std::optional<JawRefusal> judgeJaw(const VolumeGrid& jaw_box, const std::vector<FoundTooth>& teeth) {
+  const double width_mm = std::max(jaw_box.size.x, jaw_box.size.y) * jaw_box.spacing_mm;
+  if (width_mm > kWidestJaw_mm) return JawRefusal{"J4", "the lower jaw could not be told from the skull"};
+  if (teeth.empty()) return toothlessJaw();
+  std::size_t tooth_sized = 0;
+  int up = 0;
+  for (const FoundTooth& tooth : teeth) {
+    if (!hasToothSize(tooth)) continue;
+    ++tooth_sized;
+    if (tooth.crown_P_mm.z != 0.0) up += tooth.crown_P_mm.z > 0.0 ? 1 : -1;
+  }
+  const std::string count = std::to_string(teeth.size());
+  if (static_cast<double>(tooth_sized) < kToothShare * static_cast<double>(teeth.size()))
+    return JawRefusal{"J3", "the dense pieces have no tooth's size (" + std::to_string(tooth_sized) + " of " + count +
+                                " have): metal or contrast"};
+  if (up <= kCrownsDown) return upperArch();
+  if (teeth.size() > kMostTeeth)
+    return JawRefusal{"J3",
+                      "too many pieces for the teeth of one jaw (" + count + "): metal, contrast or a coarse scan"};
+  return std::nullopt;
+}
+
+}  // namespace assets

@@ -1,0 +1,24 @@
+// Whether what was found can be the lower jaw of a person with teeth. Far from it, no tooth must be named, least of all
+// a third molar. Pure; any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/segment/tooth_numbers.h"
+
+namespace assets {
+
+/// Why there is no segmentation: a code for programs, a sentence for people without its subject.
+struct JawRefusal {
+  std::string code, sentence;
+};
+
+JawRefusal toothlessJaw();
+JawRefusal upperArch();
+
+/// `teeth`: of at least 80 mm3. None: it may be a lower jaw.
+std::optional<JawRefusal> judgeJaw(const VolumeGrid& jaw_box, const std::vector<FoundTooth>& teeth);
+
+}  // namespace assets

@@ -1,0 +1,125 @@
+#include "assets/segment/tooth_tissue.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assets/scan/exact_distance.h"
+#include "assets/segment/cell_filters.h"
+#include "assets/tissue.h"
+
+namespace assets {
+namespace {
+
+constexpr double kTissueSmooth_mm = 0.25, kBrightShare = 0.98, kLeastStep_hu = 500.0, kPulpShare = 0.5,
+                 kLeastPulp_hu = 700.0;
+constexpr double kPulpInside_mm = 0.8, kPulpDeep_mm = 1.2, kSurface_voxels = 1.05, kLeastEnamel_mm3 = 3.0;
+constexpr int kToothMargin = 2;
+constexpr auto kEnamel = static_cast<std::uint8_t>(Tissue::enamel),
+               kDentine = static_cast<std::uint8_t>(Tissue::dentine), kPulp = static_cast<std::uint8_t>(Tissue::pulp);
+
+/// One tooth in its box.
+class ToothBody {
+ public:
+  ToothBody(glm::ivec3 size, double spacing_mm, CellMask mask, std::vector<float> grey)
+      : size_(size), spacing_mm_(spacing_mm), mask_(std::move(mask)), grey_(std::move(grey)) {
+    CellMask outside(mask_.size());
+    std::ranges::transform(mask_, outside.begin(), [](std::uint8_t in) -> std::uint8_t { return in == 0 ? 1 : 0; });
+    depth_mm_ = exactDistance_mm(size_, spacing_mm_, outside);
+  }
+
+  std::vector<std::uint8_t> tissues(const GreyLevels& levels) const {
+    const double bright = std::max(brightest(), levels.dentine_hu + kLeastStep_hu);
+    const double enamel_hu = levels.dentine_hu + 0.5 * (bright - levels.dentine_hu);
+    const double pulp_hu = std::max(kPulpShare * levels.dentine_hu, kLeastPulp_hu);
+    std::vector<std::uint8_t> out(mask_.size(), 0);
+    CellMask pulp(mask_.size(), 0);
+    for (std::size_t n = 0; n < out.size(); ++n) {
+      if (mask_[n] == 0) continue;
+      out[n] = static_cast<double>(grey_[n]) > enamel_hu ? kEnamel : kDentine;
+      pulp[n] = static_cast<double>(grey_[n])<pulp_hu&& static_cast<double>(depth_mm_[n])> kPulpInside_mm ? 1 : 0;
+    }
+    // Without single voxels, except deep inside.
+    const CellMask opened = grownByOne(size_, shrunkByOne(size_, pulp));
+    for (std::size_t n = 0; n < out.size(); ++n)
+      if (pulp[n] != 0 && (opened[n] != 0 || static_cast<double>(depth_mm_[n]) > kPulpDeep_mm)) out[n] = kPulp;
+    takeFromBehind(out);
+    dropCrumbs(out);
+    return out;
+  }
+
+ private:
+  double brightest() const {
+    std::vector<float> greys;
+    for (std::size_t n = 0; n < mask_.size(); ++n)
+      if (mask_[n] != 0) greys.push_back(grey_[n]);
+    const auto at = static_cast<std::size_t>(kBrightShare * static_cast<double>(greys.size() - 1));
+    std::ranges::nth_element(greys, greys.begin() + static_cast<std::ptrdiff_t>(at));
+    return static_cast<double>(greys[at]);
+  }
+
+  /// The tissue of the nearest voxel below the surface, within two; the first of equally near ones.
+  void takeFromBehind(std::vector<std::uint8_t>& out) const {
+    const auto is_core = [&](std::size_t n) {
+      return mask_[n] != 0 && static_cast<double>(depth_mm_[n]) > kSurface_voxels * spacing_mm_;
+    };
+    const std::vector<std::uint8_t> before = out;
+    forVoxels(glm::ivec3(0), size_, [&](glm::ivec3 ijk) {
+      const std::size_t n = indexIn(size_, ijk);
+      if (mask_[n] == 0 || is_core(n)) return;
+      int nearest = 13;
+      forVoxels(glm::max(ijk - 2, glm::ivec3(0)), glm::min(ijk + 3, size_), [&](glm::ivec3 other) {
+        const glm::ivec3 apart = other - ijk;
+        const int squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
+        if (squared >= nearest || !is_core(indexIn(size_, other))) return;
+        nearest = squared;
+        out[n] = before[indexIn(size_, other)];
+      });
+    });
+  }
+
+  void dropCrumbs(std::vector<std::uint8_t>& out) const {
+    CellMask enamel(out.size());
+    std::ranges::transform(out, enamel.begin(), [](std::uint8_t t) -> std::uint8_t { return t == kEnamel ? 1 : 0; });
+    const CellPieces pieces = piecesOfCells(size_, enamel);
+    const double least = kLeastEnamel_mm3 / std::pow(spacing_mm_, 3);
+    for (std::size_t n = 0; n < out.size(); ++n)
+      if (pieces.of[n] != 0 && static_cast<double>(pieces.cells[static_cast<std::size_t>(pieces.of[n])]) < least)
+        out[n] = kDentine;
+  }
+
+  glm::ivec3 size_;
+  double spacing_mm_;
+  CellMask mask_;
+  std::vector<float> grey_, depth_mm_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> tissuesOfTeeth(const Mandible& jaw, const ToothRegions& teeth, const GreyLevels& levels) {
+  const glm::ivec3 size = teeth.box.size();
+  std::vector<std::uint8_t> out(teeth.part.size(), 0);
+  std::vector<CellBox> boxes(static_cast<std::size_t>(teeth.count) + 1, CellBox{size, glm::ivec3(0)});
+  forCells(size, [&](glm::ivec3 ijk, std::size_t n) {
+    CellBox& box = boxes[teeth.part[n]];
+    box.low = glm::min(box.low, ijk);
+    box.end = glm::max(box.end, ijk + 1);
+  });
+  for (int part = 1; part <= teeth.count; ++part) {
+    if (boxes[static_cast<std::size_t>(part)].isEmpty()) continue;
+    const CellBox box = boxes[static_cast<std::size_t>(part)].grown(kToothMargin, size);
+    CellMask mask = croppedTo(box, size, teeth.part);
+    for (std::uint8_t& value : mask) value = value == part ? 1 : 0;
+    std::vector<float> grey =
+        croppedTo({box.low + teeth.box.low, box.end + teeth.box.low}, jaw.grid.size, jaw.hounsfield);
+    smoothCells(box.size(), kTissueSmooth_mm / jaw.grid.spacing_mm, grey);
+    const CellMask own = mask;
+    const std::vector<std::uint8_t> tissue =
+        ToothBody(box.size(), jaw.grid.spacing_mm, std::move(mask), std::move(grey)).tissues(levels);
+    forCells(box.size(), [&](glm::ivec3 ijk, std::size_t n) {
+      if (own[n] != 0) out[indexIn(size, box.low + ijk)] = tissue[n];
+    });
+  }
+  return out;
+}
+
+}  // namespace assets
