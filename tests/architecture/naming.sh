@@ -17,13 +17,13 @@ alone=$build/names
 cmake -S "$root" -B "$alone" -G Ninja -DBUILD_TESTING=OFF >/dev/null 2>&1
 cmake --build "$alone" --target render/shaders/shader_sources.inc >/dev/null
 # As a target of the build it would wait for every library below it.
-procedure=$root/app/procedure
 embed() {
-  cmake -DFOLDER="$procedure/$1" -DFILES="$(cd "$procedure/$1" && printf '%s\n' *.toml | paste -sd,)" \
-    -DOUT="$alone/app/procedure/$1/$2" -P "$procedure/steps/embed.cmake"
+  cmake -DFOLDER="$root/app/$1" -DFILES="$(cd "$root/app/$1" && printf '%s\n' *.toml | paste -sd,)" \
+    -DOUT="$alone/app/$2" -P "$root/app/text/embed_toml.cmake"
 }
-embed steps shipped_procedures.inc
-embed coach shipped_coach.inc
+embed procedure/steps procedure/steps/shipped_procedures.inc
+embed procedure/coach procedure/coach/shipped_coach.inc
+embed study/questionnaires study/shipped_questionnaires.inc
 
 passed=$build/naming_passed
 mkdir -p "$passed"
