@@ -5,18 +5,21 @@
 #include <optional>
 
 #include "app/commands/command.h"
+#include "app/review/comparison_page.h"
 #include "app/review/session_comparison.h"
 #include "app/review/session_trend.h"
 #include "app/session/session_folder.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
+#include "app/text/usage_error.h"
+#include "calibration/output_file.h"
 
 namespace app {
 
 void addCompare(CommandLine& molar) {
   struct Options {
-    std::string a, b;
-    bool json = false;
+    std::string a, b, out;
+    bool json = false, force = false;
   };
   auto options = std::make_shared<Options>();
   CommandLine& command =
@@ -24,9 +27,21 @@ void addCompare(CommandLine& molar) {
   command.option("FIRST", options->a, kSessionHelp).required();
   command.option("SECOND", options->b, kSessionHelp).required();
   command.flag("--json", options->json, "All of it as JSON");
-  command.footer("As a page with pictures: molar report SECOND --compare FIRST --out FILE.html");
+  command.option("--out", options->out, "As a page with pictures of both results, .html; it needs no other file")
+      .valueNamed("FILE");
+  command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
-    const SessionComparison found = comparisonOf(sessionNamed(options->a), sessionNamed(options->b));
+    const std::string a = sessionNamed(options->a), b = sessionNamed(options->b);
+    if (!options->out.empty()) {
+      if (options->json) throw UsageError("--json, --out: give one of them");
+      if (!options->out.ends_with(".html"))
+        throw UsageError("--out " + options->out + ": a comparison is a page, name it .html");
+      calibration::OutputFile out(options->out, options->force);
+      const SessionComparison found = comparisonOf(a, b);
+      out.commit(comparisonHtml(found, comparisonPictures(a, b)));
+      return 0;
+    }
+    const SessionComparison found = comparisonOf(a, b);
     std::fputs((options->json ? comparisonJson(found) : comparisonText(found)).c_str(), stdout);
     return 0;
   });

@@ -36,7 +36,7 @@ PlanColour colourAt(const BoneStates& bone, const FromPlan& plan_mm, const glm::
   constexpr double kBefore_mm = 0.4;
   const double from_plan_mm = plan_mm(p_P_mm);
   if (from_plan_mm < -kPlanTolerance_mm)
-    return isBone(bone, p_P_mm + 0.2 * ray_P) ? PlanColour::under : PlanColour::none;
+    return isBone(bone, p_P_mm + kBefore_mm * ray_P) ? PlanColour::under : PlanColour::none;
   const glm::dvec3 in_front = p_P_mm - kBefore_mm * ray_P;
   const bool was_bone = solidAt(bone.grid, bone.before, in_front) >= 0.5 && isBone(bone, in_front);
   return was_bone && from_plan_mm > kPlanTolerance_mm ? PlanColour::over : PlanColour::none;

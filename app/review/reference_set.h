@@ -2,10 +2,10 @@
 // z-scores by measure, from three runs on a grade with median and range. Holds measures alone: no path, no name of a
 // person. Kept as JSON in the data folder's "references", or in a file of its own. Any thread; a few file-system calls.
 //
-// A measure counts for the grade where more is better or worse for everybody (kGraded). Its z is positive where the run
-// is better than the set's mean, in standard deviations of the set. The grade is of the median of the medians of these
-// over the runs: the same as the set from -1 on, below it from -2 on, else well below; never where an event that no
-// average may hide (app/session/gates.h) happened. Bounds: our default.
+// A measure counts for the grade where more is better or worse for everybody (kGraded). For it
+// its z is taken positive where the run is better than the set's mean, in standard deviations of the set. The grade is
+// of the median of the medians of these over the runs: the same as the set from -1 on, below it from -2 on, else well
+// below; never where an event that no average may hide (app/session/gates.h) happened. Bounds: our default.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,8 @@ std::vector<std::string> referenceNames();
 struct Score {
   std::string_view id, name, unit;
   double value = 0.0, median = 0.0, low = 0.0, high = 0.0;  ///< the run's; of the set
-  std::optional<double> z;  ///< standard deviations from the set's mean; none: fewer than three runs, or no spread
+  std::optional<double> z;  ///< standard deviations above the set's mean, whatever is better; none: fewer than three
+                            ///< runs, or no spread
   int better = 0;           ///< 1: more is better, -1: less, 0: neither, it is not graded
 };
 /// Of what run and set both tell. Throws UsageError: of another case.
@@ -62,7 +63,7 @@ std::vector<Score> scoresOf(const SessionMetrics& run, const ReferenceSet& set);
 void tellAgainst(SessionMetrics& run, const ReferenceSet& set);
 
 struct Grade {
-  std::optional<double> z, low, high;  ///< median over the runs, and their range; none: why_not
+  std::optional<double> z, low, high;  ///< median over the runs, and their range, positive is better; none: see words
   std::string words;                   ///< "as the set", "below the set" …; why there is none
 };
 Grade gradeOf(std::span<const SessionMetrics> runs, const ReferenceSet& set);

@@ -135,6 +135,18 @@ std::string timelineFigure(const SessionCourse& course, const std::optional<Proc
   return drawing.markup("Timeline of the rehearsal");
 }
 
+std::string stepsFigure(const SessionMetrics& first, const SessionMetrics& second) {
+  const Axis time = timeAxis(std::max(first.duration_s, second.duration_s));
+  Drawing drawing({kWidth, 96.0});
+  Axes axes = rowAxes(time, 4.0, 54.0, {}, "");
+  axes.y.marks.clear();
+  axes.x.label = time.label;
+  axes.draw(drawing);
+  if (first.procedure) drawSpans(drawing, axes, stepsAsSpans(*first.procedure), "first", 9.0, true);
+  if (second.procedure) drawSpans(drawing, axes, stepsAsSpans(*second.procedure), "second", 35.0, true);
+  return drawing.markup("Steps of both rehearsals over time");
+}
+
 std::string forceFigure(const SessionCourse& course) {
   const auto last =
       std::ranges::find_if(course.force_s.rbegin(), course.force_s.rend(), [](double s) { return s > 0.0; });

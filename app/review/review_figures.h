@@ -17,6 +17,8 @@ std::string pictureId(std::size_t number);
 /// mark leads to its picture, or to it.
 std::string timelineFigure(const SessionCourse& course, const std::optional<ProcedureRun>& procedure,
                            const std::vector<MomentPicture>& moments);
+/// The steps of two rehearsals over one axis of time.
+std::string stepsFigure(const SessionMetrics& first, const SessionMetrics& second);
 /// Time drilling in bone by force. Empty: there was none.
 std::string forceFigure(const SessionCourse& course);
 /// Side by side; `has_words`: each with where it is seen from.

@@ -13,21 +13,6 @@
 namespace app {
 namespace {
 
-struct Row {
-  std::string key;
-  std::string_view name, unit;
-  std::optional<double> a, b;
-};
-
-std::vector<Row> rowsOf(const SessionComparison& c) {
-  std::vector<Row> rows;
-  for (const Measure& measure : kMeasures)
-    rows.push_back({std::string(measure.key), measure.meaning, measure.unit, c.a.*measure.value, c.b.*measure.value});
-  for (const MeasureValue& measure : c.a.measures)
-    rows.push_back({std::string(measure.id), measure.name, measure.unit, measure.value, valueOf(c.b, measure.id)});
-  return rows;
-}
-
 /// Of a step in both.
 struct StepRow {
   std::string title;
@@ -52,6 +37,15 @@ nlohmann::ordered_json orNull(const std::optional<double>& value) {
 
 }  // namespace
 
+std::vector<ComparedMeasure> comparedMeasures(const SessionComparison& c) {
+  std::vector<ComparedMeasure> rows;
+  for (const Measure& measure : kMeasures)
+    rows.push_back({std::string(measure.key), measure.meaning, measure.unit, c.a.*measure.value, c.b.*measure.value});
+  for (const MeasureValue& measure : c.a.measures)
+    rows.push_back({std::string(measure.id), measure.name, measure.unit, measure.value, valueOf(c.b, measure.id)});
+  return rows;
+}
+
 SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b) {
   SessionComparison comparison{metricsOf(path_a, caseOfSession), metricsOf(path_b, caseOfSession), {}};
   const BoneAtTime a = boneAtTime(path_a, {}), b = boneAtTime(path_b, {});
@@ -75,7 +69,7 @@ std::string comparisonText(const SessionComparison& c) {
                          step.b != nullptr ? clockText(step.b->duration_s) : "-", step.title);
   if (!stepsOf(c).empty()) words += "\n";
   words += fmt::format("{:>11} {:>11} {:>11}\n", "first", "second", "difference");
-  for (const Row& row : rowsOf(c)) {
+  for (const ComparedMeasure& row : comparedMeasures(c)) {
     if (isAmongMeasures(row.key)) continue;
     const std::string difference = row.a && row.b ? fmt::format("{:+.2f}", *row.b - *row.a + 0.0) : "-";
     words += fmt::format("{:>11} {:>11} {:>11} {:<8} {}\n", number(row.a), number(row.b), difference,
@@ -99,7 +93,7 @@ std::string comparisonJson(const SessionComparison& c) {
     json["steps"].push_back({{"title", step.title},
                              {"first_s", step.a->duration_s},
                              {"second_s", step.b != nullptr ? nlohmann::ordered_json(step.b->duration_s) : nullptr}});
-  for (const Row& row : rowsOf(c)) {
+  for (const ComparedMeasure& row : comparedMeasures(c)) {
     nlohmann::ordered_json entry = {
         {"id", row.key}, {"name", row.name}, {"unit", row.unit}, {"first", orNull(row.a)}, {"second", orNull(row.b)}};
     entry["difference"] = row.a && row.b ? nlohmann::ordered_json(*row.b - *row.a) : nullptr;

@@ -30,6 +30,7 @@ TEST_F(ReportCommand, MakesOnePageFromASessionTheSameEachTime) {
                             "painting index", "Timeline", "round 3.0 mm", "agus"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find(at("")), std::string::npos) << "no path";
+  EXPECT_NE(page.find("<figure id=\"picture-1\">"), std::string::npos) << "the nearest place is shown";
   EXPECT_EQ(page.find("<script"), std::string::npos);
   ASSERT_EQ(molar("report " + at("a.molar") + " --out " + at("b.html")).status, 0);
   EXPECT_EQ(page, read("b.html"));
@@ -54,6 +55,11 @@ TEST_F(ReportCommand, ComparesTwoRehearsalsOfACase) {
   EXPECT_NE(words.find("0:08 min and 0:12 min\nbone removed: "), std::string::npos) << words;
   EXPECT_EQ(words.find("mm3"), std::string::npos) << "units as people write them";
   EXPECT_EQ(words.find("length of the work"), std::string::npos) << "no measure twice";
+  ASSERT_EQ(molar("compare " + at("a.molar") + " " + at("b.molar") + " --out " + at("two.html")).status, 0);
+  const std::string page = read("two.html");
+  for (const char* said : {"Two rehearsals", "by the second alone", "first, from above", "second, from the tongue"})
+    EXPECT_NE(page.find(said), std::string::npos) << said;
+  EXPECT_EQ(page.find(at("")), std::string::npos) << "no path";
   EXPECT_EQ(molar("report " + at("b.molar") + " --compare " + at("a.molar") + " --out " + at("c.html")).status, 0);
   EXPECT_NE(read("c.html").find("compared with"), std::string::npos);
 }
