@@ -34,6 +34,7 @@ enum class DebriefAction : std::uint8_t {
   picture,
   trail,
   ghost,
+  other_ghost,
   line,
   first_view,
   magnify,
@@ -49,7 +50,7 @@ struct DebriefKey {
   std::string_view name, does;  ///< empty name: told with the one before
 };
 
-inline constexpr std::array<DebriefKey, 31> kDebriefKeys = {{
+inline constexpr std::array<DebriefKey, 32> kDebriefKeys = {{
     {DebriefAction::play, render::Key::space, false, "Space", "play or pause"},
     {DebriefAction::back_little, render::Key::left, false, "Left, Right", "one second"},
     {DebriefAction::on_little, render::Key::right, false, "", ""},
@@ -71,7 +72,9 @@ inline constexpr std::array<DebriefKey, 31> kDebriefKeys = {{
     {DebriefAction::save_clip, render::keyOf('C'), false, "C", "save the clip as pictures"},
     {DebriefAction::picture, render::keyOf('P'), false, "P", "save a picture"},
     {DebriefAction::trail, render::keyOf('T'), false, "T", "way of the tool: force, clearance, none"},
-    {DebriefAction::ghost, render::keyOf('G'), false, "G", "ghost: the tool at the hand"},
+    {DebriefAction::ghost, render::keyOf('G'), false, "G, Shift+G",
+     "ghost: the tool at the hand, the other session's tool"},
+    {DebriefAction::other_ghost, render::keyOf('G'), true, "", ""},
     {DebriefAction::line, render::keyOf('H'), false, "H", "line of text in the picture"},
     {DebriefAction::first_view, render::keyOf('V'), false, "V", "the surgeon's view again"},
     {DebriefAction::magnify, render::keyOf('='), false, "+, -", "nearer, farther"},

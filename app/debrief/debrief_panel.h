@@ -35,7 +35,7 @@ struct DebriefPanelState {
 };
 
 struct DebriefPanelInput {
-  std::optional<double> go_to_s;  ///< on the time line
+  std::optional<double> go_to_s;  ///< on the time line, as long as the button is held there
   std::optional<PictureChoice> choice;
   bool plays = false;  ///< the button was pressed
 };
@@ -43,7 +43,7 @@ struct DebriefPanelInput {
 /// Height of the strip.
 int debriefPanelHeight_px(std::size_t runs);
 
-/// Between ImGui's NewFrame and Render. The pictures lie above, from `top_px` on.
+/// Between ImGui's NewFrame and Render. The pictures lie above, from kDebriefHeader_px on.
 DebriefPanelInput drawDebriefPanel(const DebriefPanelState& state, glm::ivec2 window_px);
 
 /// Names over pictures that lie side by side, and the sheet of keys.

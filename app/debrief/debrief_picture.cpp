@@ -1,19 +1,20 @@
 #include "app/debrief/debrief_picture.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/case/patient_placement.h"
+#include "app/options/picture_option.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/view/patient_renderer.h"
 
 namespace app {
 
 bool PictureChoice::operator==(const PictureChoice& other) const {
-  const render::Layers &a = layers, &b = other.layers;
   return mode == other.mode && display == other.display && trail == other.trail && has_line == other.has_line &&
-         a.face_opacity == b.face_opacity && a.gingiva == b.gingiva && a.mandibular_canal == b.mandibular_canal &&
-         a.clearance == b.clearance && a.planned_cut == b.planned_cut && a.ghost_tool == b.ghost_tool &&
-         a.slices == b.slices && a.gap_ring == b.gap_ring && a.obstacles == b.obstacles;
+         other_ghost == other.other_ghost && layers.face_opacity == other.layers.face_opacity &&
+         std::ranges::all_of(kPictureLayers,
+                             [&](const PictureLayer& layer) { return layers.*layer.on == other.layers.*layer.on; });
 }
 
 DebriefPicture::DebriefPicture(DebriefRun& run, const render::RenderOptions& options)
@@ -34,7 +35,8 @@ calibration::Rig DebriefPicture::firstRig(const DebriefRun& run, glm::ivec2 px, 
   return rig;
 }
 
-void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm) {
+void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm,
+                            const haptics::Tick* other_tick) {
   SessionMoments& moments = run_.moments();
   const haptics::Tick& tick = moments.tick();
   const haptics::Command& command = moments.command();
@@ -48,11 +50,16 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
   frame_.face_window_mm = face_window_mm;
   frame_.mode = choice.mode;
   frame_.layers = choice.layers;
+  if (choice.other_ghost && other_tick != nullptr && other_tick->dt_s > 0.0) {
+    frame_.layers.ghost_tool = true;
+    frame_.X_PT_at_hand = {other_tick->heldRotation(), other_tick->proxy_P.mm};
+  }
   frame_.field = surgicalField(moments.clarity());
   frame_.pieces = movedPieces(tick);
   frame_.beads = trailOf(run_.story().samplesBefore(tick.t_s, DebriefPicture::kTrail_s), choice.trail);
+  run_.site().show(tick.t_s + tick.dt_s, frame_);
   if (run_.flap() != nullptr) run_.flap()->show(tick.t_s + tick.dt_s, frame_);
-  uploader_.tell(moments.takeChangedBricks());
+  uploader_.tell(run_.takeChangedBricks());
   uploader_.upload(moments.bodies(), frame_.pieces, *renderer_);
   frame_.gap = frame_.tool_visible ? renderer_->gap(frame_) : std::nullopt;
 

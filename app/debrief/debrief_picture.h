@@ -19,7 +19,8 @@ struct PictureChoice {
   render::Layers layers;
   render::DisplayMode display = render::DisplayMode::mono;
   TrailColour trail = TrailColour::none;
-  bool has_line = true;  ///< of text
+  bool has_line = true;      ///< of text
+  bool other_ghost = false;  ///< the other session's tool in the place of the ghost
 
   bool operator==(const PictureChoice& other) const;
 };
@@ -31,8 +32,10 @@ class DebriefPicture {
   /// Borrows the run.
   DebriefPicture(DebriefRun& run, const render::RenderOptions& options);
 
-  /// The run's moment seen with a rig: its `screen.px` is the size of the picture.
-  void update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm);
+  /// The run's moment seen with a rig: its `screen.px` is the size of the picture. `other_tick`: of the other session,
+  /// whose tool is drawn as a ghost, in the form of this one's; null: of none.
+  void update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm,
+              const haptics::Tick* other_tick = nullptr);
   void draw(const render::Quality& quality);
   render::FrameRenderer& renderer() { return *renderer_; }
 

@@ -27,6 +27,9 @@ struct DebriefExport {
   bool overwrite = false;
 };
 
+/// Of a clip: at 25 a second 13 minutes.
+inline constexpr std::size_t kMostClipPictures = 20'000;
+
 /// Plays in a window until it is closed. Throws GpuError without one.
 int showDebrief(const DebriefPlan& plan);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -14,6 +16,21 @@
 #include "app/station/session_risks.h"
 
 namespace app {
+namespace {
+
+/// Twice only as long as they are few.
+void addBricks(std::vector<glm::ivec3>& to, const std::vector<glm::ivec3>& bricks) {
+  constexpr std::size_t kFew = 50'000;
+  const bool were_few = to.size() <= kFew;
+  to.insert(to.end(), bricks.begin(), bricks.end());
+  if (!were_few || to.size() <= kFew) return;
+  const auto in_order = [](glm::ivec3 a, glm::ivec3 b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); };
+  std::ranges::sort(to, in_order);
+  to.erase(std::unique(to.begin(), to.end()), to.end());
+}
+
+}  // namespace
+
 DebriefRun::DebriefRun(const std::string& session, const std::string& patient_folder)
     : path_(session),
       bookmarks_(Bookmarks::fileFor(session)),
@@ -30,27 +47,41 @@ DebriefRun::DebriefRun(const std::string& session, const std::string& patient_fo
       cut_ = planned->cut;
   for (const SessionEvent& event : moments_.events())
     if (event.kind == kFlapEvent) recorded_flap_ = flapFrom(event.text);
+  site_.emplace(patient_, moments_.bodies(), start.soft_tissue, down_P());
   if (recorded_flap_ && has_patient_ && cut_) beginFlap(start);
   // A continued rehearsal began with what was left.
   patient_.ct.solid = start.solid;
 }
 
-/// As the patient lay where nothing else was asked for.
+glm::dvec3 DebriefRun::down_P() const {
+  return glm::conjugate(placePatientAtSite(patient_, assets::kFaceAxes_PF).rotation) * glm::dvec3(0.0, -1.0, 0.0);
+}
+
 void DebriefRun::beginFlap(const StoredStart& start) {
   auto gum = closedGum(patient_);
   if (!gum) return;
   patient_.gingiva = std::move(*gum);
-  const auto X_WP = placePatientAtSite(patient_, assets::kFaceAxes_PF);
-  flap_.emplace(patient_, *cut_, patient_.gingiva, start.soft_tissue,
-                glm::conjugate(X_WP.rotation) * glm::dvec3(0.0, -1.0, 0.0));
+  flap_.emplace(patient_, *cut_, patient_.gingiva, start.soft_tissue, down_P());
 }
 
 bool DebriefRun::prepare(double most_s) {
   return moments_.index(most_s, [this](const haptics::Tick& tick, const haptics::Command& command) {
     story_.follow(tick, command);
     if (flap_) flap_->follow(tick, command);
+    site_->follow(tick, command);
+    if (site_->looks(tick.t_s)) {
+      const std::vector<glm::ivec3> bricks = moments_.takeChangedBricks();
+      site_->look(tick, bricks);
+      addBricks(changed_, bricks);
+    }
     prepared_s_ = tick.t_s + tick.dt_s;
   });
+}
+
+std::vector<glm::ivec3> DebriefRun::takeChangedBricks() {
+  std::vector<glm::ivec3> bricks = moments_.takeChangedBricks();
+  addBricks(bricks, std::exchange(changed_, {}));
+  return bricks;
 }
 
 std::string DebriefRun::name() const { return std::filesystem::path(path_).filename().string(); }

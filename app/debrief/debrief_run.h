@@ -9,6 +9,7 @@
 #include "app/debrief/bookmarks.h"
 #include "app/debrief/flap_film.h"
 #include "app/debrief/session_story.h"
+#include "app/debrief/site_film.h"
 #include "app/session/session_moments.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
@@ -32,6 +33,8 @@ class DebriefRun {
 
   /// As far as it is prepared.
   void goTo(double t_s) { moments_.goTo(t_s); }
+  /// To a moment near it that is at hand, for a hand that scrubs.
+  void goNear(double t_s) { moments_.goNear(t_s); }
   SessionMoments& moments() { return moments_; }
   const SessionMoments& moments() const { return moments_; }
 
@@ -41,6 +44,10 @@ class DebriefRun {
   const assets::Patient& patient() const { return patient_; }
   const std::optional<assets::PlannedCut>& cut() const { return cut_; }
   const assets::RiskStructures& risks() const { return risks_; }
+  /// Bricks of the jaw's grid that have changed since the last call; may name one twice.
+  std::vector<glm::ivec3> takeChangedBricks();
+  /// Chips, follicle, stitches, marks of the work.
+  const SiteFilm& site() const { return *site_; }
   const SessionStory& story() const { return story_; }
   /// None: the session began with the flap raised, or its patient is not known.
   const FlapFilm* flap() const { return flap_ ? &*flap_ : nullptr; }
@@ -52,6 +59,8 @@ class DebriefRun {
 
  private:
   void beginFlap(const StoredStart& start);
+  /// Down, as the patient lay where nothing else was asked for.
+  glm::dvec3 down_P() const;
 
   std::string path_;
   Bookmarks bookmarks_;
@@ -61,9 +70,11 @@ class DebriefRun {
   std::optional<assets::PlannedCut> cut_;
   assets::RiskStructures risks_;
   SessionStory story_;
+  std::optional<SiteFilm> site_;
   std::optional<FlapFilm> flap_;
   std::optional<FlapRecord> recorded_flap_;
   double prepared_s_ = 0.0;
+  std::vector<glm::ivec3> changed_;  ///< while the session was run once
 };
 
 }  // namespace app

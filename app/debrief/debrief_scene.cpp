@@ -64,6 +64,10 @@ void DebriefScene::goTo(double t_s) {
   for (const auto& run : runs_) run->goTo(t_s);
 }
 
+void DebriefScene::goNear(double t_s) {
+  for (const auto& run : runs_) run->goNear(t_s);
+}
+
 glm::ivec2 DebriefScene::sizeOfOne(glm::ivec2 px) const {
   const auto count = static_cast<int>(runs_.size());
   return glm::max(glm::ivec2((px.x - (count - 1) * kBetween_px) / count, px.y), glm::ivec2(16));
@@ -75,9 +79,10 @@ void DebriefScene::draw(glm::ivec2 px, const render::Quality& quality) {
   // Square pixels whatever the window's shape: as high as at first.
   const calibration::Rig shaped = DebriefPicture::firstRig(*runs_.front(), drawn_px_, loupes_ * view_->magnified());
   rig.screen = shaped.screen;
-  for (const auto& picture : pictures_) {
-    picture->update(choice, rig, view_->faceWindow_mm());
-    picture->draw(quality);
+  for (std::size_t n = 0; n < pictures_.size(); ++n) {
+    const haptics::Tick* const other = runs_.size() == 2 ? &runs_[1 - n]->moments().tick() : nullptr;
+    pictures_[n]->update(choice, rig, view_->faceWindow_mm(), other);
+    pictures_[n]->draw(quality);
   }
 }
 

@@ -14,6 +14,9 @@
 
 namespace app {
 
+/// While a hand drags along the time line and the processor draws: the moment, not its beauty.
+inline constexpr render::Quality kScrubQuality{render::Antialias::none, false, false, 1.0, 4, false};
+
 class DebriefScene {
  public:
   /// Opens the sessions, some seconds.
@@ -34,6 +37,8 @@ class DebriefScene {
 
   /// All runs, as far as they are prepared.
   void goTo(double t_s);
+  /// To moments near it that are at hand, for a hand that scrubs.
+  void goNear(double t_s);
 
   PictureChoice choice;
 

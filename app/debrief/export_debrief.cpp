@@ -8,6 +8,7 @@
 
 #include "app/debrief/debrief_plan.h"
 #include "app/debrief/debrief_scene.h"
+#include "app/text/elapsed.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/view/renderer_choice.h"
@@ -18,12 +19,6 @@
 
 namespace app {
 namespace {
-
-constexpr std::size_t kMostPictures = 20'000;
-
-double secondsSince(std::chrono::steady_clock::time_point begun) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
 
 std::vector<std::string> pictureNames(std::size_t count) {
   std::vector<std::string> names;
@@ -40,12 +35,12 @@ int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted) {
   if (!wanted.snapshot.empty()) snapshot.emplace(wanted.snapshot, wanted.overwrite);
   if (!wanted.clip.empty()) {
     const double pictures = std::floor((wanted.to_s - wanted.from_s) * wanted.frames_per_s) + 1.0;
-    if (!(pictures >= 1.0) || pictures > static_cast<double>(kMostPictures))
+    if (!(pictures >= 1.0) || pictures > static_cast<double>(kMostClipPictures))
       throw UsageError(
           fmt::format("--clip {}: --from {:.1f} --to {:.1f} s are no part of a session with up to {} pictures",
-                      wanted.clip, wanted.from_s, wanted.to_s, kMostPictures));
+                      wanted.clip, wanted.from_s, wanted.to_s, kMostClipPictures));
     names = pictureNames(static_cast<std::size_t>(pictures));
-    clip.emplace(wanted.clip, wanted.overwrite, pictureNames(kMostPictures));
+    clip.emplace(wanted.clip, wanted.overwrite, pictureNames(kMostClipPictures));
   }
 
   DebriefScene scene(plan);
@@ -55,7 +50,7 @@ int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted) {
   options.samples = 2;
   const auto begun = std::chrono::steady_clock::now();
   scene.prepareTo(std::max(snapshot ? plan.at_s : 0.0, clip ? wanted.to_s : 0.0));
-  const double prepared_s = secondsSince(begun);
+  const double prepared_s = secondsBetween(begun, std::chrono::steady_clock::now());
   if (clip && wanted.from_s > scene.length_s())
     throw UsageError(fmt::format("--from {:.1f}: the session has {:.1f} s", wanted.from_s, scene.length_s()));
   scene.open(options);

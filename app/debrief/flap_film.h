@@ -1,12 +1,12 @@
 // Incision and flap of a recorded session as they were drawn, for any moment of it: computed again from the ticks as in
 // the rehearsal (app/procedure/flap), kept a few times a second where they changed. Frame P. Any one thread. Computing:
-// 0.3 ms per 10 ms of session while a sheet is raised; memory: about 0.1 MB a picture, at most kMost of them.
+// 0.3 ms per 10 ms of session while a sheet is raised; memory: about 0.1 MB a picture, at most kMost of them, and some
+// MB for each time that a sheet was laid, at most kMostGums.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <vector>
 
+#include "app/debrief/film.h"
 #include "app/procedure/flap/flap.h"
 #include "assets/mesh.h"
 #include "assets/patient.h"
@@ -17,7 +17,7 @@ namespace app {
 
 class FlapFilm {
  public:
-  static constexpr std::size_t kMost = 600;
+  static constexpr std::size_t kMost = 600, kMostGums = 32;
 
   /// Borrows soft tissue; `closed_gum_P`: with the flap's part. `down_P`: as the patient lay.
   FlapFilm(const assets::Patient& patient, const assets::PlannedCut& cut, const assets::MeshModel& closed_gum_P,
@@ -31,22 +31,13 @@ class FlapFilm {
   std::uint64_t digest() const { return flap_.record().digest; }
 
  private:
-  struct Gum {
-    double t_s = 0.0;
-    assets::MeshModel model;
-  };
-  struct Sheet {
-    double t_s = 0.0;
-    std::uint64_t serial = 0;
-    assets::MeshModel model;
-  };
   void keep(double t_s);
 
   Flap flap_;
-  double between_s_ = 0.1, next_s_ = 0.0;
-  std::uint64_t kept_sheet_ = 0, kept_incision_ = 0, kept_number_ = 0, serial_ = 0;
-  std::vector<Gum> gums_;  ///< the closed one first
-  std::vector<Sheet> sheets_;
+  std::uint64_t kept_sheet_ = 0, kept_incision_ = 0, kept_number_ = 0;
+  assets::MeshModel closed_gum_P_;
+  Film<assets::MeshModel> gums_{kMostGums, 0.0};  ///< the closed one first
+  Film<assets::MeshModel> sheets_{kMost, 0.1};
 };
 
 }  // namespace app

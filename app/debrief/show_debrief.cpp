@@ -19,6 +19,8 @@
 #include "app/debrief/debrief_scene.h"
 #include "app/instructor/instructor_panel.h"
 #include "app/text/clock_text.h"
+#include "app/text/elapsed.h"
+#include "app/text/letters.h"
 #include "app/text/message.h"
 #include "app/view/renderer_choice.h"
 #include "app/view/snapshot.h"
@@ -39,29 +41,6 @@ constexpr double kPrepareFor_s = 0.15;  ///< wall time between two drawings
 constexpr double kPart_s = 0.2;         ///< of the session
 constexpr glm::ivec2 kLeastPicture_px{64, 64};
 constexpr std::chrono::milliseconds kIdle{12};
-
-double secondsBetween(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
-
-void addLetter(std::string& to, char32_t letter) {
-  const auto code = static_cast<std::uint32_t>(letter);
-  const auto put = [&](std::uint32_t byte) { to += static_cast<char>(byte); };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xc0 | code >> 6), put(0x80 | (code & 0x3f));
-  } else if (code < 0x10000) {
-    put(0xe0 | code >> 12), put(0x80 | (code >> 6 & 0x3f)), put(0x80 | (code & 0x3f));
-  } else {
-    put(0xf0 | code >> 18), put(0x80 | (code >> 12 & 0x3f)), put(0x80 | (code >> 6 & 0x3f)), put(0x80 | (code & 0x3f));
-  }
-}
-
-void removeLetter(std::string& from) {
-  while (!from.empty() && (static_cast<unsigned char>(from.back()) & 0xc0) == 0x80) from.pop_back();
-  if (!from.empty()) from.pop_back();
-}
 
 /// A free name beside the session: "NAME 0m12.5s.png".
 std::string freeName(const std::string& session, double t_s, const std::string& ending) {
@@ -306,6 +285,11 @@ class DebriefWindow {
       case DebriefAction::ghost:
         choice.layers.ghost_tool = !choice.layers.ghost_tool;
         break;
+      case DebriefAction::other_ghost:
+        if (scene_.runs().size() < 2) return say("there is no other session: molar debrief S S2");
+        choice.other_ghost = !choice.other_ghost;
+        say(choice.other_ghost ? "ghost: the other session's tool" : "no ghost of the other session");
+        break;
       case DebriefAction::line:
         choice.has_line = !choice.has_line;
         break;
@@ -348,6 +332,9 @@ class DebriefWindow {
     if (!state_.clip_from_s || !(to_s > from_s)) return say("mark the clip first: I at its start, O at its end");
     const std::string name = freeName(scene_.runs().front()->path(), from_s, "-clip");
     const auto count = static_cast<int>((to_s - from_s) * kClipRate_Hz) + 1;
+    if (static_cast<std::size_t>(count) > kMostClipPictures)
+      return say(fmt::format("a clip has at most {} pictures, {:.0f} min: mark a shorter part", kMostClipPictures,
+                             static_cast<double>(kMostClipPictures) / kClipRate_Hz / 60.0));
     try {
       calibration::OutputFolder folder(name, false, {});
       for (int n = 0; n < count && !closing_; ++n) {
@@ -357,8 +344,12 @@ class DebriefWindow {
                               image.rgba);
         say(fmt::format("clip: {} of {} pictures", n + 1, count));
         present(0.1);
-        for (const render::WindowEvent& event : window_->takeEvents())
-          closing_ = closing_ || std::holds_alternative<render::CloseRequested>(event);
+        // What is pressed meanwhile does nothing, but what is let go is let go.
+        for (const render::WindowEvent& event : window_->takeEvents()) {
+          const auto* const button = std::get_if<render::ButtonPressed>(&event);
+          if (std::holds_alternative<render::CloseRequested>(event) || (button != nullptr && !button->down))
+            take(event);
+        }
       }
       if (closing_) return;
       folder.commit();
@@ -378,7 +369,7 @@ class DebriefWindow {
     double position_s = -1.0, prepared_share = -1.0;
     glm::ivec2 px{0};
     PictureChoice choice;
-    bool is_refined = false;
+    bool is_refined = false, is_near = false;  ///< at full quality; of a moment beside it
   };
 
   void draw(Clock::time_point now, double passed_s) {
@@ -400,16 +391,20 @@ class DebriefWindow {
                          shown_->choice == state_.choice && !view_changed_ &&
                          (scene_.isPrepared() || now - drawn_at_ < std::chrono::seconds(2));
     if (is_same && (shown_->is_refined || secondsBetween(drawn_at_, now) < kStill_s)) return false;
-    const bool refines = is_same && scene_.isPrepared();
-    if (scene_.isPrepared() && !refines) {
-      if (shown_ && !state_.transport.isPlaying() && shown_->position_s != position_s) jump_at_ = now;
-      scene_.goTo(position_s);
+    // A hand on the time line is followed at once and roughly; where it rests comes the moment itself.
+    if (is_same && scrubs_ && !shown_->is_near) return false;
+    const bool is_near = scrubs_ && !is_same, refines = is_same && !scrubs_ && scene_.isPrepared();
+    if (scene_.isPrepared() && (!refines || shown_->is_near)) {
+      if (!is_same && shown_ && !state_.transport.isPlaying() && shown_->position_s != position_s) jump_at_ = now;
+      is_near ? scene_.goNear(position_s) : scene_.goTo(position_s);
     }
     scene_.choice = state_.choice;
     const Clock::time_point begun = Clock::now();
-    scene_.draw(px, refines ? render::kQualitySteps.front().quality : ladder_->quality());
-    if (!refines) ladder_->add(secondsBetween(begun, Clock::now()), true);
-    shown_ = Shown{position_s, state_.prepared_share, px, state_.choice, refines};
+    scene_.draw(px, refines                    ? render::kQualitySteps.front().quality
+                    : is_near && on_processor_ ? kScrubQuality
+                                               : ladder_->quality());
+    if (!refines && !is_near) ladder_->add(secondsBetween(begun, Clock::now()), true);
+    shown_ = Shown{position_s, state_.prepared_share, px, state_.choice, refines, is_near};
     view_changed_ = false;
     drawn_at_ = Clock::now();
     return true;
@@ -428,6 +423,7 @@ class DebriefWindow {
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     window_->present();
+    scrubs_ = input.go_to_s.has_value();
     if (input.go_to_s) state_.transport.goTo(*input.go_to_s);
     if (input.choice) state_.choice = *input.choice;
     if (input.plays) state_.transport.playOrPause();
@@ -452,7 +448,7 @@ class DebriefWindow {
   std::vector<double> jumps_ms_;
   double first_s_ = 0.0, note_s_ = 0.0;
   std::deque<render::WindowEvent> pending_;
-  bool view_changed_ = false, closing_ = false, skips_letter_ = false;
+  bool view_changed_ = false, closing_ = false, skips_letter_ = false, scrubs_ = false;
 };
 
 }  // namespace

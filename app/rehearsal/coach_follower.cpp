@@ -14,10 +14,9 @@ CoachFollower::CoachFollower(CoachRules rules, const assets::Patient& patient, E
   if (waits) surface_ = coming_.get();
 }
 
-void CoachFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
-                           const haptics::Clearances& clearances, bool is_other_instrument) {
-  CoachContext context{.is_other_instrument = is_other_instrument};
-  for (const std::optional<double>& one : clearances)
+void CoachFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, const Known& known) {
+  CoachContext context{.is_other_instrument = known.is_other_instrument, .is_out_of_sight = known.is_out_of_sight};
+  for (const std::optional<double>& one : known.clearances)
     if (one && (!context.nearest_mm || *one < *context.nearest_mm)) context.nearest_mm = one;
   if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     surface_ = coming_.get();

@@ -22,10 +22,14 @@ class CoachFollower {
   /// Borrows patient and log. `waits`: for the surface, so that a stepped rehearsal says the same each time.
   CoachFollower(CoachRules rules, const assets::Patient& patient, EventLog& event_log, bool waits);
 
-  /// All ticks, in order, made with this command; `clearances` and the use of another instrument than the step's are
-  /// those of the newest.
-  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
-              const haptics::Clearances& clearances, bool is_other_instrument);
+  /// What is known of the newest tick beside it.
+  struct Known {
+    haptics::Clearances clearances;
+    bool is_other_instrument = false;  ///< than the step's
+    bool is_out_of_sight = false;
+  };
+  /// All ticks, in order, made with this command.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, const Known& known);
   std::optional<std::string> news();
 
  private:

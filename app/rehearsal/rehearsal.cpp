@@ -35,6 +35,7 @@
 #include "app/rehearsal/way_follower.h"
 #include "app/session/assessment_event.h"
 #include "app/session/eyes_event.h"
+#include "app/session/measures/sight_lines.h"
 #include "app/session/soft_touches.h"
 #include "app/sound/live_sound.h"
 #include "assets/scan/tooth_division.h"
@@ -270,10 +271,22 @@ class Rehearsal {
     head_up_.follow(ticks, command.irrigating);
     clearance_.follow(ticks, command, station().commandSerial());
     if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest(), flapFacts());
-    if (coach_) coach_->follow(ticks, command, clearance_.now(), steps_ && steps_->usesOtherInstrument());
+    if (coach_)
+      coach_->follow(ticks, command,
+                     {clearance_.now(), steps_ && steps_->usesOtherInstrument(), worksOutOfSight(ticks.back())});
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  bool worksOutOfSight(const haptics::Tick& tick) {
+    const haptics::Command& command = active_command_.inForce();
+    if (!eyes_ || !command.tool.turns()) return false;
+    return app::worksOutOfSight({station().bodies().grid(),
+                                 socket_->solidInMouth(),
+                                 plan_.soft_tissue,
+                                 {command.assistant_holds, command.flap_aside}},
+                                tick, command.tool.head, *eyes_);
   }
 
   /// For the instructor, twice a second.

@@ -5,17 +5,13 @@
 
 #include <fmt/core.h>
 
+#include "app/rehearsal/site_beads.h"
+
 namespace app {
 namespace {
 
-constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6, kStitch_mm = 0.45;  ///< radii
+constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6;  ///< radii
 constexpr double kBetweenEvents_s = 1.0;
-
-std::optional<SuctionTip> suctionOf(const haptics::Tick& tick, const haptics::Command& command) {
-  if (command.tool.hand_instrument != haptics::HandInstrument::suction) return {};
-  const glm::dvec3 to_tip = tick.heldRotation() * glm::dvec3(0.0, 0.0, -command.tool.head.radius_mm);
-  return SuctionTip{tick.proxy_P.mm + to_tip, command.irrigating};
-}
 
 /// Down, as the patient lies.
 glm::dvec3 downOf(const calibration::Rig& rig) {
@@ -130,18 +126,8 @@ SiteLeft SocketFollower::left() const {
 }
 
 std::vector<render::Bead> SocketFollower::beads() const {
-  std::vector<render::Bead> beads;
-  const std::vector<LooseChip>& chips = chips_.chips();
-  for (std::size_t n = 0; n < chips.size(); ++n)
-    if (chips[n].state == LooseChip::State::loose)
-      beads.push_back({{chips[n].at_P_mm}, chips[n].radius_mm, render::BeadKind::chip, n});
-  for (const FollicleBlob& blob : follicle_.blobs())
-    if (blob.state != FollicleBlob::State::taken)
-      beads.push_back({{blob.at_P_mm}, blob.radius_mm, render::BeadKind::follicle, 0, blob.outward_P});
-  if (!watch_ || !watch_->newest()) return beads;
-  if (isAnyOut())
-    for (const StitchPlace& place : stitches_.places())
-      beads.push_back({{place.at_P_mm}, kStitch_mm, place.is_made ? render::BeadKind::stitch : render::BeadKind::mark});
+  std::vector<render::Bead> beads = siteBeads(chips_, follicle_, isAnyOut() ? &stitches_ : nullptr);
+  if (!isAnyOut()) return beads;
   for (const SharpEdge& edge : watch_->newest()->edges)
     for (const glm::dvec3& p : edge.points_P_mm) beads.push_back({{p}, kEdgeMark_mm, render::BeadKind::mark});
   for (const Place& rest : watch_->newest()->record.retained)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,6 +47,8 @@ class SocketFollower {
   std::string line() const;
   /// Chips, follicle, and marks where sharp edges and pieces of tooth are.
   std::vector<render::Bead> beads() const;
+  /// Jaw and pieces that lie in it, in the order of the jaw's grid, of the last frame.
+  std::span<const std::uint8_t> solidInMouth() const { return chips_.solid(); }
   /// For a hand that cleans.
   SiteLeft left() const;
   /// None: no piece is out and no chip came loose.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/options/tool_text.h"
+#include "app/session/session_conditions.h"
 
 namespace app {
 namespace {
@@ -92,7 +93,7 @@ void StatusReporter::reportEnd(Ending ending) {
   if (view_.latency().frames() > 0) event_log_.note("latency", "median " + latencyText(view_.latency().median()));
   Workstation& station = equipment_.workstation();
   event_log_.note("end", textOf(ending));
-  event_log_.note("servo", punctualityText(station.figures()));
+  event_log_.note(kServoEvent, punctualityText(station.figures()));
   event_log_.note("safety", "trips: " + tripsText(station.trips()));
 }
 

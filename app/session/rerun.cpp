@@ -179,6 +179,17 @@ haptics::PieceSite* Rerun::siteFor(const haptics::SiteOrder& order) {
   return made.site.get();
 }
 
+std::size_t Rerun::siteBytes() const {
+  std::size_t all = 0;
+  for (const auto& [order, made] : kept_sites_) {
+    if (!made.site) continue;
+    for (const haptics::DistanceField* const field : {&made.site->obstacles, &made.site->teeth, &made.site->piece})
+      all += field->voxels_mm().size_bytes();
+    all += 4 * sizeof(float) * made.first.ligament.torn.size();
+  }
+  return all;
+}
+
 void Rerun::collectChanged() {
   std::vector<glm::ivec3> bricks;
   bodies_.takeDirtyBricks(bricks);

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,11 @@ class Rerun {
   template <class Work>
   void withMemory(const Work& work) {
     haptics::Servo::Memory memory = servo_->takeMemory();
+    // Bytes that are copied away and back are these values again.
+    static_assert(std::is_trivially_copyable_v<std::decay_t<decltype(memory.strokes.saved[0])>> &&
+                  std::is_trivially_copyable_v<std::decay_t<decltype(memory.strokes.saved_in[0])>> &&
+                  std::is_trivially_copyable_v<std::decay_t<decltype(memory.luxations[0])>> &&
+                  std::is_trivially_copyable_v<std::decay_t<decltype(memory.waiting[0])>>);
     const std::array arrays{std::as_writable_bytes(std::span(memory.strokes.saved)),
                             std::as_writable_bytes(std::span(memory.strokes.saved_in)),
                             std::as_writable_bytes(std::span(memory.luxations)),
@@ -67,6 +73,8 @@ class Rerun {
   /// Bricks of the jaw's grid that have changed since the last call, also those that a search for chips has taken from
   /// the bodies; only with Keeping::all.
   std::vector<glm::ivec3> takeChanged();
+  /// Of the sites that are kept; 0 without Keeping::all.
+  std::size_t siteBytes() const;
 
  private:
   struct MadeSite {

@@ -119,12 +119,18 @@ void SessionMoments::restore(std::size_t number) {
   const Keyframe& one = keyframes_[number];
   for (std::size_t piece = 0; piece + 1 < bodies_.bones().size(); ++piece) bodies_.putBack(piece, one.X_PQ[piece]);
   rerun_.restore(one.rerun);
-  rerun_.withMemory([&](ArrayVersions::Arrays arrays) { undo_.restore(arrays, version); });
+  undo_wanted_ = version;
   at_ = one.at;
   session_.continueAt(at_.block);
   block_ = {};
   next_in_block_ = 0;
   waiting_.reset();
+}
+
+void SessionMoments::restoreUndo() {
+  if (!undo_wanted_) return;
+  const std::uint32_t version = *std::exchange(undo_wanted_, std::nullopt);
+  rerun_.withMemory([&](ArrayVersions::Arrays arrays) { undo_.restore(arrays, version); });
 }
 
 bool SessionMoments::nextTick(haptics::Tick& recorded) {
@@ -142,6 +148,7 @@ bool SessionMoments::nextTick(haptics::Tick& recorded) {
 }
 
 void SessionMoments::run(const haptics::Tick& recorded, const Follow& follow, bool compares) {
+  restoreUndo();
   auto what = rerun_.prepare(recorded);
   at_.tick = rerun_.step(recorded);
   ++at_.ticks;
@@ -177,12 +184,22 @@ bool SessionMoments::index(double most_s, const Follow& follow) {
   return !indexed_;
 }
 
-void SessionMoments::goTo(double t_s, const Follow& follow) {
-  // The newest keyframe whose ticks all began before.
+std::size_t SessionMoments::keyframeBefore(double t_s) const {
   const auto after = std::ranges::upper_bound(
       keyframes_, t_s, [](double t, double of) { return t <= of; },
       [](const Keyframe& one) { return one.at.ticks == 0 ? -1.0 : one.at.tick.t_s; });
-  const auto number = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after - keyframes_.begin()) - 1);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after - keyframes_.begin()) - 1);
+}
+
+void SessionMoments::goNear(double t_s) {
+  std::size_t number = keyframeBefore(t_s);
+  if (number + 1 < keyframes_.size() && keyframes_[number + 1].at.tick.t_s - t_s < t_s - keyframes_[number].at.tick.t_s)
+    ++number;
+  if (at_.ticks != keyframes_[number].at.ticks) restore(number);
+}
+
+void SessionMoments::goTo(double t_s, const Follow& follow) {
+  const std::size_t number = keyframeBefore(t_s);
   const bool is_behind = at_.ticks > 0 && !(at_.tick.t_s < t_s);
   if (is_behind || keyframes_[number].at.ticks > at_.ticks) restore(number);
   haptics::Tick recorded;
@@ -207,7 +224,7 @@ std::size_t SessionMoments::keyframeBytes() const {
 }
 
 std::size_t SessionMoments::bytes() const {
-  std::size_t all = keyframeBytes() + first_solid_.size();
+  std::size_t all = keyframeBytes() + first_solid_.size() + rerun_.siteBytes();
   for (const haptics::CarvedBone& bone : bodies_.bones()) all += bone.bytes();
   return all;
 }

@@ -1,11 +1,12 @@
 // Any moment of a recorded session, within a second: the session is run again once, with a keyframe every second of it;
 // a moment is the keyframe before it and the ticks from there on, bit for bit what a replay from the start gives. Frame
 // P. One thread, not the servo; may be handed from one to another. index() takes the CPU time of the recorded steps;
-// goTo() 20 to 50 ms for the keyframe and that of up to a second of steps.
+// goTo() 20 to 50 ms for the keyframe and that of up to a second of steps; goNear() goes to the nearest keyframe alone.
 // Memory: the bodies (4 bytes a voxel), 70 MB for the undo of the servo and its copy, 1 byte a voxel of the initial
 // bone, 5 to 10 MB for each site that was made for a piece, one each time pieces came to rest beside an elevator or
-// forceps: not bounded; and what changed between keyframes: 256 bytes a block of 4x4x4 voxels and as much for its undo,
-// at most Options::most_bytes. Where that is reached every second keyframe is dropped, and jumps take twice the time.
+// forceps: counted in bytes(), but not bounded, as keyframes lie on them; and what changed between keyframes: 256 bytes
+// a block of 4x4x4 voxels and as much for its undo, at most Options::most_bytes. Where that is reached every second
+// keyframe is dropped, and jumps take twice the time.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +46,10 @@ class SessionMoments {
   /// run, the last ones at least.
   void goTo(double t_s, const Follow& follow = {});
 
+  /// To the keyframe nearest to `t_s`, half of betweenKeyframes_s() away at most: some milliseconds, for a hand that
+  /// scrubs. Where no keyframe was reached yet, nowhere else.
+  void goNear(double t_s);
+
   haptics::Bodies& bodies() { return bodies_; }
   const haptics::Bodies& bodies() const { return bodies_; }
   const haptics::Tick& tick() const { return at_.tick; }  ///< the last one run; default before the first
@@ -79,7 +84,11 @@ class SessionMoments {
   void keepFirst();
   void keep();
   void halve();
+  /// The keyframe before a moment, whose ticks all began before.
+  std::size_t keyframeBefore(double t_s) const;
   void restore(std::size_t keyframe);
+  /// The servo's undo, which is not looked at, is brought to restore()'s keyframe when ticks are run from there.
+  void restoreUndo();
   haptics::BlockState keptState(std::size_t bone, std::size_t block, std::uint32_t version) const;
   void restoreBlock(std::size_t bone, std::size_t block, std::uint32_t version);
   /// Blocks since the last call.
@@ -109,6 +118,7 @@ class SessionMoments {
   std::vector<std::vector<std::size_t>> kept_blocks_;  ///< by bone: those with a version
   std::vector<std::vector<bool>> is_kept_;
   ArrayVersions undo_{kUndoPage_bytes};
+  std::optional<std::uint32_t> undo_wanted_;  ///< of this version, but is not yet
 
   static constexpr std::size_t kUndoPage_bytes = 512;
 };

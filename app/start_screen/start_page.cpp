@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/report/drawing.h"
+#include "app/text/letters.h"
 
 namespace app {
 namespace {
@@ -52,11 +53,7 @@ std::size_t firstShown(const StartList& list, std::size_t rows) {
 /// Shortened at its end where it is too wide.
 std::string fitting(const Drawing& page, std::string words, double width) {
   if (page.textWidth(words, kText) <= width) return words;
-  while (!words.empty() && page.textWidth(words + "…", kText) > width) {
-    // A whole UTF-8 character.
-    while (!words.empty() && (static_cast<unsigned char>(words.back()) & 0xc0) == 0x80) words.pop_back();
-    if (!words.empty()) words.pop_back();
-  }
+  while (!words.empty() && page.textWidth(words + "…", kText) > width) removeLetter(words);
   return words + "…";
 }
 

@@ -1,5 +1,6 @@
 #include "app/view/surgeon_display.h"
 
+#include "app/text/elapsed.h"
 #include "app/view/renderer_choice.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
@@ -11,10 +12,6 @@ namespace {
 using render::Backend;
 
 constexpr int kMaxResets = 3;  ///< of the graphics card, in one rehearsal
-
-double secondsBetween(SurgeonDisplay::Clock::time_point from, SurgeonDisplay::Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
 
 }  // namespace
 

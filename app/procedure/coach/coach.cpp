@@ -50,6 +50,8 @@ bool Coach::isSeen(const CoachRule& rule, const WorkSample& sample) const {
              glm::length(sample.force_P_N) > rule.most;
     case CoachSign::wrong_step:
       return context_.is_other_instrument;
+    case CoachSign::out_of_sight:
+      return sample.drills() && context_.is_out_of_sight;
   }
   return false;
 }

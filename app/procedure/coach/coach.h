@@ -13,10 +13,19 @@
 
 namespace app {
 
-enum class CoachSign : std::uint8_t { force, plunging, deep_stroke, dry, lingering, near_structure, wrong_step };
+enum class CoachSign : std::uint8_t {
+  force,
+  plunging,
+  deep_stroke,
+  dry,
+  lingering,
+  near_structure,
+  wrong_step,
+  out_of_sight
+};
 /// In files, in the order of the values.
-inline constexpr std::array<std::string_view, 7> kCoachSigns{"force",     "plunging",       "deep-stroke", "dry",
-                                                             "lingering", "near-structure", "wrong-step"};
+inline constexpr std::array<std::string_view, 8> kCoachSigns{
+    "force", "plunging", "deep-stroke", "dry", "lingering", "near-structure", "wrong-step", "out-of-sight"};
 
 struct CoachRule {
   CoachSign looks_for = CoachSign::force;
@@ -30,6 +39,7 @@ struct CoachRule {
 struct CoachContext {
   std::optional<double> nearest_mm = {};  ///< of the structures that are to be kept off; none: none is known
   bool is_other_instrument = false;       ///< at work, and not the procedure's for the step in hand
+  bool is_out_of_sight = false;           ///< what is removed is hidden from both eyes (measures/sight_lines.h)
 };
 
 struct CoachRules {

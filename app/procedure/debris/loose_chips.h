@@ -44,6 +44,8 @@ class LooseChips {
   void follow(const haptics::Tick& tick, const std::optional<SuctionTip>& tip);
 
   const std::vector<LooseChip>& chips() const { return chips_; }
+  /// Jaw and pieces at rest, in the order of the jaw's grid, as followBone() saw them.
+  std::span<const std::uint8_t> solid() const { return solid_; }
   /// Nothing solid is nearer than that, as followBone() saw it.
   bool isBare(const glm::dvec3& p_P_mm, double within_mm) const;
   /// Still in the mouth; taken out.

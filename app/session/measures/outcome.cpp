@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <span>
 
 #include <fmt/core.h>
 
@@ -10,6 +11,7 @@
 #include "app/session/measures/plan_comparison.h"
 #include "app/session/measures/section_left.h"
 #include "app/session/measures/trough.h"
+#include "app/session/measures/zones.h"
 #include "assets/tissue.h"
 #include "assets/tooth.h"
 
@@ -19,6 +21,14 @@ namespace {
 constexpr std::string_view kNothingGone = "no bone was removed";
 
 constexpr std::array kOutcomes = std::to_array<MeasureName>({
+    {"O1.bone", "bone removed", "mm3"},
+    {"O1.tooth", "tooth removed by the bur", "mm3"},
+    {"O1.occlusal", "bone removed above the tooth", "mm3"},
+    {"O1.buccal", "bone removed on the cheek's side", "mm3"},
+    {"O1.distal", "bone removed behind the tooth", "mm3"},
+    {"O1.mesial", "bone removed before the tooth", "mm3"},
+    {"O1.lingual", "bone removed on the tongue's side", "mm3"},
+    {"O1.apical", "bone removed below the tooth", "mm3"},
     {"O2.plan", "share of the planned bone that is gone", ""},
     {"O3.planned", "bone planned to go", "mm3"},
     {"O3.over", "bone removed outside of the plan", "mm3"},
@@ -50,6 +60,7 @@ class Outcome {
   explicit Outcome(const OutcomeOf& of) : of_(of), values_(untold(kOutcomes, "")) {}
 
   std::vector<MeasureValue> values() {
+    removed();
     againstPlan();
     lingual();
     trough();
@@ -69,11 +80,46 @@ class Outcome {
     one.value = value, one.t_s = t_s;
     if (!value) one.why = why;
   }
+  void refuse(std::span<const std::string_view> ids, std::string_view why) {
+    for (const std::string_view id : ids) tell(id, {}, why);
+  }
   void refuse(std::initializer_list<std::string_view> ids, std::string_view why) {
     for (const std::string_view id : ids) tell(id, {}, why);
   }
   bool isBone(std::size_t v) const { return countsAsBone(of_.start.label[v]); }
   bool isLabelled() const { return !of_.start.label.empty(); }
+
+  /// By zone in the order of Zone.
+  void removed() {
+    constexpr std::array<std::string_view, kZones> kIds{"O1.occlusal", "O1.buccal",  "O1.distal",
+                                                        "O1.mesial",   "O1.lingual", "O1.apical"};
+    const StoredStart& start = of_.start;
+    if (!isLabelled()) {
+      refuse({"O1.bone", "O1.tooth"}, "tissues are not labelled");
+      return refuse(kIds, "tissues are not labelled");
+    }
+    const int fdi = start.setup.site ? start.setup.site->fdi : 0;
+    const auto is_tooth = [&](std::size_t v) {
+      return start.is_tooth.empty() ? fdi != 0 && !start.teeth.empty() && start.teeth[v] == fdi
+                                    : start.is_tooth[v] != 0;
+    };
+    const std::optional<Zones> zones =
+        of_.about.directions ? Zones::around(start.grid, is_tooth, *of_.about.directions) : std::nullopt;
+    const double voxel_mm3 = start.grid.voxelVolume_mm3();
+    double bone_mm3 = 0.0, tooth_mm3 = 0.0;
+    std::array<double, kZones> by_zone_mm3{};
+    for (const RemovedVoxel& voxel : of_.clock.removed()) {
+      const double mm3 = voxel.share * voxel_mm3;
+      if (assets::isTooth(start.label[voxel.index])) tooth_mm3 += mm3;
+      if (!isBone(voxel.index)) continue;
+      bone_mm3 += mm3;
+      if (zones) by_zone_mm3[static_cast<std::size_t>(zones->at(start.grid.centre_P_mm(voxel.ijk)))] += mm3;
+    }
+    tell("O1.bone", bone_mm3);
+    tell("O1.tooth", tooth_mm3);
+    if (!zones) return refuse(kIds, "no operated tooth is known");
+    for (std::size_t n = 0; n < kZones; ++n) tell(kIds[n], by_zone_mm3[n]);
+  }
 
   void againstPlan() {
     const auto ids = {std::string_view("O2.plan"),  std::string_view("O3.planned"), std::string_view("O3.over"),

@@ -1,7 +1,8 @@
-// What the operation left (reference/product 4.2): O2 share of the plan, O3 and O4 over- and under-cut against it, O5
-// perforation of the outer lingual surface, O6 wall left, O7 profile of the trough, O8 gouges, O9 bridge of the tooth,
-// O10 second molar, O11 tooth left in. From the bone before and after, the times of removal, and what the recording
-// says of the socket; every measure has a value, or why it has none. Frame P, mm, mm3, s. Pure; any thread; a second.
+// What the operation left (reference/product 4.2): O1 volumes, bone by zone, O2 share of the plan, O3 and O4 over- and
+// under-cut against it, O5 perforation of the outer lingual surface, O6 wall left, O7 profile of the trough, O8 gouges,
+// O9 bridge of the tooth, O10 second molar, O11 tooth left in. From the bone before and after, the times of removal,
+// and what the recording says of the socket; every measure has a value, or why it has none. Frame P, mm, mm3, s. Pure;
+// any thread; a second.
 #pragma once
 
 #include <optional>

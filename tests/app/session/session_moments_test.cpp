@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <random>
@@ -128,6 +129,28 @@ TEST(SessionMoments, AfterAThousandMixedOperationsAreThoseOfAFreshRun) {
         << t_s;
     if (ran > 0) {
       EXPECT_FALSE(differenceOf(session.ticks[ran - 1], moments.tick())) << t_s;
+    }
+  }
+  // Near it is at a keyframe, and from there the way goes on as from any moment.
+  for (int n = 0; n < 30; ++n) {
+    const double t_s = anywhere(random);
+    moments.goNear(t_s);
+    const auto near = std::ranges::find_if(
+        session.ticks, [&](const haptics::Tick& tick) { return tick.index == moments.tick().index; });
+    ASSERT_NE(near, session.ticks.end());
+    if (moments.tick().dt_s > 0.0) {
+      EXPECT_EQ(moments.bodies().digest(), near->bone_digest) << t_s;
+    }
+    // Half of the time between two, to whole blocks; behind the last one all of it.
+    constexpr double kBetween_s = 5.0 + 50 * kDt_s;
+    const double most_s = t_s > moments.length_s() - kBetween_s ? kBetween_s : 0.5 * kBetween_s + kDt_s;
+    EXPECT_LE(std::abs(moments.tick().t_s - std::clamp(t_s, 0.0, moments.length_s())), most_s) << t_s;
+    if (n % 3 == 0) {
+      const double on_s = std::min(moments.tick().t_s + 1.0, moments.length_s());
+      moments.goTo(on_s);
+      const auto last =
+          std::ranges::find_if(session.ticks, [&](const haptics::Tick& tick) { return tick.t_s >= on_s; });
+      EXPECT_FALSE(differenceOf(*(last - 1), moments.tick())) << on_s;
     }
   }
   SessionReader again(session.path);

@@ -1,5 +1,7 @@
 #include "app/procedure/coach/coach.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "app/procedure/coach/coach_file.h"
@@ -72,6 +74,20 @@ TEST(Coach, TheSameIsNotSaidAgainSoon) {
   const std::vector<Said> all = said(samples);
   ASSERT_EQ(all.size(), 3U);
   for (std::size_t n = 1; n < all.size(); ++n) EXPECT_GE(all[n].t_s - all[n - 1].t_s, 15.0);
+}
+
+TEST(Coach, WorkOutOfSightIsSaidWhileItLasts) {
+  Coach coach(coachRulesOf(""));
+  std::vector<Said> all;
+  for (const WorkSample& sample : goodWork(6.0)) {
+    // Half a second now and then is nothing to speak of.
+    const bool is_hidden = sample.t_s > 3.0 || std::fmod(sample.t_s, 1.0) < 0.5;
+    coach.add(sample, {.is_out_of_sight = is_hidden});
+    if (auto words = coach.take()) all.push_back({sample.t_s, *words});
+  }
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].words, "out of sight: retract, or come from where you see the bur");
+  EXPECT_NEAR(all[0].t_s, 4.5, 0.1);
 }
 
 TEST(Coach, AnInstrumentOfAnotherStepIsSaidWhileItIsAtWork) {

@@ -204,6 +204,45 @@ TEST(Outcome, OneVoxelOfTheSecondMolarIsItsVolume) {
   EXPECT_EQ(named(left, "O11.volume").value, 4.5);
 }
 
+TEST(Outcome, BoneIsCountedByTheSideOfTheToothItLayOn) {
+  // A tooth of 2 x 2 x 4 mm in a block; a ball behind it and half a ball on the cheek's side.
+  Removal cut({48, 48, 48}, 0.25);
+  cut.fill([](const glm::dvec3&) { return -10.0; });
+  StoredStart start;
+  start.grid = cut.grid, start.solid = cut.before;
+  start.label.assign(cut.grid.voxelCount(), static_cast<std::uint8_t>(assets::Tissue::cortical));
+  start.is_tooth.assign(cut.grid.voxelCount(), 0);
+  const glm::dvec3 tooth(6.0), behind(6.0, 10.0, 6.0), beside(2.5, 6.0, 5.0);
+  double behind_mm3 = 0.0, beside_mm3 = 0.0;
+  assets::forVoxels(cut.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = cut.grid.centre_P_mm(ijk), off = glm::abs(p - tooth);
+    if (off.x < 1.0 && off.y < 1.0 && off.z < 2.0) {
+      start.is_tooth[v] = 1;
+      start.label[v] = static_cast<std::uint8_t>(assets::Tissue::dentine);
+    }
+    if (glm::distance(p, beside) < 1.0) cut.after[v] = 127, beside_mm3 += (128.0 / 255.0) * 0.25 * 0.25 * 0.25;
+  });
+  cut.tool.head.radius_mm = 1.55;
+  cut.ball(behind);
+  for (std::size_t v = 0; v < cut.after.size(); ++v)
+    behind_mm3 += (cut.before[v] - cut.after[v]) / 255.0 * 0.25 * 0.25 * 0.25;
+  behind_mm3 -= beside_mm3;
+  SessionCase about;
+  about.directions = CaseDirections{};  // distal +y, buccal -x
+  const OriginalSurface surface(start.grid, start.solid);
+  const std::optional<SocketRecord> socket;
+  const auto values = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  EXPECT_NEAR(behind_mm3, 15.60, 0.02 * 15.60) << "a ball of 1.55 mm";
+  EXPECT_NEAR(named(values, "O1.distal").value.value(), behind_mm3, 1e-3);
+  EXPECT_NEAR(named(values, "O1.buccal").value.value(), beside_mm3, 1e-3);
+  EXPECT_EQ(named(values, "O1.lingual").value.value(), 0.0);
+  EXPECT_NEAR(named(values, "O1.bone").value.value(), behind_mm3 + beside_mm3, 1e-3);
+  EXPECT_EQ(named(values, "O1.tooth").value.value(), 0.0);
+  about.directions.reset();
+  const auto untold = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  EXPECT_EQ(named(untold, "O1.distal").why, "no operated tooth is known");
+}
+
 TEST(Outcome, HalfOfThePlanIsAHalf) {
   Removal cut({20, 20, 20});
   cut.fill([](const glm::dvec3&) { return -10.0; });

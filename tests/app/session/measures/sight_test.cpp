@@ -1,4 +1,5 @@
 #include "app/session/measures/sight.h"
+#include "app/session/measures/sight_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -46,6 +47,27 @@ TEST(Sight, SoftTissueHidesUntilItIsHeldAside) {
   });
   EXPECT_EQ(outOfSight(flatCut(), kAbove, cheek), 1.0);
   EXPECT_NEAR(outOfSight(flatCut(), kAbove, cheek, true).value(), 0.0, 0.05);
+}
+
+TEST(Sight, WhereTheBurWorksIsSeenOrNotWhileItWorks) {
+  Removal cut({40, 40, 40});
+  cut.fill([](const glm::dvec3& p) { return p.z - kSurface_mm; });
+  haptics::Tick tick;
+  tick.proxy_P.mm = {5.0, 5.0, kSurface_mm + 0.6};
+  cut.ball(tick.proxy_P.mm);
+  const assets::SoftTissueField none;
+  const SightLines lines{cut.grid, cut.after, none, {}};
+  tick.drilling = true;
+  tick.removed_mm3 = 0.01;
+  const haptics::BurShape ball{haptics::ShapeKind::sphere, 1.0, 0.0};
+  EXPECT_FALSE(worksOutOfSight(lines, tick, ball, kAbove));
+  EXPECT_TRUE(worksOutOfSight(lines, tick, ball, kBelow));
+  EXPECT_FALSE(worksOutOfSight(lines, tick, ball, {kBelow.left_P_mm, kAbove.right_P_mm, true})) << "one eye is enough";
+  tick.removed_mm3 = 0.0;
+  EXPECT_FALSE(worksOutOfSight(lines, tick, ball, kBelow)) << "nothing goes";
+  tick.removed_mm3 = 0.01;
+  tick.proxy_P.mm.z = 8.0;
+  EXPECT_FALSE(worksOutOfSight(lines, tick, ball, kBelow)) << "off the bone";
 }
 
 TEST(Sight, NothingCutHasNoShare) {
