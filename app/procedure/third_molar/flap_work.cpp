@@ -10,7 +10,7 @@ namespace app {
 namespace {
 
 constexpr double kFlapOver_mm = 14.0;  // over a place
-constexpr double kCuts_mm_per_s = 12.0, kRaises_mm_per_s = 20.0, kLowers_mm_per_s = 20.0;
+constexpr double kCuts_mm_per_s = 18.0, kRaises_mm_per_s = 32.0, kLowers_mm_per_s = 20.0;
 constexpr double kPressed_mm = 0.35;  // the blade, into the bone's surface
 constexpr double kFreed_mm = 1.3;
 constexpr double kOverBone_mm = 0.1;     // the elevator's blade glides
