@@ -177,13 +177,17 @@ Source toothOfVolume(const PiecesOptions& options) {
   return result;
 }
 
+bool isSession(const PiecesOptions& options) {
+  return !options.volume.given() && options.case_name.empty() &&
+         !std::filesystem::is_directory(patientNamed(options.source));
+}
+
 Source toothOf(PiecesOptions options) {
   options.source = patientNamed(options.source);
   const int sources = !options.source.empty() + !options.case_name.empty() + options.volume.given();
   if (sources != 1) throw UsageError("pieces: give exactly one of SOURCE, --case NAME and --volume FILE");
   if (options.volume.given()) return toothOfVolume(options);
-  if (!options.case_name.empty() || std::filesystem::is_directory(options.source)) return toothOfPatient(options);
-  return toothOfSession(options);
+  return isSession(options) ? toothOfSession(options) : toothOfPatient(options);
 }
 
 struct Findings {
@@ -316,11 +320,6 @@ std::optional<glm::dvec3> exitOf(const PiecesOptions& options) {
   return exit / length;
 }
 
-bool isSession(const PiecesOptions& options) {
-  return !options.volume.given() && options.case_name.empty() &&
-         !std::filesystem::is_directory(patientNamed(options.source));
-}
-
 /// Prints what was written.
 int exportPieces(const PiecesOptions& options) {
   std::vector<ExportedPiece> pieces;
@@ -346,6 +345,9 @@ int exportPieces(const PiecesOptions& options) {
 }
 
 int pieces(const PiecesOptions& options) {
+  if (!options.out.empty() && !options.exit_P.empty())
+    throw UsageError("--exit: surfaces are written as the pieces lie, leave out --exit or --out");
+  if (options.out.empty() && options.force) throw UsageError("--force: nothing is written without --out, leave it out");
   if (!options.out.empty()) return exportPieces(options);
   const std::optional<glm::dvec3> exit_P = exitOf(options);
   const Findings found = findingsOf(toothOf(options), exit_P);

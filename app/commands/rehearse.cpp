@@ -550,7 +550,7 @@ int run(RehearseOptions& options) {
   if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
   // An assistant holds cheek and flap aside.
-  plan.shows_whole_operation = plan.soft_tissue_is_held_away = isShown(options);
+  plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   if (!options.drawn.empty()) refuseUnlessDrawnHere(options, plan.patient.ct);

@@ -25,7 +25,7 @@ void Equipment::connect(const RehearsalPlan& plan, const haptics::Command& in_fo
                                              .buttons = {},
                                              .pedal = pedal_ ? &*pedal_ : nullptr},
                        in_force, plan.recording, plan.ticking, true,
-                       plan.soft_tissue_is_held_away ? assets::SoftTissueField{} : plan.soft_tissue);
+                       plan.shows_whole_operation ? assets::SoftTissueField{} : plan.soft_tissue);
 }
 
 void Equipment::start() {

@@ -41,9 +41,8 @@ struct RehearsalPlan {
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
   bool flap_closed = false;                 ///< the patient's gum is whole, incision and flap are done by hand
   std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
-  bool shows_whole_operation = false;       ///< a scripted hand does, up to the stitches
+  bool shows_whole_operation = false;       ///< a scripted hand does, up to the stitches; no soft tissue is met
   assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
-  bool soft_tissue_is_held_away = false;    ///< by an assistant: no instrument touches it
   assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told
   std::string instruction;                  ///< of a practice block, one line; empty: none
   bool is_assessed = false;                 ///< nothing helps, all is recorded (session/assessment_event)

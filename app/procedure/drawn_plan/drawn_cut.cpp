@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibration/geometry/segment.h"
+
 namespace app {
 namespace {
 
@@ -12,13 +14,6 @@ constexpr double kLineStep_mm = 0.25;
 constexpr int kGone = 128;  ///< of 255: so much less is removed
 
 glm::dvec3 seenAlong(const glm::dvec3& p, const glm::dvec3& outward) { return p - glm::dot(p, outward) * outward; }
-
-double distanceTo_mm(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 way = b - a;
-  const double square = glm::dot(way, way);
-  const double part = square > 0.0 ? std::clamp(glm::dot(p - a, way) / square, 0.0, 1.0) : 0.0;
-  return glm::distance(p, a + part * way);
-}
 
 /// Points of the line, evenly from its beginning to its end.
 std::vector<glm::dvec3> placesOn(const std::vector<glm::dvec3>& line) {
@@ -49,7 +44,8 @@ DrawnCut drawnCut(const std::vector<glm::dvec3>& line_P_mm, const glm::dvec3& ou
     if (lost <= 0) return;
     const glm::dvec3 p = seenAlong(grid.centre_P_mm(ijk), outward);
     double off_mm = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 1; n < line.size(); ++n) off_mm = std::min(off_mm, distanceTo_mm(p, line[n - 1], line[n]));
+    for (std::size_t n = 1; n < line.size(); ++n)
+      off_mm = std::min(off_mm, calibration::distanceToSegment(p, line[n - 1], line[n]));
     const double mm3 = lost / 255.0 * grid.voxelVolume_mm3();
     cut.removed_mm3 += mm3;
     cut.off_mm += mm3 * off_mm;

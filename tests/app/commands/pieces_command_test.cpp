@@ -85,6 +85,8 @@ TEST_F(PiecesCommand, WritesEachPieceAsASurface) {
   EXPECT_EQ(molar(pieces + "--out " + at("both.glb")).status, 0);
   EXPECT_GT(std::filesystem::file_size(at("both.glb")), 1000u);
   expectRefusal(pieces + "--out " + at("pieces.obj"), "--out");
+  expectRefusal(pieces + "--exit 0,0,1 --out " + at("other.stl"), "--exit");
+  expectRefusal(pieces + "--force", "--force");
 }
 
 /// A tooth of 5 x 5 x 5 mm in a well of bone, with or without a lid of 1 mm.
@@ -135,6 +137,10 @@ TEST_F(PiecesCommand, TheUncutToothOfASessionIsOnePiece) {
   ASSERT_EQ(said.at("pieces").size(), 1u);
   EXPECT_EQ(said.at("bridges").size(), 0u);
   EXPECT_GT(said.at("pieces")[0].at("volume_mm3").get<double>() + said.at("cut_mm3").get<double>(), 300.0);
+  const nlohmann::json written = answer("pieces " + session + " --out " + at("surface.stl") + " ");
+  ASSERT_EQ(written.at("pieces").size(), 1u);
+  EXPECT_NEAR(written.at("pieces")[0].at("volume_mm3").get<double>(),
+              said.at("pieces")[0].at("volume_mm3").get<double>(), 1.0);
 }
 
 }  // namespace
