@@ -25,9 +25,10 @@ enum class StepError : std::uint8_t {
   near_nerve,
   pressed_hard,
   pulled_hard,
-  bone_beyond_limit
+  bone_beyond_limit,
+  fracture
 };
-inline constexpr std::size_t kStepErrors = 10;
+inline constexpr std::size_t kStepErrors = 11;
 /// In files and summaries: "cutting dry".
 std::string_view wordsOf(StepError error);
 
