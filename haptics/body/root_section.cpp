@@ -72,36 +72,39 @@ std::optional<RootSection> sectionOf(const Whole& whole, const std::vector<glm::
   const glm::dvec3& n = whole.axis;
   const glm::dvec3 u = glm::normalize(glm::cross(n, std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
   const glm::dvec3 v = glm::cross(n, u);
-  constexpr double kSlab = 1.5;  // voxels
+  // A slab a voxel thick and a voxel beyond the level, all of whose voxels are beyond it, each by its volume in there.
   struct InPlane {
-    double u_mm, v_mm;
+    double u_mm, v_mm, weight;
   };
   std::vector<InPlane> places;
-  double enamel = 0.0, sum_u = 0.0, sum_v = 0.0;
+  double enamel = 0.0, sum_u = 0.0, sum_v = 0.0, count = 0.0;
   for (const glm::ivec3& ijk : beyond) {
     const glm::dvec3 p = whole.grid.centre_P_mm(ijk);
     const assets::Tissue tissue = whole.tissueAt(ijk);
-    if (glm::dot(p, n) - level_mm > kSlab * spacing_mm || tissue == assets::Tissue::pulp) continue;
-    places.push_back({glm::dot(p, u), glm::dot(p, v)});
-    sum_u += places.back().u_mm;
-    sum_v += places.back().v_mm;
-    enamel += tissue == assets::Tissue::enamel ? 1.0 : 0.0;
+    const double to_level = (level_mm - glm::dot(p, n)) / spacing_mm;
+    if (to_level < -3.0 || tissue == assets::Tissue::pulp) continue;
+    const double weight = cubeShareBelow(n, to_level + 2.0) - cubeShareBelow(n, to_level + 1.0);
+    if (weight <= 0.0) continue;
+    places.push_back({glm::dot(p, u), glm::dot(p, v), weight});
+    count += weight;
+    sum_u += weight * places.back().u_mm;
+    sum_v += weight * places.back().v_mm;
+    enamel += tissue == assets::Tissue::enamel ? weight : 0.0;
   }
-  if (places.empty()) return {};
-  const auto count = static_cast<double>(places.size());
+  if (!(count > 0.0)) return {};
   const double u0 = sum_u / count, v0 = sum_v / count;
   double uu = spacing_mm * spacing_mm / 12.0, vv = uu, uv = 0.0;
   for (const InPlane& p : places) {
-    uu += (p.u_mm - u0) * (p.u_mm - u0) / count;
-    vv += (p.v_mm - v0) * (p.v_mm - v0) / count;
-    uv += (p.u_mm - u0) * (p.v_mm - v0) / count;
+    uu += p.weight * (p.u_mm - u0) * (p.u_mm - u0) / count;
+    vv += p.weight * (p.v_mm - v0) * (p.v_mm - v0) / count;
+    uv += p.weight * (p.u_mm - u0) * (p.v_mm - v0) / count;
   }
   const double middle = 0.5 * (uu + vv), half = std::hypot(0.5 * (uu - vv), uv);
   const double turn_rad = 0.5 * std::atan2(2.0 * uv, uu - vv);
 
   RootSection one;
   Bridge& section = one.section;
-  section.area_mm2 = count * spacing_mm * spacing_mm / kSlab;
+  section.area_mm2 = count * spacing_mm * spacing_mm;
   section.width_mm = std::sqrt(12.0 * (middle + half));
   section.thickness_mm = std::sqrt(12.0 * std::max(middle - half, 1e-12));
   section.normal = n;

@@ -198,8 +198,8 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     split_.breakOff(bodies_, broken - 1, breaks_.planOf(broken - 1), undo_.strokes());
   }
 
-  // Or a root of it does, or its crown.
-  if (led.holds && !split_.isRunning())
+  // Or a root of it does, or its crown, where no bridge bears the load.
+  if (led.holds && !split_.isRunning() && !(breaks_.share() > 0.0))
     roots_.follow(bodies_, sites_, led.piece, {led.on_piece, led.X_PT.translation_mm}, tick.dt_s);
   else
     roots_.rest();

@@ -18,9 +18,8 @@ constexpr double kSettles_s = 0.6;                               ///< after a st
 constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
 constexpr double kAssistantWait_s = 10.0;                        ///< for the flap to be held aside
-constexpr double kGutter_mm_per_s = 26.0, kCut_mm_per_s = 32.0;  ///< where nothing holds the bur up
+constexpr double kGutter_mm_per_s = 26.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
 constexpr double kBetweenCuts_mm_per_s = 80.0, kInAndOut_mm_per_s = 30.0;
-constexpr double kCutPressed_mm = 0.6;  ///< beside its path, and no slower for it
 constexpr const char* kAllDone = "the operation is done";
 constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
 
@@ -35,7 +34,7 @@ haptics::LedPath cutPath(assets::PlannedCut cut, const haptics::Tool& bur, doubl
                                        .speed_mm_per_s = speed_mm_per_s,
                                        .travel_mm_per_s = kBetweenCuts_mm_per_s,
                                        .approach_mm_per_s = kInAndOut_mm_per_s});
-  return {[path](double t_s) { return path.at(t_s); }, path.duration_s(), kCutPressed_mm};
+  return {[path](double t_s) { return path.at(t_s); }, path.duration_s()};
 }
 
 /// In front of the site, along the line of sight where one is known.
