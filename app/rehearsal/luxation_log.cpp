@@ -54,14 +54,6 @@ void LuxationLog::followLigament(const haptics::Tick& tick, std::size_t piece, b
 
 void LuxationLog::followBridge(const haptics::BrokenBridge& broken, bool by_elevator, std::vector<Told>& told) {
   if (broken.piece == 0) return;
-  if (broken.is_root) {
-    ++roots_broken_;
-    told.push_back({fmt::format("a root or crown broke across {:.0f} mm² at {:.0f} N mm (model): its tip stays in the "
-                                "socket",
-                                broken.area_mm2, broken.bending_Nmm),
-                    true, by_elevator});
-    return;
-  }
   ++bridges_broken_;
   told.push_back(
       {fmt::format("the bridge of {:.0f} mm² broke at {:.0f} N, {:.2f} N m{}", broken.area_mm2, broken.force_N,
@@ -109,7 +101,6 @@ std::string LuxationLog::summary() const {
   words = out_.empty() ? "nothing taken out" : words + " mm³ taken out";
   if (bridges_broken_ > 0)
     words += fmt::format(", {} bridge{} broken", bridges_broken_, bridges_broken_ == 1 ? "" : "s");
-  if (roots_broken_ > 0) words += fmt::format(", {} root{} broken", roots_broken_, roots_broken_ == 1 ? "" : "s");
   if (held_s_ > 0.0)
     words += fmt::format(", held for {}, pulled with {:.0f} N at most (model)", clockText(held_s_), most_N_);
   if (levered_s_ > 0.0)

@@ -1,7 +1,6 @@
 // What forceps and elevators do, from every tick: how long they worked on pieces, the largest pull and torque, what a
-// neighbouring tooth had to bear, how much ligament is torn, which bridges and roots broke, and what came out, less
-// what was undone; in words for the surgeon as it happens, and for the summary. Main thread, once a frame; microseconds
-// a tick.
+// neighbouring tooth had to bear, how much ligament is torn, which bridges broke, and what came out, less what was
+// undone; in words for the surgeon as it happens, and for the summary. Main thread, once a frame; microseconds a tick.
 #pragma once
 
 #include <array>
@@ -44,7 +43,7 @@ class LuxationLog {
   double levered_s_ = 0.0, most_Nmm_ = 0.0, most_fulcrum_N_ = 0.0;
   /// A neighbouring tooth is the fulcrum: since when, its largest load.
   double fulcrum_s_ = 0.0, fulcrum_N_ = 0.0;
-  int bridges_broken_ = 0, roots_broken_ = 0;
+  int bridges_broken_ = 0;
   struct Out {
     std::size_t piece = 0;
     double mm3 = 0.0;

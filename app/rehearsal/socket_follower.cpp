@@ -115,7 +115,6 @@ SiteLeft SocketFollower::left() const {
   SiteLeft left;
   for (const LooseChip* const chip : chips_.left())
     if (chip->chip.volume_mm3 >= kDust_mm3) left.chips_P_mm.push_back(chip->at_P_mm);
-  left.blobs = follicle_.blobs().size();
   for (const FollicleBlob& blob : follicle_.blobs()) {
     if (blob.state == FollicleBlob::State::stuck) left.stuck_P_mm.push_back(blob.at_P_mm);
     if (blob.state == FollicleBlob::State::loose) left.loose_P_mm.push_back(blob.at_P_mm);

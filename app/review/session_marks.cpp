@@ -49,8 +49,7 @@ void SessionMarks::follow(const haptics::Tick& tick, const haptics::Tool& tool) 
     if (tool_) marks_.push_back({tick.t_s, MarkKind::tool, toolName(tool)});
     tool_ = tool;
   }
-  if (tick.broken.piece != 0)
-    marks_.push_back({tick.t_s, MarkKind::event, tick.broken.is_root ? "a root broke" : "a bridge of the tooth broke"});
+  if (tick.broken.piece != 0) marks_.push_back({tick.t_s, MarkKind::event, "a bridge of the tooth broke"});
   if (tick.restored_total_mm3 > restored_mm3_ &&
       (marks_.empty() || marks_.back().kind != MarkKind::undo || tick.t_s - marks_.back().t_s > kUndoPause_s))
     marks_.push_back({tick.t_s, MarkKind::undo, "undone"});

@@ -56,8 +56,7 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   sum.max_lever_Nmm = std::max(sum.max_lever_Nmm, std::abs(tick.lever.twist_Nmm));
   sum.max_fulcrum_N = std::max(sum.max_fulcrum_N, tick.lever.on_teeth_N);
   sum.ligament_torn_Nmm = tick.torn_total_Nmm;
-  if (tick.broken.piece != 0 && tick.broken.is_root) sum.roots_broken += 1.0;
-  if (const haptics::BrokenBridge& broke = tick.broken; broke.piece != 0 && !broke.is_root) {
+  if (const haptics::BrokenBridge& broke = tick.broken; broke.piece != 0) {
     sum.bridges_broken += 1.0;
     sum.bridge_breaks.push_back({tick.t_s, broke.force_N, broke.bending_Nmm, broke.area_mm2, broke.is_complete});
   }

@@ -53,7 +53,7 @@ struct SessionMetrics {
   double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
   double grip_s = 0.0, max_grip_N = 0.0, ligament_torn_Nmm = 0.0, pieces_out = 0.0;  ///< by forceps; N of the model
   double lever_s = 0.0, max_lever_Nmm = 0.0, max_fulcrum_N = 0.0;                    ///< by elevators, of the model
-  double bridges_broken = 0.0, roots_broken = 0.0;
+  double bridges_broken = 0.0;
   double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;  ///< none: not recorded
   std::vector<MeasuredWay> measured;
@@ -109,8 +109,6 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
     {"pieces_out", "pieces", "pieces of tooth taken out at the end", &SessionMetrics::pieces_out},
     {"bridges_broken", "bridges", "bridges of the tooth broken by force, undone ones too",
      &SessionMetrics::bridges_broken},
-    {"roots_broken", "roots", "roots or crowns of the tooth broken by force, undone ones too",
-     &SessionMetrics::roots_broken},
     {"limited_s", "s", "time with the force clamped or slew-limited", &SessionMetrics::limited_s},
     {"faulty_s", "s", "time with an invalid pose or force or a device fault", &SessionMetrics::faulty_s},
     {"removed_mm3", "mm3", "removed volume, without undone strokes", &SessionMetrics::removed_mm3},

@@ -78,8 +78,6 @@ std::string metricsText(const SessionMetrics& metrics) {
     words +=
         fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
                     broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
-  if (metrics.roots_broken > 0.0)
-    words += fmt::format("roots or crowns broken by force: {:.0f}\n", metrics.roots_broken);
   words += "events: " + gatesInWords(metrics) + "\n";
   words += "conditions: " + conditionsInWords(metrics.conditions) + "\n";
   if (metrics.assessed.value_or(false)) {

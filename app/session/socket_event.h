@@ -55,7 +55,7 @@ inline constexpr double kDust_mm3 = 0.05;
 /// A smaller share of the follicle is let be.
 inline constexpr double kFollicleLeft = 0.1;
 /// Shorter in all, sharp edges are let be.
-inline constexpr double kEdgesLeft_mm = 5.0;
+inline constexpr double kEdgesLeft_mm = 2.0;
 
 /// One line of JSON.
 std::string socketText(const SocketRecord& socket);

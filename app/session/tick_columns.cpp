@@ -125,13 +125,12 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"split", "", "", "", kSplitMeaning}, split);
   visit(Text{"bridge", "", "", "", kBridgeMeaning}, bridge);
   visit(Text{"chips", "", "", "", kSplitMeaning}, chips);
-  auto& [broken_piece, is_complete, area_mm2, force_N, bending_Nmm, is_root] = broken;
+  auto& [broken_piece, is_complete, area_mm2, force_N, bending_Nmm] = broken;
   visit(Text{"broken.piece", "", "", "", "none 0, else 1 + piece"}, broken_piece);
   visit(Text{"broken.is_complete"}, is_complete);
   visit(Text{"broken.area_mm2", "", "mm2"}, area_mm2);
   visit(Text{"broken.force_N", "", "N"}, force_N);
   visit(Text{"broken.bending_Nmm", "", "N mm"}, bending_Nmm);
-  visit(Text{"broken.is_root", "", "", "", "a root or crown that nobody cut"}, is_root);
   visit(Text{"bridge_share"}, bridge_share);
   visit(Text{"site", "", "", "", kSiteMeaning}, site);
   visit(Text{"gripped", "", "", "", "none 0, else 1 + piece"}, gripped);

@@ -38,18 +38,6 @@ double shareOfBreaking(const Bridge& bridge, double enamel_share, const BridgeLo
          material;
 }
 
-double shareOfBreakingRoot(const Bridge& section, double enamel_share, const BridgeLoad& load) noexcept {
-  if (!(section.area_mm2 > 0.0 && section.width_mm > 0.0 && section.thickness_mm > 0.0))
-    return std::numeric_limits<double>::infinity();
-  const double i_u_mm4 = section.area_mm2 * section.thickness_mm * section.thickness_mm / 12.0;
-  const double i_v_mm4 = section.area_mm2 * section.width_mm * section.width_mm / 12.0;
-  const double by_u = load.bending_u_Nmm * section.half_thickness_mm / i_u_mm4;
-  const double by_v = load.bending_v_Nmm * section.half_width_mm / i_v_mm4;
-  const double stress_N_per_mm2 = load.tension_N / section.area_mm2 + std::sqrt(by_u * by_u + by_v * by_v);
-  const double material = 1.0 - (1.0 - DentineLimits::kEnamelFactor) * enamel_share;
-  return std::max(0.0, stress_N_per_mm2) / (DentineLimits::kStrength_N_per_mm2 * material);
-}
-
 double breakingForce_N(const Bridge& bridge, double enamel_share) {
   return 1.0 / shareOfBreaking(bridge, enamel_share, wedgedBy(bridge, 1.0));
 }

@@ -33,9 +33,6 @@ BridgeLoad wedgedBy(const Bridge& bridge, double wedging_N);
 /// 1 breaks it; scales with the load. `enamel_share` of the area. A bridge without area holds nothing: infinite.
 double shareOfBreaking(const Bridge& bridge, double enamel_share, const BridgeLoad& load);
 
-/// The same of a section that was not cut, as of an elliptic beam (body/root_section.h).
-double shareOfBreakingRoot(const Bridge& section, double enamel_share, const BridgeLoad& load) noexcept;
-
 /// The wedging force at which an elevator breaks it, and the twist of the handle for it.
 double breakingForce_N(const Bridge& bridge, double enamel_share);
 double breakingTwist_Nmm(const Bridge& bridge, double enamel_share);

@@ -134,12 +134,11 @@ std::unique_ptr<PieceSite> makePieceSite(const SocketScene& scene, const Distanc
   DistanceField now(scene.around_grid, scene.around, kBand_mm);
   PieceSamples samples = arranged(surfaceSamples({scene.piece_grid, scene.piece}, first_socket, rootOf(scene), law));
   SocketChange change = socketAfter(now, samples);
-  RootGroups roots = rootGroups(rootSections(scene.piece_grid, scene.piece, scene.label), scene.piece_grid, samples);
   double solid = 0.0;
   for (const std::uint8_t byte : scene.piece) solid += byte;
   return std::make_unique<PieceSite>(PieceSite{std::move(now), DistanceField(scene.teeth_grid, scene.teeth, kBand_mm),
                                                fieldOf(scene), PieceHold(std::move(samples), law), std::move(change),
-                                               std::move(roots), solid / 255.0 * scene.piece_grid.voxelVolume_mm3()});
+                                               solid / 255.0 * scene.piece_grid.voxelVolume_mm3()});
 }
 
 }  // namespace haptics

@@ -12,7 +12,6 @@
 #include "haptics/body/bodies.h"
 #include "haptics/body/distance_field.h"
 #include "haptics/ligament/piece_hold.h"
-#include "haptics/ligament/root_load.h"
 
 namespace haptics {
 
@@ -22,7 +21,6 @@ struct PieceSite {
   DistanceField piece;      ///< of the piece itself, frame Q
   PieceHold hold;           ///< unworn, at rest, in the first socket
   SocketChange change;      ///< of the socket since then, to be met
-  RootGroups roots;         ///< where force may break it
   double volume_mm3 = 0.0;
 };
 

@@ -80,7 +80,6 @@ void Elevator::move(Bodies& bodies, PieceSites& sites, ElevatorKind in_hand, con
   led.unsettled = tick.unsettled;
   if (led.holds) led.torn_share = tick.torn_share;
   led.X_PT = tick.X_PT;
-  led.on_piece = tick.on_piece;
   led.felt = (1.0 / LedTool::kForceScale) * tick.on_hand;
   const double stretch_mm = glm::length(tick.on_hand.force_N.xyz) / hand.stiffness_N_per_mm;
   led.max_stored_Nmm = 0.5 * glm::length(led.felt.force_N.xyz) * stretch_mm;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "assets/tissue.h"
-#include "haptics/contact/overlap.h"
 
 namespace haptics {
 namespace {
@@ -23,8 +22,8 @@ constexpr auto kIsFiled = [] {
 CarveResult Filing::file(Bodies& bodies, StrokeHistory& strokes, const Engagement& engaged, bool allowed, double dt_s,
                          std::uint64_t tick) noexcept {
   const calibration::Point<calibration::Patient> here_P{engaged.X_PT.translation_mm};
-  const double length = glm::length(engaged.contact.normal_P.xyz);
-  const bool is_on_bone = allowed && engaged.contact.volume_mm3 > 0.0 && length > 0.0;
+  const double overlap_mm3 = engaged.contact.volume_mm3, length = glm::length(engaged.contact.normal_P.xyz);
+  const bool is_on_bone = allowed && overlap_mm3 > 0.0 && length > 0.0;
   const bool was_on_bone = std::exchange(was_on_bone_, is_on_bone);
   const calibration::Point<calibration::Patient> before_P = std::exchange(last_P_, here_P);
   if (!is_on_bone || !was_on_bone) return {};
@@ -34,17 +33,12 @@ CarveResult Filing::file(Bodies& bodies, StrokeHistory& strokes, const Engagemen
   const double pressing_N = std::max(0.0, glm::dot(engaged.force_P_N.xyz, n));
   const double rate_mm3_per_s = kFiling_mm3_per_s * std::min(1.0, pressing_N / kFilingForce_N) *
                                 std::min(1.0, speed_mm_per_s / kFilingSpeed_mm_per_s);
-  const double flat_mm = std::max(kFlat_mm, engaged.head.radius_mm);
-  const calibration::Point<calibration::Patient> middle_P{here_P.mm + (flat_mm - engaged.head.radius_mm) * n};
-  const double overlap_mm3 = sphereOverlap(bodies.jaw().field(), middle_P, flat_mm).volume_mm3;
-  if (!(overlap_mm3 > 0.0)) return {};
   ErosionStep step;
   const double loss = std::min(1.0, rate_mm3_per_s * dt_s / overlap_mm3);
   for (std::size_t tissue = 0; tissue < step.loss.size(); ++tissue)
     if (kIsFiled[tissue]) step.loss[tissue] = loss;
   if (step.isZero()) return {};
-  return carveTool(bodies, {ShapeKind::sphere, flat_mm, 0.0}, {engaged.X_PT.rotation, middle_P.mm}, step, tick, 1,
-                   &strokes);
+  return carveTool(bodies, engaged.head, engaged.X_PT, step, tick, 1, &strokes);
 }
 
 }  // namespace haptics

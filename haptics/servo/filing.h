@@ -1,10 +1,8 @@
 // A bone file at work: what it takes away while it is pressed on bone and drawn along it,
 //   dV/dt = kFiling_mm3_per_s · min(1, F/kFilingForce_N) · min(1, v/kFilingSpeed_mm_per_s),
-// v along the surface, from all bone that its flat covers alike; teeth and soft tissue nothing. Never more than that
-// has covered (bone/carve). A file is felt as the ball of its thickness and cuts with its flat, a ball of kFlat_mm that
-// touches the bone where that does: so an edge becomes a bevel, not a groove with two edges. 200 mm3/min:
-// reference/extraction 9; force and speed at which it is reached are our defaults. The feed is that of the proxy, not
-// of the hand. Frame P; mm, N, s. Servo thread; the cost of bone/carve.
+// v along the surface, from all bone that its head covers alike; teeth and soft tissue nothing. Never more than the
+// head has covered (bone/carve). 200 mm3/min: reference/extraction 9; force and speed at which it is reached are our
+// defaults. The feed is that of the proxy, not of the hand. Frame P; mm, N, s. Servo thread; the cost of bone/carve.
 #pragma once
 
 #include "haptics/body/bodies.h"
@@ -13,8 +11,7 @@
 
 namespace haptics {
 
-inline constexpr double kFiling_mm3_per_s = 200.0 / 60.0, kFilingForce_N = 1.5, kFilingSpeed_mm_per_s = 10.0;
-inline constexpr double kFlat_mm = 3.0;  ///< our default
+inline constexpr double kFiling_mm3_per_s = 200.0 / 60.0, kFilingForce_N = 3.0, kFilingSpeed_mm_per_s = 10.0;
 
 class Filing {
  public:

@@ -59,7 +59,7 @@ void Forceps::move(Bodies& bodies, PieceSites& sites, const ToolPose& hand_X_PT,
   held.unsettled = tick.unsettled;
   held.torn_share = tick.torn_share;
   held.X_PT = bodies.pose(held.piece) * grip_X_QT_;
-  held.gripped = held.on_piece = -1.0 * tick.on_hand;
+  held.gripped = -1.0 * tick.on_hand;
   held.felt = (1.0 / LedTool::kForceScale) * tick.on_hand;
   const double stretch_mm = glm::length(tick.on_hand.force_N.xyz) / ForcepsLaw::kSpring_N_per_mm;
   held.max_stored_Nmm = 0.5 * glm::length(held.felt.force_N.xyz) * stretch_mm;

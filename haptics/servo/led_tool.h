@@ -17,16 +17,15 @@ struct LedTool {
   /// 1.2). Our default.
   static constexpr double kForceScale = 50.0;
 
-  bool leads = false;                       ///< the rest but torn_share is of a tick in which it did
-  bool holds = false;                       ///< a piece moves with it
-  std::size_t piece = 0;                    ///< this one; of an elevator that holds none, the nearest
-  ToolPose X_PT;                            ///< of the tool as the piece has it
-  Wrench<calibration::Patient> felt{};      ///< on the hand, about T's origin, scaled down
-  double max_stored_Nmm = 0.0;              ///< in what is felt
-  Wrench<calibration::Patient> gripped{};   ///< of forceps on the piece, about T's origin
-  Wrench<calibration::Patient> on_piece{};  ///< of either on it, about T's origin
-  Levering lever;                           ///< of an elevator
-  double torn_share = 0.0;                  ///< of the ligament of this piece, or the last one
+  bool leads = false;                      ///< the rest but torn_share is of a tick in which it did
+  bool holds = false;                      ///< a piece moves with it
+  std::size_t piece = 0;                   ///< this one; of an elevator that holds none, the nearest
+  ToolPose X_PT;                           ///< of the tool as the piece has it
+  Wrench<calibration::Patient> felt{};     ///< on the hand, about T's origin, scaled down
+  double max_stored_Nmm = 0.0;             ///< in what is felt
+  Wrench<calibration::Patient> gripped{};  ///< of forceps on the piece, about T's origin
+  Levering lever;                          ///< of an elevator
+  double torn_share = 0.0;                 ///< of the ligament of this piece, or the last one
   bool unsettled = false;
   bool set_aside = false;  ///< a piece, in this tick
 };

@@ -68,10 +68,6 @@ class PieceSites {
 
   /// Neither it nor bone was cut, restored or split since its site was made, and no other piece has moved.
   bool isReady(const Bodies& bodies, std::size_t piece) const noexcept;
-  /// A site in force is of the piece as it is, whatever became of the rest.
-  bool isOf(const Bodies& bodies, std::size_t piece) const noexcept {
-    return piece_digest_[piece] == bodies.bones()[piece + 1].digest();
-  }
   /// Of a piece that has a site.
   const PieceSamples& samples(std::size_t piece) const noexcept { return sites_[piece]->hold.samples(); }
   /// What an elevator is among, there.

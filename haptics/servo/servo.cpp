@@ -198,19 +198,6 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     split_.breakOff(bodies_, broken - 1, breaks_.planOf(broken - 1), undo_.strokes());
   }
 
-  // Or a root of it does, or its crown, where no bridge bears the load.
-  if (led.holds && !split_.isRunning() && !(breaks_.share() > 0.0))
-    roots_.follow(bodies_, sites_, led.piece, {led.on_piece, led.X_PT.translation_mm}, tick.dt_s);
-  else
-    roots_.rest();
-  if (roots_.broken().piece != 0) {
-    tick.broken = roots_.broken();
-    undo_.endLuxation(bodies_, sites_);
-    luxation_.drop();
-    broke_ = true;
-    split_.breakOff(bodies_, tick.broken.piece - 1u, roots_.plan(), undo_.strokes());
-  }
-
   // A piece that has fallen apart becomes two, and chips come loose.
   const bool clear = !proxy.touches() && !led.holds && !embedded && !undo_.isRunning() && !undo_.isLuxating();
   const bool parts = split_.step(bodies_, clear && !chips_.isRunning(), undo_.strokes());

@@ -16,7 +16,6 @@
 #include "haptics/servo/luxation.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/proxy.h"
-#include "haptics/servo/root_break.h"
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
 #include "haptics/servo/tear_pulses.h"
@@ -68,7 +67,6 @@ class Servo {
   StrokeUndo undo_;
   ToothSplit split_;
   ToothBreak breaks_;
-  RootBreak roots_;
   ChipRemoval chips_;
   PieceSites sites_;
   Luxation luxation_;

@@ -38,7 +38,6 @@ struct BrokenBridge {
   double area_mm2 = 0.0;
   double force_N = 0.0;      ///< that pushed its slot apart, or of the grip
   double bending_Nmm = 0.0;  ///< about its centre
-  bool is_root = false;      ///< a root or crown that nobody cut (servo/root_break); force: what the tip passed on
 
   bool operator==(const BrokenBridge&) const = default;
 };

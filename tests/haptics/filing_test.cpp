@@ -50,36 +50,6 @@ TEST(Filing, TakesInProportionToForceAndSpeedUpToThat) {
   EXPECT_NEAR(rate({.force_N = 4.0 * kFilingForce_N}), full, 0.05 * full);
 }
 
-TEST(Filing, IsFlatterThanTheBallThatIsFelt) {
-  constexpr double kDeep_mm = 0.3, kBall_mm = 1.0;
-  Bodies bodies = phantom::filled(5.0, 0.25, [](const glm::dvec3& p) { return p.z; }).bodies();
-  const std::vector<std::uint8_t> before = bodies.jaw().solidInGridOrder();
-  Filing filing;
-  StrokeHistory strokes(bodies.bones());
-  Filing::Engagement at;
-  at.head = {ShapeKind::sphere, kBall_mm, 0.0};
-  at.contact.volume_mm3 = 0.2;
-  at.contact.normal_P.xyz = {0, 0, 1};
-  at.force_P_N.xyz = {0, 0, kFilingForce_N};
-  // To and fro within a voxel.
-  for (int n = 0; n < 400; ++n) {
-    at.X_PT.translation_mm = {n % 2 == 0 ? 0.02 : -0.02, 0.0, kBall_mm - kDeep_mm};
-    filing.file(bodies, strokes, at, true, kTick_s, static_cast<std::uint64_t>(n));
-  }
-  const std::vector<std::uint8_t> after = bodies.jaw().solidInGridOrder();
-  double widest_mm = 0.0, deepest_mm = 0.0;
-  assets::forVoxels(bodies.grid(), [&](glm::ivec3 ijk, std::size_t v) {
-    const glm::dvec3 p = bodies.grid().centre_P_mm(ijk);
-    if (before[v] - after[v] < 20) return;
-    widest_mm = std::max(widest_mm, std::hypot(p.x, p.y));
-    deepest_mm = std::max(deepest_mm, -p.z);
-  });
-  const auto width_mm = [&](double radius_mm) { return std::sqrt(2.0 * radius_mm * kDeep_mm - kDeep_mm * kDeep_mm); };
-  EXPECT_GT(widest_mm, width_mm(kBall_mm) + 0.2) << "beyond the ball";
-  EXPECT_LT(widest_mm, width_mm(kFlat_mm) + 0.25);
-  EXPECT_LT(deepest_mm, kDeep_mm + 0.25) << "and no deeper";
-}
-
 TEST(Filing, TakesNothingAtRestIntoTheBoneOffItOrOfATooth) {
   EXPECT_EQ(rate({.speed_mm_per_s = 0.0}), 0.0);
   EXPECT_EQ(rate({.along = {0, 0, 1}}), 0.0);

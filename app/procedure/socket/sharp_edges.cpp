@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "assets/ct_volume.h"
@@ -17,8 +18,6 @@ using assets::VolumeGrid;
 
 constexpr double kNearOpening_mm = 1.0;  ///< farther from what was opened an edge is the patient's own
 constexpr double kAround_mm = 2.0;       ///< in which bone that stands higher makes an edge lie deep
-constexpr double kSocket_mm = 6.0;       ///< and so does bone that stands higher within this on most sides
-constexpr int kSocketSides = 5;          ///< of eight
 constexpr double kColumn_mm = 0.5;
 
 struct Box {
@@ -100,71 +99,41 @@ double curvature_per_mm(const Box& box, const std::vector<float>& mean, glm::ive
   return 0.5 * trace + std::sqrt(std::max(0.0, 0.5 * squares - 0.25 * trace * trace));
 }
 
-/// The height of the bone around each place, square to `up_P`, in columns.
+/// The height of the bone around each place, square to `up_P`.
 class Crest {
  public:
   Crest(const BoneNow& bone, const Box& box, const glm::dvec3& up_P) : up_P_(up_P) {
     const glm::dvec3 beside = std::abs(up_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     first_P_ = glm::normalize(beside - glm::dot(beside, up_P) * up_P);
     second_P_ = glm::cross(up_P, first_P_);
-    const glm::dvec3 low_P = bone.grid.centre_P_mm(box.low), high_P = bone.grid.centre_P_mm(box.end);
-    low_ = end_ = columnOf(low_P);
-    for (int corner = 1; corner < 8; ++corner) {
-      const glm::ivec2 at = columnOf({(corner & 1) != 0 ? high_P.x : low_P.x, (corner & 2) != 0 ? high_P.y : low_P.y,
-                                      (corner & 4) != 0 ? high_P.z : low_P.z});
-      low_ = glm::min(low_, at);
-      end_ = glm::max(end_, at);
-    }
-    end_ += 1;
-    height_mm_.assign(static_cast<std::size_t>((end_.x - low_.x) * (end_.y - low_.y)), kNothing_mm);
     assets::forVoxels(box.low, box.end, [&](glm::ivec3 ijk) {
       const std::size_t v = bone.grid.index(ijk);
       if (bone.solid[v] < assets::kHalfSolid || (!bone.label.empty() && assets::isTooth(bone.label[v]))) return;
       const glm::dvec3 p = bone.grid.centre_P_mm(ijk);
-      double& height_mm = height_mm_[placeOf(columnOf(p))];
-      height_mm = std::max(height_mm, glm::dot(p, up_P));
+      auto [at, is_new] = height_mm_.try_emplace(columnOf(p), -std::numeric_limits<double>::infinity());
+      at->second = std::max(at->second, glm::dot(p, up_P));
     });
   }
   bool isNear(const glm::dvec3& p_P_mm) const {
-    const double lid_mm = glm::dot(p_P_mm, up_P_) + kCrest_mm;
-    const glm::ivec2 at = columnOf(p_P_mm);
+    const double height_mm = glm::dot(p_P_mm, up_P_);
+    const auto [i, j] = columnOf(p_P_mm);
     constexpr int kReach = static_cast<int>(kAround_mm / kColumn_mm);
     for (int a = -kReach; a <= kReach; ++a)
-      for (int b = -kReach; b <= kReach; ++b)
-        if (a * a + b * b <= kReach * kReach && height_mm(at + glm::ivec2(a, b)) > lid_mm) return false;
-    return higherSides(at, lid_mm) < kSocketSides;
+      for (int b = -kReach; b <= kReach; ++b) {
+        if (a * a + b * b > kReach * kReach) continue;
+        const auto found = height_mm_.find({i + a, j + b});
+        if (found != height_mm_.end() && found->second > height_mm + kCrest_mm) return false;
+      }
+    return true;
   }
 
  private:
-  static constexpr double kNothing_mm = -std::numeric_limits<double>::infinity();
-
-  /// Of eight: bone stands higher there, as on all sides of a socket but one or two that were opened.
-  int higherSides(glm::ivec2 at, double lid_mm) const {
-    int higher = 0;
-    for (int a = -1; a <= 1; ++a)
-      for (int b = -1; b <= 1; ++b) {
-        const double step_mm = kColumn_mm * std::sqrt(static_cast<double>(a * a + b * b));
-        bool is_higher = false;
-        for (int n = 1; (a != 0 || b != 0) && n * step_mm <= kSocket_mm; ++n)
-          is_higher = is_higher || height_mm(at + n * glm::ivec2(a, b)) > lid_mm;
-        higher += is_higher ? 1 : 0;
-      }
-    return higher;
-  }
-  double height_mm(glm::ivec2 column) const {
-    const bool is_known = column.x >= low_.x && column.y >= low_.y && column.x < end_.x && column.y < end_.y;
-    return is_known ? height_mm_[placeOf(column)] : kNothing_mm;
-  }
-  std::size_t placeOf(glm::ivec2 column) const {
-    return static_cast<std::size_t>((column.y - low_.y) * (end_.x - low_.x) + column.x - low_.x);
-  }
-  glm::ivec2 columnOf(const glm::dvec3& p) const {
-    return {static_cast<int>(std::floor(glm::dot(p, first_P_) / kColumn_mm)),
-            static_cast<int>(std::floor(glm::dot(p, second_P_) / kColumn_mm))};
+  std::pair<int, int> columnOf(const glm::dvec3& p_P_mm) const {
+    return {static_cast<int>(std::floor(glm::dot(p_P_mm, first_P_) / kColumn_mm)),
+            static_cast<int>(std::floor(glm::dot(p_P_mm, second_P_) / kColumn_mm))};
   }
   glm::dvec3 up_P_, first_P_{0.0}, second_P_{0.0};
-  glm::ivec2 low_{0}, end_{0};
-  std::vector<double> height_mm_;
+  std::map<std::pair<int, int>, double> height_mm_;
 };
 
 bool isNearOpening(const BoneNow& bone, glm::ivec3 ijk) {

@@ -1,9 +1,8 @@
 // Sharp edges that an operation leaves on the crest of the bone: where it was opened, the surface is convex with a
-// radius below kSharp_mm, and bone around stands more than kCrest_mm higher neither close by nor, as around the depth
-// of a socket, on most sides. The surface is that of a median over a ball of kMedian_mm (of solid and empty that is the
-// half of the ball's mean), so that single voxels are no edges. Frame P, mm. Worker or command; some 20 ms a socket;
-// allocates. A pure function of the bytes. Definition: reference/extraction 9. An edge of 90 degrees has a radius of
-// about 0.3 mm in this surface, one of 135 degrees 0.7.
+// radius below kSharp_mm, and no bone around stands more than kCrest_mm higher. The surface is that of a median over a
+// ball of kMedian_mm (of solid and empty that is the half of the ball's mean), so that single voxels are no edges.
+// Frame P, mm. Worker or command; some 20 ms a socket; allocates. A pure function of the bytes. Definition:
+// reference/extraction 9. An edge of 90 degrees has a radius of about 0.3 mm in this surface, one of 135 degrees 0.7.
 #pragma once
 
 #include <cstdint>

@@ -97,7 +97,6 @@ StepErrorRules errorRules(assets::TomlReader& keys, const std::string& table) {
   rules.soft_tissue = keys.boolean(table, "soft_tissue", false);
   rules.dry = keys.boolean(table, "dry", false);
   rules.fulcrum = keys.boolean(table, "fulcrum", false);
-  rules.fracture = keys.boolean(table, "fracture", false);
   rules.wrong_instrument = keys.boolean(table, "wrong_instrument", false);
   rules.nerve_mm = numberIfGiven(keys, table, "nerve_mm", {0.1, 10.0, "mm"});
   rules.cutting_N = numberIfGiven(keys, table, "cutting_N", kForce);

@@ -70,7 +70,6 @@ struct StepErrorRules {
   bool soft_tissue = false;               ///< the bur turns on it
   bool dry = false;                       ///< cutting without water
   bool fulcrum = false;                   ///< the elevator rests on another tooth
-  bool fracture = false;                  ///< a root or crown breaks
   bool wrong_instrument = false;          ///< used, and the step does not name it
   std::optional<double> nerve_mm;         ///< cutting nearer to the mandibular canal
   std::optional<double> cutting_N;        ///< of the model, more than that

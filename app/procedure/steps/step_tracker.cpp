@@ -15,9 +15,9 @@ namespace app {
 namespace {
 
 constexpr std::array<std::string_view, kStepErrors> kErrorWords = {
-    "neighbour tooth touched",  "mandibular canal touched", "bur on soft tissue",  "cutting dry",
-    "fulcrum on another tooth", "other instrument used",    "too near the nerve",  "pressed too hard",
-    "pulled too hard",          "too much bone removed",    "root or crown broken"};
+    "neighbour tooth touched",  "mandibular canal touched", "bur on soft tissue", "cutting dry",
+    "fulcrum on another tooth", "other instrument used",    "too near the nerve", "pressed too hard",
+    "pulled too hard",          "too much bone removed"};
 
 int piecesOut(const haptics::Tick& tick) {
   int out = 0;
@@ -218,7 +218,6 @@ void StepTracker::followErrors(const haptics::Tick& tick, const StepFacts& facts
   check(StepError::pressed_hard, rules.cutting_N && cuts && glm::length(tick.law_force_P_N.xyz) > *rules.cutting_N);
   check(StepError::pulled_hard,
         rules.pull_N && tick.gripped != 0 && glm::length(tick.grip_force_P_N.xyz) > *rules.pull_N);
-  check(StepError::fracture, rules.fracture && tick.broken.piece != 0 && tick.broken.is_root);
   check(StepError::bone_beyond_limit, rules.bone_mm3 && boneRemoved_mm3(tick) > *rules.bone_mm3);
 }
 

@@ -25,10 +25,9 @@ enum class StepError : std::uint8_t {
   near_nerve,
   pressed_hard,
   pulled_hard,
-  bone_beyond_limit,
-  fracture
+  bone_beyond_limit
 };
-inline constexpr std::size_t kStepErrors = 11;
+inline constexpr std::size_t kStepErrors = 10;
 /// In files and summaries: "cutting dry".
 std::string_view wordsOf(StepError error);
 

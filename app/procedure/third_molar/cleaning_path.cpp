@@ -9,12 +9,11 @@ namespace {
 
 constexpr double kOverSite_mm = 16.0,
                  kOverCrown_mm = 14.0;  // of a place: out of the socket; past the next tooth's crown
-constexpr double kTravels_mm_per_s = 120.0, kNears_mm_per_s = 30.0, kDraws_mm_per_s = 25.0, kTurns_rad_per_s = 2.5;
-constexpr double kNear_mm = 3.0;  ///< from there on slowly
+constexpr double kTravels_mm_per_s = 80.0, kNears_mm_per_s = 30.0, kDraws_mm_per_s = 20.0, kTurns_rad_per_s = 2.5;
 constexpr double kSucks_s = 0.8, kConfirms_s = 0.5;
-constexpr double kScrapes_mm = 2.6, kFiles_mm = 3.0;  ///< pressed beyond the surface
+constexpr double kScrapes_mm = 1.2, kFiles_mm = 1.3;  ///< pressed beyond the surface
 constexpr double kLifts_mm = 0.4;                     ///< off it, before and after
-constexpr double kPatient_mm = 3.4;                   ///< and no slower for it
+constexpr double kPatient_mm = 1.6;                   ///< and no slower for it
 constexpr double kBeyondEnd_mm = 0.6;
 constexpr int kDraws = 2, kFileDraws = 3;
 
@@ -38,7 +37,6 @@ class Worker {
     const double over_mm = step_.what == Cleaning::stitch ? kOverCrown_mm : kOverSite_mm;
     const HandPose above{heldAt(place), first + over_mm * place.shaft_P};
     keys_.moveTo(above, kTravels_mm_per_s, kTurns_rad_per_s);
-    keys_.moveTo({heldAt(place), first + kNear_mm * place.shaft_P}, kTravels_mm_per_s);
     keys_.moveTo({heldAt(place), first}, kNears_mm_per_s);
     switch (step_.what) {
       case Cleaning::suction:
@@ -70,7 +68,6 @@ class Worker {
     for (const glm::dvec3& into : place.into_P) {
       const glm::dvec3 lifted = -(tip_radius_mm_ + kLifts_mm) * into, pressed = (pressed_mm - tip_radius_mm_) * into;
       keys_.moveTo({held, way.front() + lifted}, kNears_mm_per_s);
-      keys_.moveTo({held, way.front() + pressed}, kNears_mm_per_s);
       for (int n = 0; n < times; ++n) {
         for (const glm::dvec3& p : way) keys_.moveTo({held, p + pressed}, kDraws_mm_per_s);
         keys_.moveTo({held, way.back() + beyond + pressed}, kDraws_mm_per_s);

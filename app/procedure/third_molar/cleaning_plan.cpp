@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <span>
 
 #include <fmt/core.h>
 
 #include "app/procedure/debris/follicle.h"
 #include "app/procedure/debris/suction_tip.h"
-#include "app/session/socket_event.h"
 
 namespace app {
 namespace {
@@ -20,8 +18,7 @@ constexpr double kAtWall_mm = 0.4;                 ///< of a curette before it i
 constexpr double kWorthFiling_mm = 1.0;            ///< length of an edge
 constexpr std::array kFiledLeans{0.0, 0.6, -0.6};  ///< to either side of an edge
 constexpr std::size_t kFiledPoints = 8;            ///< of an edge, filed at once
-constexpr double kFewBlobs = 0.5 * kFollicleLeft, kFewEdges_mm = 0.5 * kEdgesLeft_mm;
-constexpr double kFileSinks_mm = 0.35;  ///< beside an edge the file may touch as deep
+constexpr double kFileSinks_mm = 0.35;             ///< beside an edge the file may touch as deep
 /// What may be loose after each is taken at last; what a file leaves is filed once more.
 constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction, Cleaning::curette,
                             Cleaning::suction, Cleaning::file,    Cleaning::file,    Cleaning::file,
@@ -42,28 +39,26 @@ std::vector<glm::dvec3> inOrder(std::vector<glm::dvec3> points) {
   return points;
 }
 
-std::vector<CleaningPlace> suckedAt(const std::vector<glm::dvec3>& loose, const SocketReach& reach,
-                                    const RoundTip& tip) {
+std::vector<CleaningPlace> suckedAt(const std::vector<glm::dvec3>& loose, const SocketReach& reach, double tip_mm) {
   std::vector<CleaningPlace> places;
   const auto sucks = [&](const TipPlace& place, const glm::dvec3& goal) {
-    const glm::dvec3 opening = place.at_P_mm - tip.radius_mm * place.shaft_P;
+    const glm::dvec3 opening = place.at_P_mm - tip_mm * place.shaft_P;
     return glm::distance(opening, goal) < kRinsed_mm - kSurely_mm && reach.isOpen(opening, goal);
   };
   constexpr double kAnyWall_mm = 10.0;
-  for (const auto& chosen : reach.fewestFor(loose, tip, kRinsed_mm, kAnyWall_mm, sucks))
+  for (const auto& chosen : reach.fewestFor(loose, tip_mm, kRinsed_mm, kAnyWall_mm, sucks))
     places.push_back({{chosen.place.at_P_mm}, chosen.place.shaft_P, {}});
   return places;
 }
 
 /// Against the wall, and drawn along it towards the handle.
-std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const SocketReach& reach,
-                                     const RoundTip& tip) {
+std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const SocketReach& reach, double tip_mm) {
   std::vector<CleaningPlace> places;
-  const double reach_mm = tip.radius_mm + kScrapeReach_mm - kSurely_mm;
+  const double reach_mm = tip_mm + kScrapeReach_mm - kSurely_mm;
   const auto scrapes = [&](const TipPlace& place, const glm::dvec3& goal) {
     return glm::distance(place.at_P_mm, goal) < reach_mm;
   };
-  for (const auto& chosen : reach.fewestFor(stuck, tip, reach_mm, kAtWall_mm, scrapes)) {
+  for (const auto& chosen : reach.fewestFor(stuck, tip_mm, reach_mm, kAtWall_mm, scrapes)) {
     const TipPlace& place = chosen.place;
     const glm::dvec3 n = place.wall_P;
     glm::dvec3 along = place.shaft_P - glm::dot(place.shaft_P, n) * n;
@@ -74,9 +69,8 @@ std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const
   return places;
 }
 
-/// From straight above and from either side, as far as tip and handle are clear.
-std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, const SocketReach& reach,
-                                        const RoundTip& tip) {
+/// From straight above and from either side, as far as the handle is clear.
+std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, const SocketReach& reach, double tip_mm) {
   glm::dvec3 out(0.0);
   for (const glm::dvec3& p : way) out += reach.placeAt(p, reach.shafts_P().front()).wall_P;
   out = glm::length(out) > 1e-6 ? glm::normalize(out) : reach.shafts_P().front();
@@ -91,10 +85,9 @@ std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, cons
     CleaningPlace place{way, shaft, {}};
     for (const double lean : kFiledLeans) {
       const glm::dvec3 into = -glm::normalize(out + lean * side);
-      const auto is_free = [&](const glm::dvec3& p) {
-        return reach.isFree(p - tip.radius_mm * into, shaft, tip, kFileSinks_mm);
-      };
-      if (std::ranges::all_of(way, is_free)) place.into_P.push_back(into);
+      if (std::ranges::all_of(
+              way, [&](const glm::dvec3& p) { return reach.isFree(p - tip_mm * into, shaft, tip_mm, kFileSinks_mm); }))
+        place.into_P.push_back(into);
     }
     if (!place.into_P.empty() && (!best || place.into_P.size() > best->into_P.size())) best = std::move(place);
     if (best && best->into_P.size() == kFiledLeans.size()) break;
@@ -102,35 +95,20 @@ std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, cons
   return best;
 }
 
-/// The longest stretch from the beginning of a course that is reached at once.
-std::optional<CleaningPlace> filedFirst(std::span<const glm::dvec3> course, const SocketReach& reach,
-                                        const RoundTip& tip) {
-  for (std::size_t length = std::min(course.size(), kFiledPoints); length > 0;
-       length = length > 2 ? length / 2 : length - 1) {
-    const std::vector<glm::dvec3> way(course.begin(), course.begin() + static_cast<std::ptrdiff_t>(length));
-    if (auto place = filedAlong(way, reach, tip)) return place;
-  }
-  return {};
-}
-
-std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const SocketReach& reach, const RoundTip& tip) {
+std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const SocketReach& reach, double tip_mm) {
   std::vector<CleaningPlace> places;
   for (const SharpEdge& edge : edges) {
     if (edge.length_mm < kWorthFiling_mm) continue;
     const std::vector<glm::dvec3> course = inOrder(edge.points_P_mm);
-    for (std::span<const glm::dvec3> left(course); !left.empty();) {
-      auto place = filedFirst(left, reach, tip);
-      left = left.subspan(place ? place->way_P_mm.size() : 1);
-      if (place) places.push_back(std::move(*place));
+    const std::size_t parts = (course.size() + kFiledPoints - 1) / kFiledPoints;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto at = [&](std::size_t n) {
+        return course.begin() + static_cast<std::ptrdiff_t>(n * course.size() / parts);
+      };
+      if (auto place = filedAlong({at(part), at(part + 1)}, reach, tip_mm)) places.push_back(std::move(*place));
     }
   }
   return places;
-}
-
-double lengthOf_mm(const std::vector<SharpEdge>& edges) {
-  double sum_mm = 0.0;
-  for (const SharpEdge& edge : edges) sum_mm += edge.length_mm;
-  return sum_mm;
 }
 
 std::string wordsOf(Cleaning what, std::size_t count) {
@@ -139,15 +117,14 @@ std::string wordsOf(Cleaning what, std::size_t count) {
   return fmt::format("{} ({} place{})", kWords[static_cast<std::size_t>(what)], count, count == 1 ? "" : "s");
 }
 
-/// What a surgeon lets be is no work.
-bool isWorthIt(Cleaning what, const SiteLeft& left) {
+bool isAnything(Cleaning what, const SiteLeft& left) {
   switch (what) {
     case Cleaning::suction:
       return !left.chips_P_mm.empty() || !left.loose_P_mm.empty();
     case Cleaning::curette:
-      return static_cast<double>(left.stuck_P_mm.size()) > kFewBlobs * static_cast<double>(left.blobs);
+      return !left.stuck_P_mm.empty();
     case Cleaning::file:
-      return lengthOf_mm(left.edges) >= kFewEdges_mm;
+      return !left.edges.empty();
     case Cleaning::stitch:
       return !left.stitches_P_mm.empty();
   }
@@ -168,12 +145,12 @@ glm::dvec3 middleOf(const SiteLeft& left) {
 }  // namespace
 
 std::vector<CleaningPlace> CleaningPlanner::placesFor(Cleaning what, const SiteLeft& left, const SocketReach& reach,
-                                                      const RoundTip& tip) const {
-  if (what == Cleaning::curette) return scrapedAt(left.stuck_P_mm, reach, tip);
-  if (what == Cleaning::file) return filedAt(left.edges, reach, tip);
+                                                      double tip_mm) const {
+  if (what == Cleaning::curette) return scrapedAt(left.stuck_P_mm, reach, tip_mm);
+  if (what == Cleaning::file) return filedAt(left.edges, reach, tip_mm);
   std::vector<glm::dvec3> loose = left.chips_P_mm;
   loose.insert(loose.end(), left.loose_P_mm.begin(), left.loose_P_mm.end());
-  return suckedAt(loose, reach, tip);
+  return suckedAt(loose, reach, tip_mm);
 }
 
 std::optional<OperationStep> CleaningPlanner::next(const SiteLeft& left, const assets::VolumeGrid& grid,
@@ -181,14 +158,14 @@ std::optional<OperationStep> CleaningPlanner::next(const SiteLeft& left, const a
   std::optional<SocketReach> reach;
   while (next_ < kRound.size()) {
     const Cleaning what = kRound[next_++];
-    const auto& tip = tips_[static_cast<std::size_t>(what)];
-    if (!tip || !isWorthIt(what, left)) continue;
+    const auto& tip_mm = tips_mm_[static_cast<std::size_t>(what)];
+    if (!tip_mm || !isAnything(what, left)) continue;
     CleaningStep step{what, {}, out_P_};
     if (what == Cleaning::stitch) {
       for (const glm::dvec3& p : left.stitches_P_mm) step.places.push_back({{p}, out_P_, {}});
     } else {
       if (!reach) reach.emplace(grid, jaw, middleOf(left), out_P_ + shaft_P_);
-      step.places = placesFor(what, left, *reach, *tip);
+      step.places = placesFor(what, left, *reach, *tip_mm);
     }
     if (step.places.empty()) continue;
     const std::string words = wordsOf(what, step.places.size());

@@ -18,18 +18,17 @@ namespace app {
 struct SiteLeft {
   std::vector<glm::dvec3> chips_P_mm;              ///< loose, worth taking
   std::vector<glm::dvec3> stuck_P_mm, loose_P_mm;  ///< blobs of follicle
-  std::size_t blobs = 0;                           ///< of it at first
   std::vector<SharpEdge> edges;
   std::vector<glm::dvec3> stitches_P_mm;  ///< not made yet
 };
 
 class CleaningPlanner {
  public:
-  /// Of each instrument, by Cleaning; none: it is not in the tray.
-  using Tips = std::array<std::optional<RoundTip>, kCleanings>;
+  /// Radius of each instrument's tip, by Cleaning; none: it is not in the tray.
+  using Tips = std::array<std::optional<double>, kCleanings>;
   /// Unit: `out_P` out of the socket, `shaft_P` as an instrument lies clear of lip and teeth.
-  CleaningPlanner(const glm::dvec3& out_P, const glm::dvec3& shaft_P, const Tips& tips)
-      : out_P_(out_P), shaft_P_(shaft_P), tips_(tips) {}
+  CleaningPlanner(const glm::dvec3& out_P, const glm::dvec3& shaft_P, const Tips& tips_mm)
+      : out_P_(out_P), shaft_P_(shaft_P), tips_mm_(tips_mm) {}
 
   /// `jaw`: in the order of the grid. None: nothing is left to do, or nothing that can be reached.
   std::optional<OperationStep> next(const SiteLeft& left, const assets::VolumeGrid& grid,
@@ -37,10 +36,10 @@ class CleaningPlanner {
 
  private:
   std::vector<CleaningPlace> placesFor(Cleaning what, const SiteLeft& left, const SocketReach& reach,
-                                       const RoundTip& tip) const;
+                                       double tip_mm) const;
 
   glm::dvec3 out_P_, shaft_P_;
-  Tips tips_;
+  Tips tips_mm_;
   std::size_t next_ = 0;  ///< of the round
 };
 

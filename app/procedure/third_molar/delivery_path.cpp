@@ -32,7 +32,7 @@ haptics::LedPath joined(const haptics::LedPath& first, const haptics::LedPath& s
   return {[first = first.script, second = second.script, from_s](double t_s) {
             return t_s < from_s ? first(t_s) : second(t_s - from_s);
           },
-          from_s + second.duration_s, std::max(first.patient_mm, second.patient_mm)};
+          from_s + second.duration_s};
 }
 
 haptics::LedPath twistInSlot(const HandPose& from, const glm::dvec3& outside_P_mm, const SplitStep& step) {

@@ -18,8 +18,7 @@ constexpr double kSettles_s = 0.6;                               ///< after a st
 constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
 constexpr double kAssistantWait_s = 10.0;                        ///< for the flap to be held aside
-constexpr double kGutter_mm_per_s = 26.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
-constexpr double kBetweenCuts_mm_per_s = 80.0, kInAndOut_mm_per_s = 30.0;
+constexpr double kGutter_mm_per_s = 16.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
 constexpr const char* kAllDone = "the operation is done";
 constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
 
@@ -30,10 +29,7 @@ haptics::LedPath cutPath(assets::PlannedCut cut, const haptics::Tool& bur, doubl
   const glm::dvec3 to_middle_mm = (haptics::halfHeight_mm(bur.head) - bur.head.radius_mm) * cut.shaft_P;
   for (auto& stroke : cut.strokes_P_mm)
     for (glm::dvec3& p : stroke) p += to_middle_mm;
-  const haptics::TroughPath path(cut, {.shaft_P = cut.shaft_P,
-                                       .speed_mm_per_s = speed_mm_per_s,
-                                       .travel_mm_per_s = kBetweenCuts_mm_per_s,
-                                       .approach_mm_per_s = kInAndOut_mm_per_s});
+  const haptics::TroughPath path(cut, {.shaft_P = cut.shaft_P, .speed_mm_per_s = speed_mm_per_s});
   return {[path](double t_s) { return path.at(t_s); }, path.duration_s()};
 }
 
@@ -96,13 +92,10 @@ Demonstration::Demonstration(const Site& site, std::optional<FlapWork> flap, boo
   if (goes_on) {
     tray_ = operationTray(tools_);
     planner_.emplace(site.patient, tools_[tray_.bur].head.radius_mm, tray_.elevator.has_value());
-    CleaningPlanner::Tips tips{};
+    CleaningPlanner::Tips tips_mm{};
     for (std::size_t n = 0; n < kCleanings; ++n)
-      if (tray_.cleaning[n]) {
-        const haptics::Tool& tool = tools_[*tray_.cleaning[n]];
-        tips[n] = RoundTip(tool.head.radius_mm, tool.shaft.radius_mm);
-      }
-    cleaning_.emplace(planner_->out_P(), forceps_R_PT_ * glm::dvec3(0.0, 0.0, 1.0), tips);
+      if (tray_.cleaning[n]) tips_mm[n] = tools_[*tray_.cleaning[n]].head.radius_mm;
+    cleaning_.emplace(planner_->out_P(), forceps_R_PT_ * glm::dvec3(0.0, 0.0, 1.0), tips_mm);
   }
   if (flap_) return;
   // The hand rests where the gutter begins.

@@ -10,8 +10,7 @@ namespace app {
 namespace {
 
 constexpr double kFlapOver_mm = 14.0;  // over a place
-constexpr double kRaises_rad_per_s = 1.6;
-constexpr double kCuts_mm_per_s = 18.0, kRaises_mm_per_s = 32.0, kLowers_mm_per_s = 20.0;
+constexpr double kCuts_mm_per_s = 12.0, kRaises_mm_per_s = 20.0, kLowers_mm_per_s = 20.0;
 constexpr double kPressed_mm = 0.35;  // the blade, into the bone's surface
 constexpr double kFreed_mm = 1.3;
 constexpr double kOverBone_mm = 0.1;     // the elevator's blade glides
@@ -94,11 +93,10 @@ haptics::LedPath FlapWork::raisingPath(const HandPose& from, const glm::dvec3& o
   for (const ChartPlace& top : tops) {
     const ChartPlace base{top.m_mm, std::max(top.angle_rad + 0.1, plan_.base_rad() + kBeyondBase_rad)};
     const int steps = std::max(2, static_cast<int>((base.angle_rad - top.angle_rad) / 0.05));
-    keys.moveTo(at(top, over_mm), kRaises_mm_per_s, kRaises_rad_per_s);
+    keys.moveTo(at(top, over_mm), kRaises_mm_per_s);
     for (int n = 1; n <= 2 * steps; ++n) {
       const double part = n <= steps ? static_cast<double>(n) / steps : 2.0 - static_cast<double>(n) / steps;
-      keys.moveTo(at({top.m_mm, top.angle_rad + part * (base.angle_rad - top.angle_rad)}, over_mm), kRaises_mm_per_s,
-                  kRaises_rad_per_s);
+      keys.moveTo(at({top.m_mm, top.angle_rad + part * (base.angle_rad - top.angle_rad)}, over_mm), kRaises_mm_per_s);
     }
   }
   keys.moveTo(atGum(tops.back()), kLowers_mm_per_s);

@@ -37,7 +37,7 @@ std::vector<glm::dvec3> shaftsAround(const glm::dvec3& out_P) {
       glm::normalize(glm::cross(out_P, std::abs(out_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
   const glm::dvec3 across = glm::cross(out_P, side);
   std::vector<glm::dvec3> shafts{out_P};
-  for (const double lean_rad : {0.2, 0.4, 0.6})
+  for (const double lean_rad : {0.2, 0.4})
     for (int n = 0; n < kAround; ++n) {
       const double turn = 2.0 * std::numbers::pi * n / kAround;
       shafts.push_back(std::cos(lean_rad) * out_P +
@@ -62,14 +62,12 @@ TipPlace SocketReach::placeAt(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_
   return {p_P_mm, shaft_P, length > 1e-6 ? slope / length : shaft_P, static_cast<double>(sample.distance_mm)};
 }
 
-bool SocketReach::isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, const RoundTip& tip,
-                         double sunk_mm) const {
-  if (field_.at_mm(p_P_mm) < tip.radius_mm - sunk_mm) return false;
+bool SocketReach::isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm, double sunk_mm) const {
+  if (field_.at_mm(p_P_mm) < radius_mm - sunk_mm) return false;
   // Along a wall that the tip touches the shank, which is no thicker, runs beside it.
   for (double mm = 1.0; mm < kNearShank_mm; mm += kShankStep_mm)
-    if (field_.at_mm(p_P_mm + mm * shaft_P) < tip.shank_radius_mm - std::max(kShankSinks_mm, sunk_mm - 0.2 * mm))
-      return false;
-  return isShankFree(p_P_mm, shaft_P, tip.shank_radius_mm + kShankClear_mm);
+    if (field_.at_mm(p_P_mm + mm * shaft_P) < radius_mm - std::max(kShankSinks_mm, sunk_mm - 0.2 * mm)) return false;
+  return isShankFree(p_P_mm, shaft_P, radius_mm + kShankClear_mm);
 }
 
 /// Beyond the field: by the voxels around its axis.
@@ -92,7 +90,7 @@ bool SocketReach::isOpen(const glm::dvec3& from_P_mm, const glm::dvec3& to_P_mm)
   return true;
 }
 
-std::vector<SocketReach::Chosen> SocketReach::fewestFor(const std::vector<glm::dvec3>& goals_P_mm, const RoundTip& tip,
+std::vector<SocketReach::Chosen> SocketReach::fewestFor(const std::vector<glm::dvec3>& goals_P_mm, double radius_mm,
                                                         double reach_mm, double most_wall_mm,
                                                         const IsReached& is_reached) const {
   std::vector<Chosen> candidates;
@@ -102,15 +100,14 @@ std::vector<SocketReach::Chosen> SocketReach::fewestFor(const std::vector<glm::d
     assets::forVoxels(glm::ivec3(-half), glm::ivec3(half + 1), [&](glm::ivec3 off) {
       const glm::dvec3 p = goal + lattice_mm * glm::dvec3(off);
       const double wall_mm = field_.at_mm(p);
-      if (glm::distance(p, goal) > reach_mm || wall_mm < tip.radius_mm - kSinks_mm ||
-          wall_mm > tip.radius_mm + most_wall_mm)
+      if (glm::distance(p, goal) > reach_mm || wall_mm < radius_mm - kSinks_mm || wall_mm > radius_mm + most_wall_mm)
         return;
       for (const glm::dvec3& shaft : shafts_P_) {
         const TipPlace place = placeAt(p, shaft);
         std::vector<std::size_t> reached;
         for (std::size_t n = 0; n < goals_P_mm.size(); ++n)
           if (is_reached(place, goals_P_mm[n])) reached.push_back(n);
-        if (reached.empty() || !isFree(p, shaft, tip)) continue;
+        if (reached.empty() || !isFree(p, shaft, radius_mm)) continue;
         candidates.push_back({place, std::move(reached)});
         break;
       }

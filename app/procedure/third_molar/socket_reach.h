@@ -18,14 +18,6 @@ struct TipPlace {
   double wall_mm = 0.0;               ///< of the middle, to that wall
 };
 
-/// Of a straight instrument: a ball, and a rod behind it.
-struct RoundTip {
-  double radius_mm = 0.0, shank_radius_mm = 0.0;
-  constexpr RoundTip(double radius)
-      : RoundTip(radius, radius) {}  // NOLINT(google-explicit-constructor): as thick all along
-  constexpr RoundTip(double radius, double shank_radius) : radius_mm(radius), shank_radius_mm(shank_radius) {}
-};
-
 class SocketReach {
  public:
   /// Borrows `solid`, in the order of the grid: all that an instrument meets. Tips are led within kSeen_mm of
@@ -37,12 +29,12 @@ class SocketReach {
   /// Ways in, the straightest first; unit.
   const std::vector<glm::dvec3>& shafts_P() const { return shafts_P_; }
   TipPlace placeAt(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P) const;
-  /// With this tip and its shank, from there outwards; the tip may be `sunk_mm` in.
-  bool isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, const RoundTip& tip, double sunk_mm = 0.05) const;
+  /// With a tip and a shank of this radius, from there outwards; the tip may be `sunk_mm` in.
+  bool isFree(const glm::dvec3& p_P_mm, const glm::dvec3& shaft_P, double radius_mm, double sunk_mm = 0.05) const;
   /// Nothing solid between two places.
   bool isOpen(const glm::dvec3& from_P_mm, const glm::dvec3& to_P_mm) const;
 
-  /// Places of a tip that are free, not farther than `most_wall_mm` from a wall beyond touching it, and
+  /// Places of a tip of `radius_mm` that are free, not farther than `most_wall_mm` from a wall beyond touching it, and
   /// within `reach_mm` of one of the `goals`; each with the goals for which is_reached(place, goal) is true, chosen so
   /// that few places do for all. What no place reaches is left out.
   using IsReached = std::function<bool(const TipPlace& place, const glm::dvec3& goal_P_mm)>;
@@ -50,7 +42,7 @@ class SocketReach {
     TipPlace place;
     std::vector<std::size_t> goals;
   };
-  std::vector<Chosen> fewestFor(const std::vector<glm::dvec3>& goals_P_mm, const RoundTip& tip, double reach_mm,
+  std::vector<Chosen> fewestFor(const std::vector<glm::dvec3>& goals_P_mm, double radius_mm, double reach_mm,
                                 double most_wall_mm, const IsReached& is_reached) const;
 
  private:

@@ -160,8 +160,8 @@ TEST(CleaningPath, PressesOnTheWallAndTurnsTheHandleClear) {
     }
   }
   EXPECT_GT(handle, 0.0);
-  EXPECT_NEAR(least_x_mm, 1.0 + 1.2 - 2.6, 0.05) << "its surface far beyond the wall, for 1 N";
-  EXPECT_GT(path.patient_mm, 2.6) << "pressed, it does not wait";
+  EXPECT_NEAR(least_x_mm, 1.0, 0.05) << "the tip's middle, its surface beyond the wall";
+  EXPECT_GT(path.patient_mm, 1.2) << "pressed, it does not wait";
 }
 
 }  // namespace

@@ -96,25 +96,6 @@ TEST(SharpEdges, WhatLiesDeepIsNotOfTheCrest) {
   EXPECT_GT(sum_mm(shape.edges()), 14.0);
 }
 
-TEST(SharpEdges, ASeptumInTheDepthOfASocketIsNotOfTheCrest) {
-  // A pit 9 mm wide and 6 mm deep, open to one side; a ridge on its floor is 4 mm below the rim and farther than
-  // kAround_mm from it.
-  const auto socket = [](const glm::dvec3& p) {
-    const double pit = std::max(std::hypot(p.x, p.y) - 4.5, -2.0 - p.z);
-    const double opening = std::max({std::abs(p.y) - 1.5, -2.0 - p.z, -p.x});
-    const double block = std::max(p.z - 4.0, -std::min(pit, opening));
-    return std::min(block, std::max(ridge_mm({p.x, p.y, p.z + 2.0}, 90.0 * kDegree_rad), std::abs(p.x) - 1.5));
-  };
-  const Shape shape(0.25, socket);
-  double rim_mm = 0.0;
-  for (const SharpEdge& edge : shape.edges())
-    for (const glm::dvec3& p : edge.points_P_mm) {
-      EXPECT_TRUE(std::hypot(p.x, p.y) > 2.5 || p.z > 2.0) << p.x << " " << p.y << " " << p.z;
-      rim_mm += p.z > 3.0 ? kEdgeStep_mm : 0.0;
-    }
-  EXPECT_GT(rim_mm, 12.0);
-}
-
 TEST(SharpEdges, ThePatientsOwnEdgesAndTeethAreLetBe) {
   Shape shape(0.25, [](const glm::dvec3& p) { return ridge_mm({0.0, p.y, p.z}, 90.0 * kDegree_rad); });
   assets::forVoxels(shape.grid, [&](glm::ivec3 ijk, std::size_t v) {

@@ -310,11 +310,6 @@ TEST(StepTracker, CountsEachErrorByItsFactAlone) {
       StepError::fulcrum, rules, [](Rehearsed& run) { run.tick.lever = {.piece = 1, .on_bone_N = 60.0}; },
       [](Rehearsed& run) { run.tick.lever = {.piece = 1, .on_teeth_N = 60.0}; });
   rules = {};
-  rules.fracture = true;
-  expectError(
-      StepError::fracture, rules, [](Rehearsed& run) { run.tick.broken = {.piece = 1}; },
-      [](Rehearsed& run) { run.tick.broken = {.piece = 1, .is_root = true}; });
-  rules = {};
   rules.nerve_mm = 2.0;
   expectError(
       StepError::near_nerve, rules,
