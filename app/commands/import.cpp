@@ -152,7 +152,7 @@ assets::GreyWindow windowOf(const std::string& text) {
   return {*low_hu, *high_hu};
 }
 
-/// Prints and keeps how long each stage of the segmentation took.
+/// How long each stage of the segmentation took; a refusal stays one line, so they are printed in the end.
 class StageClock {
  public:
   void begin(std::string_view stage) {
@@ -163,10 +163,13 @@ class StageClock {
   void end() {
     if (stage_.empty()) return;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun_;
-    printMessage(fmt::format("{}: {:.1f} s", stage_, took.count()));
     stages_.push_back({{"stage", std::exchange(stage_, {})}, {"seconds", took.count()}});
   }
   const nlohmann::json& stages() const { return stages_; }
+  void print() const {
+    for (const nlohmann::json& stage : stages_)
+      printMessage(fmt::format("{}: {:.1f} s", stage["stage"].get<std::string>(), stage["seconds"].get<double>()));
+  }
 
  private:
   std::string stage_;
@@ -225,6 +228,7 @@ assets::ImportedScan importAny(ImportOptions& options) {
     assets::ImportedScan imported = is_dicom ? importDicom(options, report) : importFile(options, report);
     report["jaw"] = imported.jaw ? jsonOf(*imported.jaw) : nlohmann::json(nullptr);
     write();
+    clock.print();
     for (const std::string& remark : imported.remarks)
       printMessage((is_dicom ? "scan" : options.source) + ": " + remark);
     return imported;

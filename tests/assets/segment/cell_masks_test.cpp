@@ -67,7 +67,7 @@ TEST(Flooding, MeetsAtTheRidge) {
   assets::forCells(kSize, [&](glm::ivec3 p, std::size_t n) { level[n] = p.x == 9 ? 50 : 10; });
   std::vector<std::uint8_t> label(level.size(), 0);
   label[assets::indexIn(kSize, {1, 7, 6})] = 1;
-  label[assets::indexIn(kSize, {16, 7, 6})] = 2;
+  label[assets::indexIn(kSize, {11, 7, 6})] = 2;
   const CellMask mask = maskOf([](glm::ivec3 p) { return p.z != 0; });
   assets::flood(kSize, level, mask, label);
   assets::forCells(kSize, [&](glm::ivec3 p, std::size_t n) {

@@ -123,10 +123,10 @@ TEST_F(JawSegmentationRealData, ReachesTheFiguresOnARealJaw) {
   double sum = 0.0;
   for (const int fdi : {43, 44, 45, 46, 47, 48}) {
     EXPECT_EQ(teeth[fdi].found_fdi, fdi);
-    EXPECT_GT(teeth[fdi].dice, 0.9) << fdi;
+    EXPECT_GT(teeth[fdi].dice, 0.91) << fdi;
     sum += teeth[fdi].dice;
   }
-  EXPECT_GT(sum / 6.0, 0.95);
+  EXPECT_GT(sum / 6.0, 0.955);
   const auto of_molar = [&](assets::Tissue wanted) {
     const auto value = static_cast<std::uint8_t>(wanted);
     return tests::diceOf(
@@ -136,6 +136,12 @@ TEST_F(JawSegmentationRealData, ReachesTheFiguresOnARealJaw) {
   EXPECT_GT(of_molar(assets::Tissue::enamel), 0.92);
   EXPECT_GT(of_molar(assets::Tissue::dentine), 0.82);
   EXPECT_GT(of_molar(assets::Tissue::pulp), 0.75);
+  // Its middle is found, its ends are guesses.
+  ASSERT_EQ(jaw.canals.size(), 1u);
+  EXPECT_TRUE(jaw.canals.front().is_right);
+  const tests::CanalMisses misses = tests::canalMisses(ct.grid, tissue, jaw.canals.front());
+  EXPECT_LT(misses.from_truth_mm, 1.6);
+  EXPECT_LT(misses.worst_mm, 7.0);
 }
 
 }  // namespace

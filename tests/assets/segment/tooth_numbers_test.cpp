@@ -86,6 +86,37 @@ TEST(ToothNumbers, ASparePieceHasNone) {
   row.expectRight();
 }
 
+/// A crown of 37 and a root below it that touch.
+struct DividedTooth {
+  DividedTooth() {
+    jaw.grid = {{20, 20, 40}, 0.5, {0, 0, 0}};
+    regions.box = {{0, 0, 0}, jaw.grid.size};
+    regions.count = 2;
+    regions.part.resize(jaw.grid.voxelCount(), 0);
+    assets::forVoxels(jaw.grid, [&](glm::ivec3 p, std::size_t v) {
+      if (p.x > 4 && p.x < 15 && p.y > 4 && p.y < 15) regions.part[v] = p.z < 20 ? 2 : 1;
+    });
+  }
+  bool joins(double crown_mm3, double root_mm3) {
+    FoundTooth crown, root;
+    crown.part = 1, crown.fdi = 37, crown.volume_mm3 = crown_mm3;
+    root.part = 2, root.volume_mm3 = root_mm3;
+    return assets::joinSpareParts(jaw, {crown, root}, regions);
+  }
+  assets::Mandible jaw;
+  assets::ToothRegions regions;
+};
+
+TEST(ToothNumbers, ASparePieceJoinsTheToothWhoseVolumeItMends) {
+  DividedTooth tooth;
+  EXPECT_TRUE(tooth.joins(390.0, 310.0));
+  EXPECT_EQ(std::ranges::count(tooth.regions.part, 2), 0);
+  EXPECT_EQ(std::ranges::count(tooth.regions.part, 1), 4000);
+  DividedTooth whole;
+  EXPECT_FALSE(whole.joins(940.0, 310.0)) << "a whole tooth needs no more";
+  EXPECT_EQ(std::ranges::count(whole.regions.part, 2), 2000);
+}
+
 std::string verdictOn(const std::vector<FoundTooth>& teeth, int width = 300) {
   const auto refusal = assets::judgeJaw({{width, 200, 200}, 0.4, {0, 0, 0}}, teeth);
   return refusal ? refusal->code : "";
