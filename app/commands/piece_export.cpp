@@ -1,6 +1,5 @@
 #include "app/commands/piece_export.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -10,7 +9,6 @@
 #include "app/session/replay.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
-#include "assets/ct_volume.h"
 #include "assets/mesh/bone_surface.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/mesh/stl_file.h"
@@ -25,12 +23,10 @@ namespace {
 constexpr double kLeastExported_mm3 = 1.0;  ///< smaller ones are chips
 const assets::Material kToothMaterial{{0.75f, 0.71f, 0.61f, 1.0f}, 0.25f, 0.0f};
 
-/// As haptics::ToothPiece: a voxel of at least half counts whole. The sum of the fractions would miss what of the
-/// surface lies in voxels that are labelled as something else, a tenth of a molar.
 double volumeOf_mm3(const ExportedPiece& piece) {
-  const auto voxels =
-      std::ranges::count_if(piece.solid, [](std::uint8_t solid) { return solid >= assets::kHalfSolid; });
-  return static_cast<double>(voxels) * piece.grid.voxelVolume_mm3();
+  double sum = 0.0;
+  for (const std::uint8_t solid : piece.solid) sum += solid;
+  return sum / 255.0 * piece.grid.voxelVolume_mm3();
 }
 
 /// Where it is, or lay before it was taken out.
