@@ -20,8 +20,8 @@ const OpenCvModule* opened() {
 }  // namespace
 
 const OpenCvModule& openCvModule() {
-  static const OpenCvModule* const module = opened();
-  return *module;
+  static const OpenCvModule* const kModule = opened();
+  return *kModule;
 }
 
 }  // namespace calibration

@@ -23,9 +23,9 @@ struct OpenCvModule {
   /// Of a V4L2 camera, with focus, zoom and exposure fixed. Throws CalibrationError.
   std::unique_ptr<FrameGrabber> (*camera)(const std::string& path, const WebcamSettings& wanted);
   /// Of a PNG or JPEG file whose size was checked. An image of no size: damaged.
-  GreyImage (*decodedGrey)(std::span<const std::uint8_t> file);
+  GreyImage (*decoded_grey)(std::span<const std::uint8_t> file);
   /// The file of an image of 8-bit RGB, rows from the top. Empty: it cannot be encoded.
-  std::vector<std::uint8_t> (*encodedPng)(glm::ivec2 size_px, std::span<const std::uint8_t> rgba);
+  std::vector<std::uint8_t> (*encoded_png)(glm::ivec2 size_px, std::span<const std::uint8_t> rgba);
 };
 
 /// Throws CalibrationError where the library is not beside the program as it was installed.

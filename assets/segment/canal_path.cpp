@@ -179,7 +179,7 @@ void centre(const HalfJaw& half, Line& line) {
   const double spacing_mm = half.grid.spacing_mm;
   const int reach = static_cast<int>(std::ceil(kDisc_mm / spacing_mm));
   const VolumeGrid cells{half.grid.size, 1.0, glm::dvec3(0.0)};
-  const auto hounsfieldAt = [&](glm::ivec3 ijk) {
+  const auto hounsfield_at = [&](glm::ivec3 ijk) {
     return half.smooth_hu[cells.index(glm::clamp(ijk, glm::ivec3(0), cells.size - 1))];
   };
   for (int round = 0; round < kCentrings; ++round) {
@@ -193,7 +193,7 @@ void centre(const HalfJaw& half, Line& line) {
         const glm::dvec3 d(step);
         if (glm::length(d) * spacing_mm >= kDisc_mm) return;
         away.push_back(d - glm::dot(d, tangent) * tangent);
-        hu.push_back(static_cast<float>(trilinearAt(cells, line[p] + away.back(), hounsfieldAt)));
+        hu.push_back(static_cast<float>(trilinearAt(cells, line[p] + away.back(), hounsfield_at)));
       });
       const float dark_hu = valueAtShare(hu, 0.45);
       glm::dvec3 pull(0.0);

@@ -118,7 +118,7 @@ void fillHolesAcross(glm::ivec3 size, int axis, CellMask& mask) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto columns = static_cast<std::size_t>(size[u]), rows = static_cast<std::size_t>(size[v]);
   tbb::parallel_for(0, size[axis], [&](int layer) {
-    const auto cellAt = [&](std::size_t n) {
+    const auto cell_at = [&](std::size_t n) {
       glm::ivec3 ijk(0);
       ijk[axis] = layer, ijk[u] = static_cast<int>(n % columns), ijk[v] = static_cast<int>(n / columns);
       return indexIn(size, ijk);
@@ -126,7 +126,7 @@ void fillHolesAcross(glm::ivec3 size, int axis, CellMask& mask) {
     std::vector<std::uint8_t> is_outer(columns * rows, 0);
     std::vector<std::size_t> open;
     const auto reach = [&](std::size_t n) {
-      if (is_outer[n] != 0 || mask[cellAt(n)] != 0) return;
+      if (is_outer[n] != 0 || mask[cell_at(n)] != 0) return;
       is_outer[n] = 1;
       open.push_back(n);
     };
@@ -141,7 +141,7 @@ void fillHolesAcross(glm::ivec3 size, int axis, CellMask& mask) {
       if (n + columns < columns * rows) reach(n + columns);
     }
     for (std::size_t n = 0; n < columns * rows; ++n)
-      if (is_outer[n] == 0) mask[cellAt(n)] = 1;
+      if (is_outer[n] == 0) mask[cell_at(n)] = 1;
   });
 }
 

@@ -19,22 +19,22 @@ double scoreOf(const RegionPart& a, const RegionPart& b, double neck) {
 std::vector<std::int32_t> joinedParts(std::vector<RegionPart> parts, RegionNecks necks) {
   std::vector<std::int32_t> joined(parts.size());
   std::iota(joined.begin(), joined.end(), 0);
-  const auto partOf = [&](std::int32_t number) -> RegionPart& { return parts[static_cast<std::size_t>(number)]; };
+  const auto part_of = [&](std::int32_t number) -> RegionPart& { return parts[static_cast<std::size_t>(number)]; };
   for (;;) {
     double best = kJoin;
     std::pair<std::int32_t, std::int32_t> chosen{0, 0};
     for (const auto& [sides, neck] : necks)
-      if (const double score = scoreOf(partOf(sides.first), partOf(sides.second), static_cast<double>(neck));
+      if (const double score = scoreOf(part_of(sides.first), part_of(sides.second), static_cast<double>(neck));
           score > best)
         best = score, chosen = sides;
     if (chosen.second == 0) return joined;
 
     const auto [kept, gone] = chosen;
     std::ranges::replace(joined, gone, kept);
-    RegionPart& whole = partOf(kept);
-    whole.peak = std::max(whole.peak, partOf(gone).peak);
-    whole.volume_mm3 += partOf(gone).volume_mm3;
-    whole.enamel_mm3 += partOf(gone).enamel_mm3;
+    RegionPart& whole = part_of(kept);
+    whole.peak = std::max(whole.peak, part_of(gone).peak);
+    whole.volume_mm3 += part_of(gone).volume_mm3;
+    whole.enamel_mm3 += part_of(gone).enamel_mm3;
     RegionNecks rest;
     for (const auto& [sides, neck] : necks) {
       const auto renamed = [kept = kept, gone = gone](std::int32_t number) { return number == gone ? kept : number; };

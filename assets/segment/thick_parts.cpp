@@ -36,20 +36,20 @@ class GrowingParts {
 /// Cells of the mask from thick to thin; of equal ones the first comes first.
 std::vector<std::uint32_t> fromThick(std::span<const float> thickness, std::span<const std::uint8_t> mask) {
   constexpr float kStepsPerUnit = 20000.0F;
-  const auto stepOf = [&](std::size_t cell) {
+  const auto step_of = [&](std::size_t cell) {
     return static_cast<std::size_t>(std::max(0.0F, thickness[cell] * kStepsPerUnit));
   };
   std::vector<std::size_t> start;
   for (std::size_t cell = 0; cell < mask.size(); ++cell) {
     if (mask[cell] == 0) continue;
-    if (stepOf(cell) >= start.size()) start.resize(stepOf(cell) + 1, 0);
-    ++start[stepOf(cell)];
+    if (step_of(cell) >= start.size()) start.resize(step_of(cell) + 1, 0);
+    ++start[step_of(cell)];
   }
   std::size_t before = 0;
   for (auto step = start.rbegin(); step != start.rend(); ++step) before += std::exchange(*step, before);
   std::vector<std::uint32_t> order(before);
   for (std::size_t cell = 0; cell < mask.size(); ++cell)
-    if (mask[cell] != 0) order[start[stepOf(cell)]++] = static_cast<std::uint32_t>(cell);
+    if (mask[cell] != 0) order[start[step_of(cell)]++] = static_cast<std::uint32_t>(cell);
   return order;
 }
 

@@ -35,7 +35,7 @@ double along_mm(const JawArch& arch, const glm::dvec3& p_P_mm) {
   double length = 0.0;
   for (int n = 0; n < 200; ++n) {
     const double from = n * step, to = from + step;
-    const auto pointAt = [&](double at) {
+    const auto point_at = [&](double at) {
       const double place = (at / kArchEnd_rad + 1.0) * 0.5 * kArchBins - 0.5;
       const int low = std::clamp(static_cast<int>(std::floor(place)), 0, kArchBins - 2);
       const double share = std::clamp(place - low, 0.0, 1.0);
@@ -43,7 +43,7 @@ double along_mm(const JawArch& arch, const glm::dvec3& p_P_mm) {
                             share * arch.radius_mm[static_cast<std::size_t>(low + 1)];
       return radius * glm::dvec2(std::sin(at), -std::cos(at));
     };
-    length += glm::distance(pointAt(from), pointAt(to));
+    length += glm::distance(point_at(from), point_at(to));
   }
   return angle < 0.0 ? -length : length;
 }

@@ -111,7 +111,7 @@ GreyImage readGreyImage(const std::string& path) {
     refuse("a side of it is under 16 or beyond 16384 pixels");
   if (std::int64_t{size->x} * size->y > kMaxPixels) refuse("it has more than 64 megapixels");
 
-  GreyImage image = openCvModule().decodedGrey(file);
+  GreyImage image = openCvModule().decoded_grey(file);
   if (image.size_px != *size) refuse("it is damaged");
   return image;
 }

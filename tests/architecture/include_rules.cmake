@@ -97,7 +97,7 @@ set(third_parties
   "nlohmann/" "assets|app"
   "tbb/|oneapi/" "assets|haptics|render"
   "libevdev/" "haptics"
-  "boost/" "app/study"
+  "boost/math/" "app/study"
   "libusb" "haptics"
   "GLFW/" "render|app"
   "embree3/" "render"
