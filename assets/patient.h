@@ -19,7 +19,8 @@ struct Classification {
 };
 
 struct Patient {
-  std::string title;  ///< one line, e.g. "built-in patient, right, mesio-angular 45°"
+  std::string title;         ///< one line, e.g. "built-in patient, right, mesio-angular 45°"
+  bool is_proposed = false;  ///< tooth and canal were found by the program, and no person has confirmed them
   CtVolume ct;
   Classification classification;
   std::optional<OperativeSite> site;              ///< none: no suitable tooth is labelled
@@ -29,6 +30,8 @@ struct Patient {
   MeshModel gingiva;  ///< surface with the flap raised around the site; may be empty
   MeshModel face;     ///< may be empty
 
+  /// For people: the title, and what it is to be taken with.
+  std::string shownTitle() const { return title + (is_proposed ? ", not confirmed" : ""); }
   /// Centre of the view.
   glm::dvec3 focus_P_mm() const { return site ? site->centre_P_mm : jaw_P_mm; }
   /// Decides the patient's position; the default site where none is known.

@@ -78,6 +78,7 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
   const Volumes_mm3 volumes = tissueVolumes(patient.ct);
   for (std::size_t l = 1; l < volumes.size(); ++l) tissues[std::string(assets::kTissues[l].key)] = volumes[l];
   json out{{"title", patient.title},
+           {"confirmed", !patient.is_proposed},
            {"size", list(grid.size)},
            {"spacing_mm", grid.spacing_mm},
            {"origin_P_mm", list(grid.origin_P_mm)},
@@ -110,8 +111,8 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
 
 std::string wordsOn(const assets::Patient& patient) {
   const assets::VolumeGrid& grid = patient.ct.grid;
-  std::string text = fmt::format("patient      {}\nvolume       {} x {} x {} voxels of {:.3f} mm\n", patient.title,
-                                 grid.size.x, grid.size.y, grid.size.z, grid.spacing_mm);
+  std::string text = fmt::format("patient      {}\nvolume       {} x {} x {} voxels of {:.3f} mm\n",
+                                 patient.shownTitle(), grid.size.x, grid.size.y, grid.size.z, grid.spacing_mm);
   if (const auto& site = patient.site)
     text += fmt::format("site         FDI {}, {}, at ({:.1f}, {:.1f}, {:.1f}) mm\n", site->fdi,
                         assets::toothName(site->fdi), site->centre_P_mm.x, site->centre_P_mm.y, site->centre_P_mm.z);

@@ -4,6 +4,7 @@
 #include "app/case/patient_source.h"
 #include "app/station/patient_list.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 
@@ -22,7 +23,13 @@ void PatientOrCase::refuseUnlessOne(const std::string& command) const {
 std::string PatientOrCase::name() const { return case_name_.empty() ? patient_ : "--case " + case_name_; }
 
 assets::Patient PatientOrCase::load() const {
-  return case_name_.empty() ? assets::loadPatient(patientNamed(patient_)) : builtInPatient(caseNamed(case_name_)->jaw);
+  if (!case_name_.empty()) return builtInPatient(caseNamed(case_name_)->jaw);
+  assets::Patient patient = assets::loadPatient(patientNamed(patient_));
+  if (patient.is_proposed)
+    printMessage(
+        "tooth and canal of this patient were found by the program and nobody has confirmed them: look at them, then "
+        "set confirmed = true in its patient.toml");
+  return patient;
 }
 
 }  // namespace app

@@ -23,7 +23,7 @@ StatusReporter::StatusReporter(const RehearsalPlan& plan, Equipment& equipment, 
 
 RehearsalStatus StatusReporter::status(const FrameState& state) {
   RehearsalStatus s;
-  s.patient_title = plan_.patient.title;
+  s.patient_title = plan_.patient.shownTitle();
   s.calibration = plan_.calibration;
   s.remarks = plan_.remarks;
   if (plan_.recording) {
@@ -77,7 +77,7 @@ void StatusReporter::update(Time now, const FrameState& state) {
     latency_noted_ = now;
     event_log_.note("latency", latencyText(view_.latency().now()));
   }
-  window->setTitle(plan_.patient.title);
+  window->setTitle(plan_.patient.shownTitle());
 }
 
 InstructorWindow::Input StatusReporter::updateInstructor(const FrameState& state) {

@@ -48,7 +48,7 @@ std::vector<PatientListing> listPatients(const fs::path& folder) {
     if (!isName(name) || !entry.is_directory(failed)) continue;
     try {
       found.push_back({fs::last_write_time(entry.path(), failed),
-                       {entry.path().string(), name, assets::describedPatient(entry.path().string()).title}});
+                       {entry.path().string(), name, assets::describedPatient(entry.path().string()).shownTitle()}});
     } catch (const assets::LoadError&) {  // molar inspect tells why
     }
   }

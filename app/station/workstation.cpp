@@ -25,7 +25,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
                                      std::string& refusal) {
   if (!recording) return nullptr;
   SessionStart start;
-  start.patient_title = patient.title;
+  start.patient_title = patient.shownTitle();
   start.program_version = std::string(programVersion());
   start.dt_s = 1.0 / rate_Hz;
   start.grid = patient.ct.grid;

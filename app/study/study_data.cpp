@@ -103,6 +103,9 @@ std::vector<AnswerSheet> answersFrom(const CsvTable& table, const Questionnaire&
       else
         sheet.values.push_back(cells.number(item.id, questionnaire.low, questionnaire.high));
     }
+    const bool has_session = !sheet.session.empty();
+    if (!sheets.empty() && has_session == sheets.front().session.empty())
+      cells.refuse("session", "name the session in every row, or in none");
     sheets.push_back(std::move(sheet));
   }
   return sheets;

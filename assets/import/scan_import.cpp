@@ -208,7 +208,8 @@ void remarkProposals(const Patient& patient, const FoundJaw& jaw, std::vector<st
   const std::string what = tooth + (tooth.empty() || canal.empty() ? "" : " and ") + canal;
   if (!what.empty())
     remarks.push_back(what + " " + (tooth.empty() || canal.empty() ? "was" : "were") +
-                      " found by the program and not confirmed: look at them before a figure counts");
+                      " found by the program and not confirmed: look at them before a figure counts, then set "
+                      "confirmed = true in its patient.toml");
   if (canal.empty()) remarks.push_back("no mandibular canal was found on the side of the site");
   const auto spare = std::ranges::count(jaw.teeth, 0, &FoundTooth::fdi);
   if (spare > 0)
@@ -257,11 +258,11 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
     patient.mandibular_canal_radius_mm = canal->radius_mm;
   }
+  patient.is_proposed = imported.jaw && (patient.site || !patient.mandibular_canal_P_mm.empty());
   if (imported.jaw) remarkProposals(patient, *imported.jaw, imported.remarks);
   if (patient.site) {
     patient.jaw_P_mm = patient.site->centre_P_mm;
-    patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")" +
-                    (imported.jaw ? ", found by the program, not confirmed" : "");
+    patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")";
     return imported;
   }
   const auto jaw_P_mm = lowerJawCentre_P_mm(patient.ct, patient.mandibular_canal_P_mm);

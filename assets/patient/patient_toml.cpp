@@ -53,8 +53,9 @@ void readSite(TomlReader& keys, Patient& patient) {
 
 std::string patientToml(const Patient& patient) {
   std::ostringstream text;
-  text << "schema = " << kSchema << "\ntitle = " << quotedToml(patient.title)
-       << "\nframe = \"P: LPS, mm\"\n\n[jaw]\nplace_P_mm = " << exact(patient.jaw_P_mm) << '\n';
+  text << "schema = " << kSchema << "\ntitle = " << quotedToml(patient.title) << "\nframe = \"P: LPS, mm\"\n"
+       << (patient.is_proposed ? "confirmed = false\n" : "") << "\n[jaw]\nplace_P_mm = " << exact(patient.jaw_P_mm)
+       << '\n';
   if (patient.site)
     text << "\n[site]\nfdi = " << patient.site->fdi << "\ncentre_P_mm = " << exact(patient.site->centre_P_mm)
          << "\naxis_P = " << exact(patient.site->axis_P) << '\n';
@@ -77,6 +78,7 @@ Patient patientFromToml(const std::string& text, const std::string& where) {
 
   Patient patient;
   patient.title = keys.text("", "title");
+  patient.is_proposed = !keys.boolean("", "confirmed", true);
   if (schema == kOldSchema)
     readOldSite(keys, patient);
   else

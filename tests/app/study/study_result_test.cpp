@@ -168,6 +168,8 @@ TEST(StudyData, RefusesWithFileLineAndColumn) {
   EXPECT_EQ(answers("participant,V1\nAnna Smith,3\n"), "A line 2, participant: give a code as P07, never a name");
   EXPECT_NE(answers("participant,V1\nP1,3\nP1,4\n").find("A line 3, participant"), std::string::npos);
   EXPECT_NE(answers("participant,group,session,V1\nP1,a,1,3\nP1,b,2,4\n").find("A line 3, group"), std::string::npos);
+  EXPECT_EQ(answers("participant,session,V1\nP1,1,3\nP2,,4\n"),
+            "A line 3, session: name the session in every row, or in none");
   EXPECT_NE(answers("participant,V99\nP1,3\n").find("column \"V99\" is not known"), std::string::npos);
   EXPECT_NE(answers("participant,group\nP1,a\n").find("no column is an item"), std::string::npos);
   EXPECT_NE(answers("V1\n3\n").find("there is no column \"participant\""), std::string::npos);

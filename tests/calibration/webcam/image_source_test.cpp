@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "calibration/opencv_module.h"
 #include "calibration/png_file.h"
+#include "calibration/webcam/live_image_source.h"
 #include "calibration/webcam/webcam_source.h"
 #include "tests/refusal.h"
 #include "tests/scratch_folder.h"
@@ -30,6 +32,11 @@ TEST(ImageFolder, ReturnsImagesInNumericOrder) {
   std::filesystem::create_directories(folder);
   EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("no PNG or JPEG"));
   std::filesystem::remove_all(folder);
+}
+
+TEST(OpenCvModule, ItsRefusalsAreCaughtByTheProgram) {
+  EXPECT_THROW(openCvModule().camera("/nowhere/video", {}), CalibrationError);
+  EXPECT_EQ(openCvModule().decoded_grey({}).size_px, glm::ivec2(0));
 }
 
 TEST(WebcamSource, ReportsAMissingCameraInOneLine) {
