@@ -33,7 +33,6 @@ void addBricks(std::vector<glm::ivec3>& to, const std::vector<glm::ivec3>& brick
 
 DebriefRun::DebriefRun(const std::string& session, const std::string& patient_folder)
     : path_(session),
-      bookmarks_(Bookmarks::fileFor(session)),
       moments_(session),
       risks_(risksOfSession(moments_.start(), patientWithinSession(moments_.start()))),
       story_(moments_.events(), risks_) {
@@ -65,17 +64,29 @@ void DebriefRun::beginFlap(const StoredStart& start) {
 }
 
 bool DebriefRun::prepare(double most_s) {
-  return moments_.index(most_s, [this](const haptics::Tick& tick, const haptics::Command& command) {
+  haptics::Tick newest;
+  const bool goes_on = moments_.index(most_s, [&](const haptics::Tick& tick, const haptics::Command& command) {
     story_.follow(tick, command);
     if (flap_) flap_->follow(tick, command);
     site_->follow(tick, command);
-    if (site_->looks(tick.t_s)) {
-      const std::vector<glm::ivec3> bricks = moments_.takeChangedBricks();
-      site_->look(tick, bricks);
-      addBricks(changed_, bricks);
-    }
+    if (site_->looks(tick.t_s)) lookAtSite(tick);
     prepared_s_ = tick.t_s + tick.dt_s;
+    newest = tick;
   });
+  // What has changed since, before a picture takes it.
+  if (newest.dt_s > 0.0) lookAtSite(newest);
+  return goes_on;
+}
+
+void DebriefRun::lookAtSite(const haptics::Tick& tick) {
+  const std::vector<glm::ivec3> bricks = moments_.takeChangedBricks();
+  site_->look(tick, bricks);
+  addBricks(changed_, bricks);
+}
+
+Bookmarks& DebriefRun::bookmarks() {
+  if (!bookmarks_) bookmarks_.emplace(Bookmarks::fileFor(path_));
+  return *bookmarks_;
 }
 
 std::vector<glm::ivec3> DebriefRun::takeChangedBricks() {
@@ -88,7 +99,8 @@ std::string DebriefRun::name() const { return std::filesystem::path(path_).filen
 
 std::vector<SessionMark> DebriefRun::marks() const {
   std::vector<SessionMark> marks = story_.marks();
-  for (const Bookmark& one : bookmarks_.all())
+  if (!bookmarks_) return marks;
+  for (const Bookmark& one : bookmarks_->all())
     marks.push_back({one.t_s, MarkKind::bookmark, one.note.empty() ? "bookmark" : one.note});
   std::ranges::stable_sort(marks, {}, &SessionMark::t_s);
   return marks;

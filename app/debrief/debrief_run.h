@@ -51,19 +51,21 @@ class DebriefRun {
   const SessionStory& story() const { return story_; }
   /// None: the session began with the flap raised, or its patient is not known.
   const FlapFilm* flap() const { return flap_ ? &*flap_ : nullptr; }
-  Bookmarks& bookmarks() { return bookmarks_; }
-  /// Of story and bookmarks, in order of time.
+  /// Read at the first call, for who shows them. Throws SessionError: its file is broken.
+  Bookmarks& bookmarks();
+  /// Of story, and of bookmarks that were read, in order of time.
   std::vector<SessionMark> marks() const;
   /// For people: what is not as it was.
   std::vector<std::string> remarks() const;
 
  private:
+  void lookAtSite(const haptics::Tick& tick);
   void beginFlap(const StoredStart& start);
   /// Down, as the patient lay where nothing else was asked for.
   glm::dvec3 down_P() const;
 
   std::string path_;
-  Bookmarks bookmarks_;
+  std::optional<Bookmarks> bookmarks_;
   SessionMoments moments_;
   bool has_patient_ = false;
   assets::Patient patient_;

@@ -44,6 +44,7 @@ int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted) {
   }
 
   DebriefScene scene(plan);
+  for (const auto& run : scene.runs()) run->bookmarks();  // a broken file is told before a long run
   std::optional<render::OffscreenContext> context;
   render::RenderOptions options;
   options.backend = rendererWithoutWindow(plan.backend, context, printMessage);

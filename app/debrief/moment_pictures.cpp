@@ -26,10 +26,11 @@ RunAgain momentPictures(const std::string& session, const std::string& patient_f
   render::RenderOptions options;
   options.backend = render::Backend::cpu;
   options.samples = 2;
-  scene.open(options);
+  if (!moments.empty()) scene.open(options);
 
   // To the cheek of either side.
-  const auto& site = scene.runs().front()->patient().site;
+  const assets::Patient& patient = scene.runs().front()->patient();
+  const auto& site = patient.site;
   const double aside_px = site && assets::isRight(site->fdi) ? kAside_px : -kAside_px;
   RunAgain again;
   SessionMoments& at = scene.runs().front()->moments();
@@ -43,7 +44,7 @@ RunAgain momentPictures(const std::string& session, const std::string& patient_f
     scene.choice.layers.face_opacity = 1.0F;
     scene.choice.layers.gingiva = true;
     scene.draw(kPicture_px, {});
-    picture.views.push_back({"as the surgeon saw it", scene.image()});
+    picture.views.push_back({"from the usual place before the patient", scene.image()});
     scene.choice.has_line = false;
     scene.choice.layers.mandibular_canal = true;
     scene.choice.layers.face_opacity = 0.0F;
@@ -51,7 +52,9 @@ RunAgain momentPictures(const std::string& session, const std::string& patient_f
     scene.turn({aside_px, kDown_px});
     scene.draw(kPicture_px, {});
     scene.backToFirst();
-    picture.views.push_back({"the jaw alone, from aside, with the canal", scene.image()});
+    const bool has_canal = !patient.mandibular_canal_P_mm.empty();
+    picture.views.push_back(
+        {std::string("the jaw alone, from aside") + (has_canal ? ", with the canal" : ""), scene.image()});
   }
   scene.prepareTo(std::numeric_limits<double>::infinity());
   scene.goTo(std::numeric_limits<double>::infinity());

@@ -1,6 +1,7 @@
-// Moments of a recorded session as pictures for its report: what the surgeon saw, with the line that was read, and the
-// jaw alone from aside, where the bur and the canal are seen. Drawn on the processor while the session is run again
-// once. Any one thread; the CPU time of the recorded steps, and about half a second a picture.
+// Moments of a recorded session as pictures for its report: the site from the usual place before the patient, with the
+// line that was read, and the jaw alone from aside, where the bur and the canal are seen. Drawn on the processor while
+// the session is run again once; no picture is drawn where no moment is told. Any one thread; the CPU time of the
+// recorded steps, and some tenths of a second a picture.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// What a debrief tells of a session beside its picture: marks on the time line, and where the tool was, how hard it
-// pressed and how near it came, fifty times a second. Made while the session is run once, tick by tick in order. Frame
-// P, mm, N, s. Any one thread; 30 bytes a sample.
+// What a debrief tells of a session beside its picture: marks on the time line, and where the tool was and how hard
+// it pressed, fifty times a second. Made while the session is run once, tick by tick in order. Frame
+// P, mm, N, s. Any one thread; 24 bytes a sample.
 #pragma once
 
 #include <cstdint>

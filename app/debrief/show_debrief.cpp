@@ -118,9 +118,11 @@ class DebriefWindow {
 
   void updateRuns() {
     state_.runs.clear();
-    for (const auto& run : scene_.runs())
+    for (const auto& run : scene_.runs()) {
+      run->bookmarks();
       state_.runs.push_back(
           {run->name(), run->length_s(), run->marks(), run->story().samples(), run->story().mostForce_N()});
+    }
   }
 
   void say(const std::string& line) { state_.said = line, said_at_ = Clock::now(); }
@@ -315,6 +317,7 @@ class DebriefWindow {
   }
 
   void savePicture() {
+    scene_.goTo(state_.transport.position_s());  // a dragging hand left it at a keyframe
     const std::string name = freeName(scene_.runs().front()->path(), state_.transport.position_s(), ".png");
     try {
       calibration::OutputFile file(name, false);

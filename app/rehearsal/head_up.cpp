@@ -81,7 +81,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   // Until it has turned once: who works with a mouse looks for the drill when the bur lies on the bone.
   has_drilled_ = has_drilled_ || content.turning;
   const bool is_bur = !command.tool.isHandInstrument() && !command.tool.luxates();
-  if (content.said.empty() && !has_drilled_ && is_bur && tick.depth_mm > 0.0 && command.drill_enabled &&
+  if (values.hints && content.said.empty() && !has_drilled_ && is_bur && tick.depth_mm > 0.0 && command.drill_enabled &&
       !values.situation.has_motors)
     content.said = "hold Space to drill";
   if (keys_shown_)

@@ -43,6 +43,7 @@ class HeadUp {
     std::string way = {};       ///< WayFollower::line()
     HeadUpRing ring = {};
     std::vector<HeadUpClearance> clearances = {};
+    bool hints = false;  ///< says how to begin: to who works, not to who looks at it later
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -273,20 +273,24 @@ class Rehearsal {
     if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest(), flapFacts());
     if (coach_)
       coach_->follow(ticks, command,
-                     {clearance_.now(), steps_ && steps_->usesOtherInstrument(), worksOutOfSight(ticks.back())});
+                     {clearance_.now(), steps_ && steps_->usesOtherInstrument(), worksOutOfSight(ticks)});
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
   }
 
-  bool worksOutOfSight(const haptics::Tick& tick) {
+  /// By the newest tick that removes something: not every tick of a cut does.
+  bool worksOutOfSight(std::span<const haptics::Tick> ticks) {
     const haptics::Command& command = active_command_.inForce();
     if (!eyes_ || !command.tool.turns()) return false;
+    const auto newest = std::find_if(ticks.rbegin(), ticks.rend(),
+                                     [](const haptics::Tick& tick) { return tick.drilling && tick.removed_mm3 > 0.0; });
+    if (newest == ticks.rend()) return false;
     return app::worksOutOfSight({station().bodies().grid(),
                                  socket_->solidInMouth(),
                                  plan_.soft_tissue,
                                  {command.assistant_holds, command.flap_aside}},
-                                tick, command.tool.head, *eyes_);
+                                *newest, command.tool.head, *eyes_);
   }
 
   /// For the instructor, twice a second.
@@ -446,7 +450,8 @@ class Rehearsal {
             socket_->line(),
             ways_->line(),
             ringShown(),
-            plan_.shows_clearance ? clearance_.ruler() : std::vector<HeadUpClearance>()};
+            plan_.shows_clearance ? clearance_.ruler() : std::vector<HeadUpClearance>(),
+            true};
   }
 
   HeadUpRing ringShown() const {

@@ -46,8 +46,8 @@ class SessionMoments {
   /// run, the last ones at least.
   void goTo(double t_s, const Follow& follow = {});
 
-  /// To the keyframe nearest to `t_s`, half of betweenKeyframes_s() away at most: some milliseconds, for a hand that
-  /// scrubs. Where no keyframe was reached yet, nowhere else.
+  /// To the keyframe nearest to `t_s`, half of betweenKeyframes_s() away at most, all of it behind the last: some
+  /// milliseconds, for a hand that scrubs. Where no keyframe was reached yet, nowhere else.
   void goNear(double t_s);
 
   haptics::Bodies& bodies() { return bodies_; }

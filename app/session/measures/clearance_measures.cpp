@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 3> kBandNames{"time nearer than 1 mm to t
                                                      "time nearer than 2 mm to the mandibular canal",
                                                      "time nearer than 4 mm to the mandibular canal"};
 constexpr std::string_view kNoStructure = "the case has no such structure, or was recorded before it was kept",
-                           kNotOn = "the drill was not on";
+                           kNotOn = "the drill was not on", kJustBegun = "the bur had just begun to turn";
 
 /// Interpolation between voxels is not exactly a distance.
 constexpr double kSlack_voxels = 0.5;
@@ -55,7 +55,8 @@ void ClearanceMeasures::add(const haptics::Tick& tick, const haptics::Tool& tool
   const auto X_PT = heldPose(tick);
   // Of a bur that has just begun to turn it is not known.
   const bool goes_on = last_ && tick.t_s - last_s_ < 1.5 * tick.dt_s;
-  const double speed_mm_per_s = goes_on ? glm::distance(X_PT.translation_mm, last_->translation_mm) / tick.dt_s : 0.0;
+  std::optional<double> speed_mm_per_s;
+  if (goes_on) speed_mm_per_s = glm::distance(X_PT.translation_mm, last_->translation_mm) / tick.dt_s;
   if (!(tool == tool_) || !last_) {
     tool_ = tool;
     asked_ = {};
@@ -102,7 +103,9 @@ std::vector<MeasureValue> ClearanceMeasures::values() const {
       values.back().value = least_[n]->mm, values.back().t_s = least_[n]->t_s;
   for (std::size_t n = 0; n < assets::kRiskStructures; ++n) {
     if (add(kForceIds[n], kForceNames[n], "N", n) && least_[n]) values.back().value = least_[n]->force_N;
-    if (add(kSpeedIds[n], kSpeedNames[n], "mm/s", n) && least_[n]) values.back().value = least_[n]->speed_mm_per_s;
+    if (!add(kSpeedIds[n], kSpeedNames[n], "mm/s", n) || !least_[n]) continue;
+    values.back().value = least_[n]->speed_mm_per_s;
+    if (!values.back().value) values.back().why = kJustBegun;
   }
   for (std::size_t band = 0; band < kBands_mm.size(); ++band)
     if (add(kBandIds[band], kBandNames[band], "s", 0)) values.back().value = in_band_s_[band];

@@ -32,7 +32,8 @@ class ClearanceMeasures {
 
   /// With the force of the model and the speed of the head's centre then.
   struct Least {
-    double mm = 0.0, t_s = 0.0, force_N = 0.0, speed_mm_per_s = 0.0;
+    double mm = 0.0, t_s = 0.0, force_N = 0.0;
+    std::optional<double> speed_mm_per_s;
   };
   /// None: the drill was not on, or the case has no such structure.
   const std::array<std::optional<Least>, assets::kRiskStructures>& least() const { return least_; }

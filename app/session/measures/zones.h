@@ -1,7 +1,7 @@
 // Where beside the operated tooth bone was removed (reference/product 4.2: O1). Six zones fill the space around it: a
 // place belongs to the side of the tooth's box, in the directions of the case, that it lies out of the farthest, in
 // half edges of the box. Our definition, as the sources name zones by case. Frame P, mm. Pure; any thread; a pass over
-// the voxels of the tooth.
+// the grid.
 #pragma once
 
 #include <array>

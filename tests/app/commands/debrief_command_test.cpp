@@ -57,6 +57,7 @@ TEST_F(DebriefCommand, RefusesInOneLine) {
   expectRefusal(a + " " + at("left.molar") + out, "another case");
   write("a.bookmarks.json", "{\"molar_bookmarks\": 1, \"bookmarks\": 7}");
   expectRefusal(a + out, "a.bookmarks.json");
+  EXPECT_EQ(molar("report " + at("a.molar") + " --out " + at("r.html")).status, 0) << "a report shows no bookmarks";
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ struct Picture {
   haptics::Tick tick;
   haptics::Command command;
   HeadUp::Time now{};
-  bool ready = false;
+  bool ready = false, hints = true;
 
   Picture() { tick.dt_s = 0.001; }
   HeadUpContent at(milliseconds later, bool has_motors = false) {
-    return head_up.content({{tick, command, has_motors, false, {}, {}, {}}, 3.0, "", "", ready, {}, {}, {}},
+    return head_up.content({{tick, command, has_motors, false, {}, {}, {}}, 3.0, "", "", ready, {}, {}, {}, {}, hints},
                            now + later);
   }
 };
@@ -69,6 +69,9 @@ TEST(HeadUp, SaysHowToDrillWhereABurRestsOnBoneAndHasNeverTurned) {
   EXPECT_EQ(picture.at(milliseconds(0)).said, "") << "off the bone";
   picture.tick.depth_mm = 0.1;
   EXPECT_EQ(picture.at(milliseconds(0)).said, "hold Space to drill");
+  picture.hints = false;
+  EXPECT_EQ(picture.at(milliseconds(0)).said, "") << "nobody works, a recording is looked at";
+  picture.hints = true;
   EXPECT_EQ(picture.at(milliseconds(0), true).said, "") << "a device has a pedal or a button";
   picture.command.tool = haptics::elevatorTool(haptics::ElevatorKind::straight_301);
   EXPECT_EQ(picture.at(milliseconds(0)).said, "");

@@ -76,6 +76,20 @@ TEST(ClearanceMeasures, TellForceAndSpeedAtTheNearest) {
   EXPECT_EQ(named(values, "S1.canal_speed").unit, "mm/s");
 }
 
+TEST(ClearanceMeasures, TellNoSpeedOfABurThatHasJustBegunToTurn) {
+  const assets::RiskStructures risks = canalAndCrown();
+  ClearanceMeasures measures(risks);
+  haptics::Tick tick;
+  tick.dt_s = 0.001;
+  tick.drilling = true;
+  tick.proxy_P.mm = tick.hand.X_PT.translation_mm = {-8.0, 0.0, -6.0};
+  measures.add(tick, kRound);
+  const auto values = measures.values();
+  EXPECT_TRUE(named(values, "S1.canal").value);
+  EXPECT_FALSE(named(values, "S1.canal_speed").value);
+  EXPECT_EQ(named(values, "S1.canal_speed").why, "the bur had just begun to turn");
+}
+
 TEST(ClearanceMeasures, ARampOfFourMillimetresIsOneTwoAndFourSecondsInTheBands) {
   const assets::RiskStructures risks = canalAndCrown();
   Way way(risks);
