@@ -215,6 +215,8 @@ assets::ImportedScan importFile(const ImportOptions& options, nlohmann::json& re
 }
 
 assets::ImportedScan importAny(ImportOptions& options) {
+  std::optional<calibration::OutputFile> file;
+  if (!options.report.empty()) file.emplace(options.report, options.force);
   nlohmann::json report;
   StageClock clock;
   options.choices.stage = [&clock](std::string_view stage) { clock.begin(stage); };
@@ -222,7 +224,7 @@ assets::ImportedScan importAny(ImportOptions& options) {
     clock.end();
     if (report.is_null()) return;
     report["stages"] = clock.stages();
-    if (!options.report.empty()) calibration::OutputFile(options.report, options.force).commit(report.dump(2) + "\n");
+    if (file) file->commit(report.dump(2) + "\n");
   };
   const bool is_dicom = assets::isDicomSource(options.source);
   try {

@@ -254,6 +254,9 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
   const CanalProposal* const proposed = imported.jaw ? proposalFor(*imported.jaw, patient.site) : nullptr;
   if (proposed != nullptr) {
     patient.mandibular_canal_P_mm = proposed->line_P_mm;
+    patient.mandibular_canal_radius_mm = proposed->radius_mm;
+  } else if (imported.jaw) {
+    // What is labelled is the other side's proposal.
   } else if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
     patient.mandibular_canal_radius_mm = canal->radius_mm;

@@ -75,8 +75,8 @@ void fitPlane(const JawArch& arch, const std::array<bool, kArchBins>& bins, Bite
   }
   const double spread = yy - y_sum * y_sum / count;
   const double slope = spread > 1.0 ? (yz - y_sum * z_sum / count) / spread : 0.0;
-  sheet.front_z_P_mm = (z_sum - slope * y_sum) / count;
   sheet.slope = std::clamp(slope, -kSteepest, kSteepest);
+  sheet.front_z_P_mm = (z_sum - sheet.slope * y_sum) / count;
 }
 
 }  // namespace

@@ -157,16 +157,17 @@ std::vector<std::size_t> pathThrough(const HalfJaw& half, const EndPlaces& ends)
   return cheapestPath(half.grid.size, cost, body, ramus);
 }
 
-/// Means over neighbours along the line, its ends kept in place.
+/// Means over as many neighbours on either side, fewer towards the ends, which stay in place.
 Line smoothedLine(const Line& line, double sigma) {
   const int reach = static_cast<int>(3.0 * sigma) + 1, count = static_cast<int>(line.size());
   Line out;
   for (int p = 0; p < count; ++p) {
     glm::dvec3 sum(0.0);
     double weights = 0.0;
-    for (int d = -reach; d <= reach; ++d) {
+    const int own_reach = std::min({reach, p, count - 1 - p});
+    for (int d = -own_reach; d <= own_reach; ++d) {
       const double weight = std::exp(-0.5 * d * d / (sigma * sigma));
-      sum += weight * line[static_cast<std::size_t>(std::clamp(p + d, 0, count - 1))];
+      sum += weight * line[static_cast<std::size_t>(p + d)];
       weights += weight;
     }
     out.push_back(sum / weights);

@@ -1,8 +1,8 @@
 // A proposal for the mandibular canal of each side: the cheapest way through dark tubes (tubeness.h) inside the bone,
-// not through teeth and not along the surface, then centred on the darkness across it. Between its ends it follows the
-// canal; the ends, in the ramus above the bite and in the body below the premolars, are guesses of anatomy and may miss
-// by several millimetres. A person must confirm it before distances to it count. Frame P, mm. Any thread but the servo;
-// 3 s of CPU a side at 0.35 mm.
+// at a high cost through teeth and along the surface, then centred on the darkness across it. Between its ends it
+// follows the canal; the ends, in the ramus above the bite and in the body below the premolars, are guesses of anatomy
+// and may miss by several millimetres. A person must confirm it before distances to it count. Frame P, mm. Any thread
+// but the servo; 10 s for both sides at 0.35 mm on two cores.
 #pragma once
 
 #include <vector>
@@ -17,6 +17,7 @@ namespace assets {
 struct CanalProposal {
   bool is_right = true;
   std::vector<glm::dvec3> line_P_mm;  ///< about 1 mm apart, from the front
+  double radius_mm = 1.3;             ///< usual in the body of the jaw; not measured
 };
 
 /// Right, then left; a side without a way from end to end has none.

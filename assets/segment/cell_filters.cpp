@@ -22,7 +22,7 @@ std::vector<float> gaussianTaps(double sigma, int order) {
   const double variance = squares / sum, spread = fourths / sum - variance * variance;
   std::vector<float> taps;
   for (int d = -reach; d <= reach; ++d) {
-    const double factor = order == 0 ? 1.0 : order == 1 ? -d / variance : 2.0 * (d * d - variance) / spread;
+    const double factor = order == 0 ? 1.0 : order == 1 ? d / variance : 2.0 * (d * d - variance) / spread;
     taps.push_back(static_cast<float>(factor * weights[static_cast<std::size_t>(d + reach)] / sum));
   }
   return taps;

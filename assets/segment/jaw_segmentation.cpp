@@ -13,7 +13,6 @@ namespace assets {
 namespace {
 
 constexpr double kCell_mm = 0.7, kCellSmooth_mm = 0.6;
-constexpr double kCanalRadius_mm = 1.3;
 constexpr double kLeastLower_mm3 = 300.0, kLeastUpperRow_mm3 = 500.0, kLeastJaw_mm3 = 3000.0;
 
 JawSegmentation refused(JawRefusal refusal) {
@@ -46,20 +45,22 @@ void labelJaw(const VolumeGrid& scan, const Mandible& jaw, const ToothRegions& t
   const glm::ivec3 size = teeth.box.size(), first = jaw.first + teeth.box.low;
   forCells(size, [&](glm::ivec3 ijk, std::size_t n) {
     if (is_tooth[teeth.part[n]] == 0) return;
-    out.label[scan.index(first + ijk)] = tissue[n];
-    out.tooth[scan.index(first + ijk)] = fdi[teeth.part[n]];
+    const std::uint8_t number = fdi[teeth.part[n]];
+    // Tissues are those of a tooth with a number.
+    out.label[scan.index(first + ijk)] = number != 0 ? tissue[n] : static_cast<std::uint8_t>(Tissue::other_teeth);
+    out.tooth[scan.index(first + ijk)] = number;
   });
 }
 
 /// Bone within the canal's usual radius of its line.
 void labelCanal(const VolumeGrid& scan, const CanalProposal& canal, std::vector<std::uint8_t>& label) {
-  const int reach = static_cast<int>(std::ceil(kCanalRadius_mm / scan.spacing_mm)) + 1;
+  const int reach = static_cast<int>(std::ceil(canal.radius_mm / scan.spacing_mm)) + 1;
   for (const glm::dvec3& p : canal.line_P_mm) {
     const glm::ivec3 at(glm::floor(scan.indexFromPoint(p) + 0.5));
     forVoxels(glm::max(at - reach, glm::ivec3(0)), glm::min(at + reach + 1, scan.size), [&](glm::ivec3 ijk) {
       std::uint8_t& tissue = label[scan.index(ijk)];
       const bool is_bone = Tissue{tissue} == Tissue::cortical || Tissue{tissue} == Tissue::trabecular;
-      if (is_bone && glm::distance(scan.centre_P_mm(ijk), p) < kCanalRadius_mm)
+      if (is_bone && glm::distance(scan.centre_P_mm(ijk), p) < canal.radius_mm)
         tissue = static_cast<std::uint8_t>(Tissue::mandibular_canal);
     });
   }
@@ -108,10 +109,12 @@ JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_
     out.teeth = measuredTeeth(jaw, teeth, out.levels);
     numberTeeth(arch, out.teeth);
   }
+  if (auto refusal = judgeCount(out.teeth)) return refused(std::move(*refusal));
   begin("tissues");
   const std::vector<std::uint8_t> tissue = tissuesOfTeeth(jaw, teeth, out.levels);
   begin("canals");
   out.canals = proposeCanals(jaw, teeth, out.teeth, arch, sheet);
+  begin("labels");
   labelJaw(grid, jaw, teeth, tissue, out);
   for (const CanalProposal& canal : out.canals) labelCanal(grid, canal, out.label);
   return out;

@@ -39,10 +39,13 @@ std::optional<JawRefusal> judgeJaw(const VolumeGrid& jaw_box, const std::vector<
     return JawRefusal{"J3", "the dense pieces have no tooth's size (" + std::to_string(tooth_sized) + " of " + count +
                                 " have): metal or contrast"};
   if (up <= kCrownsDown) return upperArch();
-  if (teeth.size() > kMostTeeth)
-    return JawRefusal{"J3",
-                      "too many pieces for the teeth of one jaw (" + count + "): metal, contrast or a coarse scan"};
   return std::nullopt;
+}
+
+std::optional<JawRefusal> judgeCount(const std::vector<FoundTooth>& teeth) {
+  if (teeth.size() <= kMostTeeth) return std::nullopt;
+  return JawRefusal{"J3", "too many pieces for the teeth of one jaw (" + std::to_string(teeth.size()) +
+                              "): metal, contrast or a coarse scan"};
 }
 
 }  // namespace assets

@@ -20,5 +20,7 @@ JawRefusal upperArch();
 
 /// `teeth`: of at least 80 mm3. None: it may be a lower jaw.
 std::optional<JawRefusal> judgeJaw(const VolumeGrid& jaw_box, const std::vector<FoundTooth>& teeth);
+/// Once parts of one tooth are joined.
+std::optional<JawRefusal> judgeCount(const std::vector<FoundTooth>& teeth);
 
 }  // namespace assets

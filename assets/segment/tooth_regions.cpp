@@ -52,7 +52,9 @@ std::vector<float> thicknessOf(glm::ivec3 size, double spacing_mm, const CellMas
   CellMask outside(body.size());
   std::ranges::transform(body, outside.begin(), [](std::uint8_t in) -> std::uint8_t { return in == 0 ? 1 : 0; });
   std::vector<float> thickness = exactDistance_mm(size, spacing_mm, outside);
-  for (float& depth : thickness) depth = std::max(0.0F, depth);
+  // A body that fills the box has no outside.
+  const auto most_mm = static_cast<float>(spacing_mm * glm::length(glm::dvec3(size)));
+  for (float& depth : thickness) depth = std::clamp(depth, 0.0F, most_mm);
   smoothCells(size, kThicknessBlur_cells, thickness);
   return thickness;
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "assets/import/shading.h"
 #include "assets/scan/image_file.h"
 #include "assets/tissue.h"
 #include "tests/assets/segment/arch_phantom.h"

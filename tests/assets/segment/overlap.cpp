@@ -52,8 +52,9 @@ CanalMisses canalMisses(const assets::VolumeGrid& grid, const std::vector<std::u
     return best;
   };
   const auto truth = assets::mandibularCanalLine(grid, tissue, canal.line_P_mm[canal.line_P_mm.size() / 2]);
+  constexpr double kNoTruth_mm = 1e9;
+  if (!truth) return {kNoTruth_mm, kNoTruth_mm, kNoTruth_mm};
   CanalMisses misses;
-  if (!truth) return misses;
   for (const glm::dvec3& p : truth->line_P_mm) {
     const double away = nearest(canal.line_P_mm, p);
     misses.from_truth_mm += away / static_cast<double>(truth->line_P_mm.size());
