@@ -1,5 +1,8 @@
 #include "assets/segment/tooth_numbers.h"
 
+#include <algorithm>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "assets/segment/jaw_verdict.h"
