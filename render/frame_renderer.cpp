@@ -17,7 +17,7 @@
 namespace render {
 namespace {
 
-constexpr double kLegendLine = 0.023, kMaxLegendHeight = 0.3;  // of the viewer's screen
+constexpr double kLegendLine = 0.023, kMaxLegendHeight = 0.3, kLegendTop = 0.28;  // of the viewer's screen
 constexpr int kLeastLegendLine_px = 11;
 
 // Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.
@@ -117,7 +117,7 @@ std::optional<SlicePlane> FrameRenderer::sliceAt(const Frame& frame, const glm::
   return {};
 }
 
-// Slices in a column at the viewer's left, the legend at the lower right, upright for the viewer however the panel is
+// Slices in a column at the viewer's left, the legend at the right, upright for the viewer however the panel is
 // mounted.
 void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
   std::vector<Inset> insets;
@@ -142,8 +142,8 @@ void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
     PixelBox seen;
     seen.size_px = glm::max(glm::ivec2(glm::round(size_px)), 1);
     seen.corner_px = seen_px - seen.size_px - glm::ivec2(kInsetGap * per_height);
-    // Above the last line of text, which lies over the picture.
-    seen.corner_px.y -= static_cast<int>(0.06 * per_height.y);
+    // Between the lines of text that may lie at the upper and at the lower edge.
+    seen.corner_px.y = static_cast<int>(kLegendTop * per_height.y);
     if (glm::all(glm::greaterThanEqual(seen.corner_px, glm::ivec2(0)))) add(seen, clearanceLegend(line_px));
   }
   scene_->setInsets(std::move(insets));

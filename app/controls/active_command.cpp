@@ -1,6 +1,7 @@
 #include "app/controls/active_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/core.h>
@@ -134,7 +135,7 @@ void ActiveCommand::followStrokes(const haptics::Tick& newest) {
   line = moved ? line + (undoes ? " put back" : " moved again") : "";
   if (!moved || restored_mm3 != 0.0) {
     const double mm3 = undoes ? restored_mm3 : -restored_mm3;
-    line = (mm3 > 0.0 && mm3 < 0.05 ? "under 0.1 mm³" : fmt::format("{:.1f} mm³", mm3)) +
+    line = (std::abs(mm3) < 0.05 ? "under 0.1 mm³" : fmt::format("{:.1f} mm³", mm3)) +
            fmt::format(" {}{}{}", undoes ? "taken back" : "cut again", moved ? ", " : "", line);
   }
   line += undoes ? fmt::format(", {} left", strokes(newest.strokes))

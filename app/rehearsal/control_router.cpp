@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 
@@ -204,10 +205,13 @@ bool ControlRouter::scrollSlice(const render::WindowEvent& event, render::Frame&
 
 /// On a desk; with a measured rig the view is that of the eyes.
 void ControlRouter::changeView(const ControlRequest& request, render::Frame& frame) {
-  if (!plan_.view_can_turn || request.control < Control::magnify || request.control > Control::first_view) return;
+  if (request.control < Control::magnify || request.control > Control::first_view) return;
+  if (!plan_.view_can_turn) return head_up_.say("this view stays as it is: --loupes sets the loupes");
   if (request.control == Control::magnify) desk_view_.magnify(1);
   if (request.control == Control::shrink) desk_view_.magnify(-1);
   if (request.control == Control::first_view) desk_view_.backToFirst();
+  const bool as_at_first = std::abs(desk_view_.magnified() - 1.0) < 1e-9;
+  head_up_.say(as_at_first ? "loupes as at first" : fmt::format("loupes {:.1f} x the first", desk_view_.magnified()));
   showDeskView(frame);
 }
 

@@ -1,5 +1,7 @@
 #include "app/rehearsal/step_follower.h"
 
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "app/session/measures/clearance_measures.h"
@@ -105,8 +107,9 @@ void StepFollower::finish() {
 
 void StepFollower::tell() {
   for (const std::string& event : tracker_.takeEvents()) event_log_.note(kStepEvent, event);
-  std::string given;
-  for (const std::string& one : tracker_.takeGiven()) given += (given.empty() ? "" : "; ") + one;
+  std::string given, before;
+  for (const std::string& one : tracker_.takeGiven())
+    if (one != std::exchange(before, one)) given += (given.empty() ? "" : "; ") + one;
   if (tracker_.current() == told_) return;
   told_ = tracker_.current();
   if (plan_.procedure_steps->guidance != Guidance::guided) return;

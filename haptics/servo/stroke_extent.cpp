@@ -7,7 +7,13 @@ namespace haptics {
 void StrokeExtent::begin(const calibration::Point<calibration::Patient>& at_P) noexcept {
   open_ = true;
   start_P_ = turn_P_ = at_P;
-  time_s_ = volume_mm3_ = furthest_mm_ = 0.0;
+  time_s_ = furthest_mm_ = 0.0;
+}
+
+bool StrokeExtent::ends() noexcept {
+  if (volume_mm3_ < kSmallest_mm3) return false;
+  volume_mm3_ = 0.0;
+  return true;
 }
 
 bool StrokeExtent::endsAt(bool cutting, const calibration::Point<calibration::Patient>& bur_P, double removed_mm3,
@@ -20,7 +26,7 @@ bool StrokeExtent::endsAt(bool cutting, const calibration::Point<calibration::Pa
   const double half_tick_s = 0.5 * dt_s;
   if (pause_s_ > kPause_s - half_tick_s) {
     open_ = false;
-    return true;
+    return ends();
   }
   // The way through the air to the next place is no reversal.
   if (!cutting) return false;
@@ -29,11 +35,11 @@ bool StrokeExtent::endsAt(bool cutting, const calibration::Point<calibration::Pa
   if (reach_mm > furthest_mm_) furthest_mm_ = reach_mm, turn_P_ = bur_P;
   if (furthest_mm_ - reach_mm >= kReversal_mm) {
     begin(turn_P_);
-    return true;
+    return ends();
   }
   if (time_s_ <= kLongest_s - half_tick_s && volume_mm3_ < kLargest_mm3) return false;
   begin(bur_P);
-  return true;
+  return ends();
 }
 
 }  // namespace haptics

@@ -436,6 +436,26 @@ TEST(StrokeExtent, EndsAtAReversalOfOneMillimetreThreeSecondsOrFiveCubicMillimet
   }
 }
 
+TEST(StrokeExtent, WhatRemovesHardlyAnythingGoesOnWithTheNext) {
+  for (const double dt_s : {2e-3, 1e-3, 2.5e-4}) {
+    // 0.01 mm³ a pass: five of them are one.
+    const std::pair<glm::dvec3, double> out{{2.0, 0.0, 0.0}, 0.5}, home{{0.0, 0.0, 0.0}, 0.5};
+    EXPECT_EQ(strokesOf({out, home, out, home, out}, 0.02, dt_s), 0);
+    EXPECT_EQ(strokesOf({out, home, out, home, out, home, out}, 0.02, dt_s), 1);
+    // A touch, a pause, and a touch again.
+    StrokeExtent extent;
+    const auto touch = [&](double removed_mm3) {
+      int ends = extent.endsAt(true, {glm::dvec3(0.0)}, removed_mm3, dt_s) ? 1 : 0;
+      for (int n = 0; n < static_cast<int>(0.5 / dt_s); ++n)
+        ends += extent.endsAt(false, {glm::dvec3(0.0)}, 0.0, dt_s) ? 1 : 0;
+      return ends;
+    };
+    EXPECT_EQ(touch(0.03), 0);
+    EXPECT_EQ(touch(0.03), 1);
+    EXPECT_EQ(touch(0.03), 0);
+  }
+}
+
 TEST(StrokeUndo, ATroughOnOnePedalIsManyStrokes) {
   Room room;
   room.go({-2.0, 0.0, 1.2}, 0.1);
