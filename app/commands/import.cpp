@@ -15,6 +15,7 @@
 #include "app/commands/dicom_options.h"
 #include "app/commands/dicom_report.h"
 #include "app/commands/segmenter.h"
+#include "app/options/jaw_clicks_file.h"
 #include "app/session/data_folder.h"
 #include "app/station/patient_list.h"
 #include "app/text/command_line.h"
@@ -34,7 +35,7 @@ namespace app {
 namespace {
 
 struct ImportOptions {
-  std::string source, out, window, scale, report, label_set, segment_with;
+  std::string source, out, window, scale, report, label_set, segment_with, clicks;
   DicomOptions dicom;
   assets::ScanImportOptions choices;
   bool force = false;
@@ -183,9 +184,20 @@ nlohmann::json jsonOf(const assets::FoundJaw& jaw) {
   nlohmann::json teeth = nlohmann::json::array();
   for (const assets::FoundTooth& tooth : jaw.teeth)
     teeth.push_back({{"fdi", tooth.fdi == 0 ? nlohmann::json(nullptr) : nlohmann::json(tooth.fdi)},
+                     {"confirmed", tooth.told_fdi != 0},
                      {"volume_mm3", tooth.volume_mm3},
                      {"centre_P_mm", {tooth.centre_P_mm.x, tooth.centre_P_mm.y, tooth.centre_P_mm.z}}});
-  return {{"cortical_hu", jaw.levels.cortical_hu}, {"dentine_hu", jaw.levels.dentine_hu}, {"teeth", teeth}};
+  nlohmann::json canals = nlohmann::json::array();
+  for (const assets::CanalProposal& canal : jaw.canals) {
+    nlohmann::json line = nlohmann::json::array();
+    for (const glm::dvec3& p : canal.line_P_mm) line.push_back({p.x, p.y, p.z});
+    canals.push_back(
+        {{"side", canal.is_right ? "right" : "left"}, {"confirmed", canal.is_confirmed}, {"line_P_mm", line}});
+  }
+  return {{"cortical_hu", jaw.levels.cortical_hu},
+          {"dentine_hu", jaw.levels.dentine_hu},
+          {"teeth", teeth},
+          {"canals", canals}};
 }
 
 /// A DICOM source is surveyed before; its path may name a person and is said nowhere. The report is written whether it
@@ -255,6 +267,7 @@ int import(ImportOptions options) {
       return segmenter->labels(grid, grey);
     };
   }
+  if (!options.clicks.empty()) options.choices.clicks = readJawClicks(options.clicks);
   if (!options.scale.empty()) options.choices.scale = scaleOf(options.scale);
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
   const bool has_no_place = options.out.empty();
@@ -318,6 +331,10 @@ void addImport(CommandLine& molar) {
   command.flag("--force", options->force, "Replace the patient folder if it exists");
   command.flag("--grey-only", options->choices.grey_only,
                "Without labels: tissues by grey value alone, teeth are not looked for");
+  command
+      .option("--clicks", options->clicks,
+              "JSON of what a person sees better: canal ends, numbers, teeth to join or divide (see README)")
+      .valueNamed("FILE");
   command
       .option("--json", options->report,
               "What the source holds, what was found and said, seconds by stage: to this file")

@@ -177,11 +177,11 @@ bool isToSegment(const Volume& volume, const ScanImportOptions& options) {
 }
 
 /// Jaw and teeth of a scan without labels; hard tissue elsewhere by grey value.
-FoundJaw findJaw(const std::string& name, const ReportStage& stage, CtVolume& ct) {
-  if (stage) stage("shading");
+FoundJaw findJaw(const std::string& name, const ScanImportOptions& options, CtVolume& ct) {
+  if (options.stage) options.stage("shading");
   std::vector<std::int16_t> flat = ct.hounsfield;
   flattenShading(ct.grid, flat);
-  JawSegmentation found = segmentJaw(ct.grid, flat, stage);
+  JawSegmentation found = segmentJaw(ct.grid, flat, options.stage, options.clicks);
   if (found.refusal) throw JawRefused(name, *found.refusal);
   ct.label = labelsFromGrey(ct.grid, ct.hounsfield);
   for (std::size_t v = 0; v < ct.label.size(); ++v) {
@@ -201,16 +201,23 @@ const CanalProposal* proposalFor(const FoundJaw& jaw, const std::optional<Operat
   return nullptr;
 }
 
+/// Whether a person gave the tooth its number.
+bool isTold(const FoundJaw& jaw, int fdi) {
+  return std::ranges::any_of(jaw.teeth, [fdi](const FoundTooth& tooth) { return tooth.told_fdi == fdi; });
+}
+
 /// What a person must see before it counts.
-void remarkProposals(const Patient& patient, const FoundJaw& jaw, std::vector<std::string>& remarks) {
-  const std::string tooth = patient.site ? "tooth " + std::to_string(patient.site->fdi) : "";
-  const std::string canal = patient.mandibular_canal_P_mm.empty() ? "" : "the mandibular canal";
+void remarkProposals(const Patient& patient, const FoundJaw& jaw, const CanalProposal* proposed,
+                     std::vector<std::string>& remarks) {
+  const std::string tooth =
+      patient.site && !isTold(jaw, patient.site->fdi) ? "tooth " + std::to_string(patient.site->fdi) : "";
+  const std::string canal = proposed != nullptr && !proposed->is_confirmed ? "the mandibular canal" : "";
   const std::string what = tooth + (tooth.empty() || canal.empty() ? "" : " and ") + canal;
   if (!what.empty())
     remarks.push_back(what + " " + (tooth.empty() || canal.empty() ? "was" : "were") +
                       " found by the program and not confirmed: look at them before a figure counts, then set "
                       "confirmed = true in its patient.toml");
-  if (canal.empty()) remarks.push_back("no mandibular canal was found on the side of the site");
+  if (proposed == nullptr) remarks.push_back("no mandibular canal was found on the side of the site");
   const auto spare = std::ranges::count(jaw.teeth, 0, &FoundTooth::fdi);
   if (spare > 0)
     remarks.push_back(std::to_string(spare) + (spare == 1 ? " dense piece fits" : " dense pieces fit") +
@@ -232,6 +239,8 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, options.classification);
   const glm::dvec3 centroid_P_mm = centroidOfSolid(patient.ct, volume.name, options.classification.iso_hu);
 
+  if (!options.clicks.isEmpty() && !isToSegment(volume, options))
+    throw LoadError(volume.name + ": clicks change what is found in a whole scan without labels; leave --clicks out");
   const std::optional<std::string> foreign =
       options.segment ? std::optional(options.segment(patient.ct.grid, patient.ct.hounsfield)) : options.labels;
   Tissues tissues = Tissues::labelled;
@@ -240,7 +249,7 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
     for (std::string& remark : takeForeignLabels(*foreign, table, patient.ct))
       imported.remarks.push_back(std::move(remark));
   } else if (isToSegment(volume, options)) {
-    imported.jaw = findJaw(volume.name, options.stage, patient.ct);
+    imported.jaw = findJaw(volume.name, options, patient.ct);
   } else {
     tissues = readTissues(volume.labels, volume.name, patient.ct, imported.remarks);
   }
@@ -261,8 +270,11 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
     patient.mandibular_canal_radius_mm = canal->radius_mm;
   }
-  patient.is_proposed = imported.jaw && (patient.site || !patient.mandibular_canal_P_mm.empty());
-  if (imported.jaw) remarkProposals(patient, *imported.jaw, imported.remarks);
+  if (imported.jaw) {
+    patient.is_proposed =
+        (patient.site && !isTold(*imported.jaw, patient.site->fdi)) || (proposed != nullptr && !proposed->is_confirmed);
+    remarkProposals(patient, *imported.jaw, proposed, imported.remarks);
+  }
   if (patient.site) {
     patient.jaw_P_mm = patient.site->centre_P_mm;
     patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")";

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
+#include "assets/load_error.h"
 #include "assets/scan/exact_distance.h"
 #include "assets/segment/cell_filters.h"
 #include "assets/segment/cheapest_path.h"
@@ -19,6 +22,7 @@ constexpr double kEndSlab_mm = 2.5, kRamusOverBite_mm = 2.0, kBehindShare = 0.75
 constexpr std::size_t kEndCells = 60, kLeastBoneCells = 1000;
 constexpr double kDisc_mm = 1.8, kStep_mm = 1.0, kLeastCanal_mm = 15.0;
 constexpr int kCentrings = 3;
+constexpr double kAroundClicks_mm = 8.0, kOffBone_mm = 2.0;
 
 using Line = std::vector<glm::dvec3>;
 
@@ -46,8 +50,9 @@ struct HalfJaw {
   }
 };
 
-HalfJaw halfOf(const Mandible& jaw, const ToothRegions& teeth, const JawArch& arch, const BiteSheet& sheet,
-               bool is_right) {
+/// Cells of the jaw on one side.
+CellBox boxOfHalf(const CanalScene& scene, bool is_right) {
+  const auto& [jaw, teeth, arch, sheet] = scene;
   const VolumeGrid& grid = jaw.grid;
   const int middle = static_cast<int>(std::lround(grid.indexFromPoint(glm::dvec3(arch.centre_P_mm, 0.0)).x));
   const int over = static_cast<int>(kOverMiddle_mm / grid.spacing_mm);
@@ -58,6 +63,14 @@ HalfJaw halfOf(const Mandible& jaw, const ToothRegions& teeth, const JawArch& ar
   is_right ? box.end.x = std::clamp(middle + over, 0, grid.size.x)
            : box.low.x = std::clamp(middle - over, 0, grid.size.x);
   box.end.z = std::clamp(top, 0, grid.size.z);
+  return box;
+}
+
+enum class Ends { guessed, clicked };
+
+HalfJaw halfIn(const CanalScene& scene, const CellBox& box, Ends ends) {
+  const auto& [jaw, teeth, arch, sheet] = scene;
+  const VolumeGrid& grid = jaw.grid;
   HalfJaw half;
   half.grid = {glm::max(box.size(), glm::ivec3(0)), grid.spacing_mm, grid.centre_P_mm(box.low)};
   if (box.isEmpty()) return half;
@@ -68,13 +81,15 @@ HalfJaw halfOf(const Mandible& jaw, const ToothRegions& teeth, const JawArch& ar
     const glm::ivec3 at = teeth.box.low + ijk - box.low;
     if (teeth.part[n] != 0 && half.grid.contains(at)) half.tooth[half.grid.index(at)] = 1;
   });
-  // The bone's surface and the teeth are equally far: along a root the ligament is a dark sheet.
+  // A proposal keeps off teeth as off the bone's surface: along a root the ligament is a dark sheet. Between the ends
+  // of a canal that a person knows its roots may touch it.
   CellMask barred(half.solid.size());
-  for (std::size_t n = 0; n < barred.size(); ++n) barred[n] = half.solid[n] == 0 || half.tooth[n] != 0 ? 1 : 0;
+  for (std::size_t n = 0; n < barred.size(); ++n)
+    barred[n] = half.solid[n] == 0 || (ends == Ends::guessed && half.tooth[n] != 0) ? 1 : 0;
   const std::vector<float> depth_mm = exactDistance_mm(size, grid.spacing_mm, barred);
   half.may_hold.resize(half.solid.size());
   for (std::size_t n = 0; n < barred.size(); ++n)
-    half.may_hold[n] = static_cast<double>(depth_mm[n]) > kInside_mm ? 1 : 0;
+    half.may_hold[n] = static_cast<double>(depth_mm[n]) > kInside_mm && half.tooth[n] == 0 ? 1 : 0;
   if (!half.isUsable()) return half;
 
   half.smooth_hu = croppedTo(box, grid.size, jaw.hounsfield);
@@ -123,6 +138,16 @@ struct EndPlaces {
   std::optional<double> front_j{};  ///< of the mental foramen
 };
 
+/// What a step through each cell costs.
+std::vector<float> costOf(const HalfJaw& half, Ends ends) {
+  // Where a person gave the ends, a detour through marrow is worse than a stretch that hardly looks like canal.
+  const float least = ends == Ends::guessed ? 0.03F : 0.25F;
+  std::vector<float> cost(half.score.size(), 0.0F);
+  for (std::size_t n = 0; n < cost.size(); ++n)
+    if (half.solid[n] != 0) cost[n] = half.may_hold[n] != 0 ? least + std::exp(-2.2F * half.score[n]) : 6.0F;
+  return cost;
+}
+
 /// From the body to the ramus; none without both.
 std::vector<std::size_t> pathThrough(const HalfJaw& half, const EndPlaces& ends) {
   const double spacing_mm = half.grid.spacing_mm;
@@ -151,10 +176,7 @@ std::vector<std::size_t> pathThrough(const HalfJaw& half, const EndPlaces& ends)
   const auto body = bestCells(half, [&](glm::ivec3 p) { return std::abs(p.y - front) < slab && p.z < body_k; });
   if (ramus.empty() || body.empty()) return {};
 
-  std::vector<float> cost(half.score.size(), 0.0F);
-  for (std::size_t n = 0; n < cost.size(); ++n)
-    if (half.solid[n] != 0) cost[n] = half.may_hold[n] != 0 ? 0.03F + std::exp(-2.2F * half.score[n]) : 6.0F;
-  return cheapestPath(half.grid.size, cost, body, ramus);
+  return cheapestPath(half.grid.size, costOf(half, Ends::guessed), body, ramus);
 }
 
 /// Means over as many neighbours on either side, fewer towards the ends, which stay in place.
@@ -229,27 +251,106 @@ Line spacedEvenly(const Line& line) {
   return length_mm < kLeastCanal_mm ? Line{} : out;
 }
 
+/// Cells of a way, centred, as points a step apart in P.
+Line lineThrough(const HalfJaw& half, const std::vector<std::size_t>& way) {
+  Line line;
+  for (const std::size_t cell : way) line.emplace_back(elementAt(half.grid.size, cell));
+  if (line.size() < 2) return {};
+  centre(half, line);
+  for (glm::dvec3& p : line) p = half.grid.origin_P_mm + half.grid.spacing_mm * p;
+  return spacedEvenly(line);
+}
+
+std::optional<CanalProposal> proposedCanal(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
+                                           bool is_right) {
+  const HalfJaw half = halfIn(scene, boxOfHalf(scene, is_right), Ends::guessed);
+  if (half.score.empty()) return std::nullopt;
+  const VolumeGrid& grid = half.grid;
+  const double middle_P_mm = scene.arch.centre_P_mm.y - 20.0;
+  EndPlaces ends{(scene.sheet.planeHeight_P_mm(scene.arch, middle_P_mm) - grid.origin_P_mm.z) / grid.spacing_mm,
+                 scene.sheet.slope, (middle_P_mm - grid.origin_P_mm.y) / grid.spacing_mm,
+                 frontEnd_P_mm(teeth, is_right)};
+  if (ends.front_j) ends.front_j = (*ends.front_j - grid.origin_P_mm.y) / grid.spacing_mm;
+  CanalProposal canal;
+  canal.is_right = is_right;
+  canal.line_P_mm = lineThrough(half, pathThrough(half, ends));
+  return canal.line_P_mm.size() >= 2 ? std::optional(std::move(canal)) : std::nullopt;
+}
+
+[[noreturn]] void refuseClicks(bool is_right, const std::string& why) {
+  throw LoadError(std::string("clicks: canal on the ") + (is_right ? "right: " : "left: ") + why);
+}
+
+/// The jaw's cell that is nearest to a click.
+std::optional<std::size_t> boneAt(const HalfJaw& half, const glm::dvec3& p_P_mm) {
+  const glm::dvec3 at = half.grid.indexFromPoint(p_P_mm);
+  const double reach = kOffBone_mm / half.grid.spacing_mm;
+  const glm::ivec3 low = glm::clamp(glm::ivec3(glm::ceil(at - reach)), glm::ivec3(0), half.grid.size),
+                   end = glm::clamp(glm::ivec3(glm::floor(at + reach)) + 1, glm::ivec3(0), half.grid.size);
+  std::optional<std::size_t> nearest;
+  double least = reach;
+  forVoxels(low, end, [&](glm::ivec3 ijk) {
+    const double away = glm::distance(glm::dvec3(ijk), at);
+    const std::size_t cell = half.grid.index(ijk);
+    if (half.solid[cell] != 0 && away <= least) least = away, nearest = cell;
+  });
+  return nearest;
+}
+
+CanalProposal clickedCanal(const CanalScene& scene, const Line& clicks, bool is_right) {
+  const VolumeGrid& grid = scene.jaw.grid;
+  glm::dvec3 low_P_mm = clicks.front(), high_P_mm = clicks.front();
+  for (const glm::dvec3& p : clicks) low_P_mm = glm::min(low_P_mm, p), high_P_mm = glm::max(high_P_mm, p);
+  const glm::dvec3 far = glm::dvec3(grid.size) + 1e3;
+  const auto cell_at = [&](const glm::dvec3& p_P_mm) {
+    return glm::ivec3(glm::clamp(glm::floor(grid.indexFromPoint(p_P_mm)), -far, far));
+  };
+  const CellBox around =
+      CellBox{cell_at(low_P_mm - kAroundClicks_mm), cell_at(high_P_mm + kAroundClicks_mm) + 2}.grown(0, grid.size);
+  if (around.isEmpty()) refuseClicks(is_right, "its points lie outside the lower jaw");
+  const HalfJaw half = halfIn(scene, around, Ends::clicked);
+  if (half.score.empty()) refuseClicks(is_right, "there is hardly any bone between its points");
+  std::vector<std::size_t> stops;
+  for (std::size_t n = 0; n < clicks.size(); ++n) {
+    const auto cell = boneAt(half, clicks[n]);
+    if (!cell) refuseClicks(is_right, "point " + std::to_string(n + 1) + " lies more than 2 mm off the lower jaw");
+    stops.push_back(*cell);
+  }
+  const std::vector<float> cost = costOf(half, Ends::clicked);
+  std::vector<std::size_t> way{stops.front()};
+  for (std::size_t n = 1; n < stops.size(); ++n) {
+    const std::vector<std::size_t> next =
+        cheapestPath(half.grid.size, cost, std::span(&stops[n - 1], 1), std::span(&stops[n], 1));
+    if (next.empty()) refuseClicks(is_right, "no way through bone joins its points");
+    way.insert(way.end(), next.begin() + 1, next.end());
+  }
+  CanalProposal canal;
+  canal.is_right = is_right;
+  canal.is_confirmed = true;
+  canal.line_P_mm = lineThrough(half, way);
+  if (canal.line_P_mm.size() < 2) refuseClicks(is_right, "it is shorter than 15 mm, click both of its ends");
+  if (canal.line_P_mm.front().y > canal.line_P_mm.back().y) std::ranges::reverse(canal.line_P_mm);
+  return canal;
+}
+
 }  // namespace
 
-std::vector<CanalProposal> proposeCanals(const Mandible& jaw, const ToothRegions& regions,
-                                         const std::vector<FoundTooth>& teeth, const JawArch& arch,
-                                         const BiteSheet& sheet) {
+std::vector<CanalProposal> canalsOf(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
+                                    std::span<const std::vector<glm::dvec3>> clicks) {
   std::vector<CanalProposal> canals;
   for (const bool is_right : {true, false}) {
-    const HalfJaw half = halfOf(jaw, regions, arch, sheet, is_right);
-    if (half.score.empty()) continue;
-    const VolumeGrid& grid = half.grid;
-    const double middle_P_mm = arch.centre_P_mm.y - 20.0;
-    EndPlaces ends{(sheet.planeHeight_P_mm(arch, middle_P_mm) - grid.origin_P_mm.z) / grid.spacing_mm, sheet.slope,
-                   (middle_P_mm - grid.origin_P_mm.y) / grid.spacing_mm, frontEnd_P_mm(teeth, is_right)};
-    if (ends.front_j) ends.front_j = (*ends.front_j - grid.origin_P_mm.y) / grid.spacing_mm;
-    Line line;
-    for (const std::size_t cell : pathThrough(half, ends)) line.emplace_back(elementAt(grid.size, cell));
-    if (line.size() < 2) continue;
-    centre(half, line);
-    for (glm::dvec3& p : line) p = half.grid.origin_P_mm + half.grid.spacing_mm * p;
-    line = spacedEvenly(line);
-    if (line.size() >= 2) canals.push_back({is_right, std::move(line)});
+    const Line* clicked = nullptr;
+    for (const Line& line : clicks) {
+      double x_P_mm = 0.0;
+      for (const glm::dvec3& p : line) x_P_mm += p.x / static_cast<double>(line.size());
+      if ((x_P_mm < scene.arch.centre_P_mm.x) != is_right) continue;
+      if (clicked != nullptr) refuseClicks(is_right, "it is clicked twice");
+      clicked = &line;
+    }
+    if (clicked != nullptr)
+      canals.push_back(clickedCanal(scene, *clicked, is_right));
+    else if (auto canal = proposedCanal(scene, teeth, is_right))
+      canals.push_back(std::move(*canal));
   }
   return canals;
 }

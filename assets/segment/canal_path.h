@@ -2,9 +2,11 @@
 // at a high cost through teeth and along the surface, then centred on the darkness across it. Between its ends it
 // follows the canal; the ends, in the ramus above the bite and in the body below the premolars, are guesses of anatomy
 // and may miss by several millimetres. A person must confirm it before distances to it count. Frame P, mm. Any thread
-// but the servo; 10 s for both sides at 0.35 mm on two cores.
+// but the servo; 10 s for both sides at 0.35 mm on two cores. Where a person has clicked both ends (and points between)
+// the way leads through those places instead: then only its course is computed.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "assets/segment/bite_sheet.h"
@@ -18,11 +20,21 @@ struct CanalProposal {
   bool is_right = true;
   std::vector<glm::dvec3> line_P_mm;  ///< about 1 mm apart, from the front
   double radius_mm = 1.3;             ///< usual in the body of the jaw; not measured
+  bool is_confirmed = false;          ///< a person gave its ends
 };
 
-/// Right, then left; a side without a way from end to end has none.
-std::vector<CanalProposal> proposeCanals(const Mandible& jaw, const ToothRegions& regions,
-                                         const std::vector<FoundTooth>& teeth, const JawArch& arch,
-                                         const BiteSheet& sheet);
+/// What a canal is looked for in.
+struct CanalScene {
+  const Mandible& jaw;
+  const ToothRegions& regions;
+  const JawArch& arch;
+  const BiteSheet& sheet;
+};
+
+/// Right, then left; a side without a way from end to end has none. `clicks`: of each canal that a person has clicked,
+/// from one end to the other. Throws LoadError for clicks off the bone, on a side that was clicked before, or nearer
+/// than 15 mm.
+std::vector<CanalProposal> canalsOf(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
+                                    std::span<const std::vector<glm::dvec3>> clicks);
 
 }  // namespace assets

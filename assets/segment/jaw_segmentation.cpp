@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assets/segment/cell_filters.h"
+#include "assets/segment/edited_teeth.h"
 #include "assets/segment/tooth_regions.h"
 #include "assets/segment/tooth_surface.h"
 #include "assets/segment/tooth_tissue.h"
@@ -73,7 +74,7 @@ bool canHoldJaw(const VolumeGrid& grid) {
 }
 
 JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                           const ReportStage& report) {
+                           const ReportStage& report, const JawClicks& clicks) {
   const auto begin = [&](std::string_view stage) {
     if (report) report(stage);
   };
@@ -100,20 +101,25 @@ JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_
   out.levels = greyLevelsOf(jaw, sheet);
   begin("teeth");
   ToothRegions teeth = findToothRegions(jaw, out.levels);
+  const ToldParts told = editTeeth(jaw, out.levels, clicks.teeth, teeth);
   begin("tooth surfaces");
   moveToEdges(jaw, teeth);
-  out.teeth = measuredTeeth(jaw, teeth, out.levels);
+  const auto measure = [&] {
+    out.teeth = measuredTeeth(jaw, teeth, out.levels);
+    told.tell(out.teeth);
+  };
+  measure();
   if (auto refusal = judgeJaw(jaw.grid, out.teeth)) return refused(std::move(*refusal));
   numberTeeth(arch, out.teeth);
   if (joinSpareParts(jaw, out.teeth, teeth)) {
-    out.teeth = measuredTeeth(jaw, teeth, out.levels);
+    measure();
     numberTeeth(arch, out.teeth);
   }
   if (auto refusal = judgeCount(out.teeth)) return refused(std::move(*refusal));
   begin("tissues");
   const std::vector<std::uint8_t> tissue = tissuesOfTeeth(jaw, teeth, out.levels);
   begin("canals");
-  out.canals = proposeCanals(jaw, teeth, out.teeth, arch, sheet);
+  out.canals = canalsOf({jaw, teeth, arch, sheet}, out.teeth, clicks.canals);
   begin("labels");
   labelJaw(grid, jaw, teeth, tissue, out);
   for (const CanalProposal& canal : out.canals) labelCanal(grid, canal, out.label);

@@ -13,6 +13,7 @@
 
 #include "assets/segment/canal_path.h"
 #include "assets/segment/grey_levels.h"
+#include "assets/segment/jaw_clicks.h"
 #include "assets/segment/jaw_verdict.h"
 #include "assets/segment/tooth_numbers.h"
 #include "assets/volume_grid.h"
@@ -35,7 +36,8 @@ using ReportStage = std::function<void(std::string_view stage)>;
 inline constexpr double kLeastJaw_mm = 35.0;
 bool canHoldJaw(const VolumeGrid& grid);
 
+/// Throws LoadError of one line for clicks that do not fit what was found.
 JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                           const ReportStage& report = {});
+                           const ReportStage& report = {}, const JawClicks& clicks = {});
 
 }  // namespace assets

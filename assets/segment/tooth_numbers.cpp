@@ -14,7 +14,7 @@ constexpr std::array<double, 9> kWidth_mm = {0.0, 5.0, 5.5, 7.0, 7.0, 7.0, 11.0,
 constexpr std::array<double, 9> kVolume_mm3 = {0.0, 260.0, 290.0, 440.0, 430.0, 480.0, 980.0, 940.0, 800.0};
 constexpr double kVolumeSpread = 0.35, kThirdMolarSpread = 0.5;  ///< of its logarithm
 constexpr double kMissing = 2.0, kMissingAtEnd = 0.5, kSpare = 4.0, kCrumbSpare = 1.5, kSpareCrumb_mm3 = 150.0;
-constexpr double kMostMisfit = 12.0, kLeastContact_mm2 = 3.0;
+constexpr double kMostMisfit = 12.0, kAgainstAPerson = 1e6, kLeastContact_mm2 = 3.0;
 
 /// Place 0 is 48, 7 is 41, 8 is 31, 15 is 38.
 constexpr int fdiAt(int place) { return place < 8 ? 48 - place : 23 + place; }
@@ -56,6 +56,7 @@ class Misfit {
   }
 
   double ofPlace(std::size_t tooth, int place) const {
+    if (const int told = teeth_[tooth].told_fdi; told != 0) return told == fdiAt(place) ? 0.0 : kAgainstAPerson;
     const std::size_t position = positionAt(place);
     const double spread = position == 8 ? kThirdMolarSpread : kVolumeSpread;
     const double size = squareHalved(std::log(teeth_[tooth].volume_mm3 / kVolume_mm3[position]) / spread);
@@ -84,7 +85,10 @@ class Misfit {
       cost += positionAt(place) == 8 ? 0.0 : kMissingAtEnd;
     return cost;
   }
-  double ofSpare(std::size_t tooth) const { return teeth_[tooth].volume_mm3 < kSpareCrumb_mm3 ? kCrumbSpare : kSpare; }
+  double ofSpare(std::size_t tooth) const {
+    if (teeth_[tooth].told_fdi != 0) return kAgainstAPerson;
+    return teeth_[tooth].volume_mm3 < kSpareCrumb_mm3 ? kCrumbSpare : kSpare;
+  }
 
  private:
   const JawArch& arch_;
@@ -114,7 +118,11 @@ std::vector<FoundTooth> measuredTeeth(const Mandible& jaw, const ToothRegions& r
   for (int part = 1; part <= regions.count; ++part) {
     const Sums& sum = sums[static_cast<std::size_t>(part)];
     if (sum.count * voxel_mm3 < kLeastTooth_mm3) continue;
-    FoundTooth tooth{part, sum.count * voxel_mm3, sum.all / sum.count, sum.high - sum.low, glm::dvec3(0.0), 0};
+    FoundTooth tooth;
+    tooth.part = part;
+    tooth.volume_mm3 = sum.count * voxel_mm3;
+    tooth.centre_P_mm = sum.all / sum.count;
+    tooth.extent_mm = sum.high - sum.low;
     if (sum.enamel_count * voxel_mm3 > kLeastCrown_mm3)
       tooth.crown_P_mm = sum.enamel / sum.enamel_count - tooth.centre_P_mm;
     found.push_back(tooth);
@@ -154,6 +162,13 @@ void numberTeeth(const JawArch& arch, std::vector<FoundTooth>& teeth) {
     teeth[t].fdi = fdiAt(at.place);
     at = ways[t][static_cast<std::size_t>(at.place)];
   }
+  // Numbers out of their order along the arch, or of upper teeth, are a person's too.
+  for (FoundTooth& tooth : teeth) {
+    if (tooth.told_fdi == 0) continue;
+    for (FoundTooth& other : teeth)
+      if (other.fdi == tooth.told_fdi) other.fdi = 0;
+    tooth.fdi = tooth.told_fdi;
+  }
 }
 
 bool joinSpareParts(const Mandible& jaw, const std::vector<FoundTooth>& teeth, ToothRegions& regions) {
@@ -171,7 +186,7 @@ bool joinSpareParts(const Mandible& jaw, const std::vector<FoundTooth>& teeth, T
   const double least_faces = kLeastContact_mm2 / (jaw.grid.spacing_mm * jaw.grid.spacing_mm);
   bool has_joined = false;
   for (const FoundTooth& spare : teeth) {
-    if (spare.fdi != 0) continue;
+    if (spare.fdi != 0 || spare.is_apart) continue;
     const FoundTooth* owner = nullptr;
     std::size_t most = static_cast<std::size_t>(least_faces);
     const auto row = static_cast<std::size_t>(spare.part) * parts;

@@ -19,12 +19,14 @@ struct FoundTooth {
   glm::dvec3 centre_P_mm{0.0}, extent_mm{0.0};
   glm::dvec3 crown_P_mm{0.0};  ///< from the centre to that of the enamel; zero without enamel
   int fdi = 0;                 ///< 0: none
+  int told_fdi = 0;            ///< a person gave it this number
+  bool is_apart = false;       ///< a person said that it is a tooth of its own
 };
 
 /// Parts of at least 80 mm3, without numbers; by part.
 std::vector<FoundTooth> measuredTeeth(const Mandible& jaw, const ToothRegions& regions, const GreyLevels& levels);
 
-/// Sets the numbers; sorts from the right to the left along the arch.
+/// Sets the numbers, those that a person gave first of all; sorts from the right to the left along the arch.
 void numberTeeth(const JawArch& arch, std::vector<FoundTooth>& teeth);
 
 /// Whether the regions have changed: the teeth are to be measured and numbered again.

@@ -5,11 +5,14 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <map>
+#include <random>
 #include <string>
 
 #include "assets/import/grey_scale.h"
+#include "assets/import/mandibular_canal_line.h"
 #include "assets/import/shading.h"
 #include "assets/scan/image_file.h"
 #include "assets/segment/jaw_segmentation.h"
@@ -29,6 +32,40 @@ struct Case {
   std::vector<std::int16_t> grey;
   std::vector<std::uint8_t> tissue, tooth, mandible;
 };
+
+/// The true canal of a side without its outermost 2 mm.
+std::vector<glm::dvec3> truthOf(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& tissue,
+                                const assets::CanalProposal& canal) {
+  const auto truth = assets::mandibularCanalLine(grid, tissue, canal.line_P_mm[canal.line_P_mm.size() / 2]);
+  if (!truth || truth->line_P_mm.size() < 10) return {};
+  return {truth->line_P_mm.begin() + 2, truth->line_P_mm.end() - 2};
+}
+
+/// Both ends of each proposed canal's truth, half a millimetre off.
+assets::JawClicks clicksIn(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& tissue,
+                           const assets::JawSegmentation& jaw) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> error(0.0, 0.5 / std::sqrt(3.0));
+  const auto near = [&](const glm::dvec3& p) { return p + glm::dvec3(error(random), error(random), error(random)); };
+  assets::JawClicks clicks;
+  for (const assets::CanalProposal& canal : jaw.canals)
+    if (const auto truth = truthOf(grid, tissue, canal); !truth.empty())
+      clicks.canals.push_back({near(truth.front()), near(truth.back())});
+  return clicks;
+}
+
+/// Mean and most, mm, from the true line.
+std::pair<double, double> missesBetween(const Case& scan, const assets::CanalProposal& canal) {
+  const std::vector<glm::dvec3> truth = truthOf(scan.grid, scan.tissue, canal);
+  double sum = 0.0, most = 0.0;
+  for (const glm::dvec3& p : truth) {
+    double away = 1e9;
+    for (const glm::dvec3& q : canal.line_P_mm) away = std::min(away, glm::distance(p, q));
+    sum += away / static_cast<double>(truth.size());
+    most = std::max(most, away);
+  }
+  return {sum, most};
+}
 
 void judge(Case scan) {
   fmt::print("== {}: {} x {} x {} voxels of {} mm\n", scan.name, scan.grid.size.x, scan.grid.size.y, scan.grid.size.z,
@@ -65,6 +102,15 @@ void judge(Case scan) {
   for (const assets::FoundTooth& tooth : jaw.teeth)
     fmt::print("  found {:2}: {:6.0f} mm3 at ({:.0f}, {:.0f}, {:.0f})\n", tooth.fdi, tooth.volume_mm3,
                tooth.centre_P_mm.x, tooth.centre_P_mm.y, tooth.centre_P_mm.z);
+  if (const auto clicks = clicksIn(scan.grid, scan.tissue, jaw); !clicks.canals.empty()) {
+    const assets::JawSegmentation clicked = assets::segmentJaw(scan.grid, scan.grey, {}, clicks);
+    for (const assets::CanalProposal& canal : clicked.canals) {
+      if (!canal.is_confirmed) continue;
+      fmt::print("canal {} of two clicks: from truth {:.2f} mm, worst {:.1f} mm, between the clicks\n",
+                 canal.is_right ? "right" : "left", missesBetween(scan, canal).first,
+                 missesBetween(scan, canal).second);
+    }
+  }
   std::fputs(tests::comparison(scan.grid, jaw, scan.tissue, scan.tooth, scan.mandible).c_str(), stdout);
 }
 

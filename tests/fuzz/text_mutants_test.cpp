@@ -6,6 +6,7 @@
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_csv.h"
 #include "app/options/command_settings.h"
+#include "app/options/jaw_clicks_file.h"
 #include "app/options/view_option.h"
 #include "app/procedure/coach/coach_file.h"
 #include "app/procedure/steps/step_file.h"
@@ -111,6 +112,14 @@ TEST(TextMutants, CameraJson) {
         calibration::Rig rig;
         view.apply(rig, {{8, 8, 8}, 0.5, {0, 0, 0}});
       });
+}
+
+TEST(TextMutants, JawClicksJson) {
+  judgeFile<app::UsageError>(
+      "clicks.json",
+      R"({"clicks": [{"edit": "number", "fdi": 48, "at_P_mm": [[1, -2.5, 3e1]]}, {"edit": "canal", "at_P_mm": [[0, 1, 2], [3, 4, 5]]},
+{"edit": "two-teeth", "at_P_mm": [[0, 1, 2], [3, 4, 5]]}]})",
+      [](const std::string& path) { app::readJawClicks(path); });
 }
 
 TEST(TextMutants, RigYaml) {

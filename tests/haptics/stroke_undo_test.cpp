@@ -54,7 +54,7 @@ struct Room {
     go({x_mm, -1.5, 1.5}, 0.05);
     hand.drill_pedal = true;
     go({x_mm, -1.5, 0.3}, 0.1);
-    go({x_mm, 1.5, 0.2}, 0.3);
+    go({x_mm, 1.5, 0.2}, 1.6);
     go({x_mm, 1.5, 1.5}, 0.1);
     hand.drill_pedal = false;
     stay(0.35);
@@ -161,7 +161,7 @@ TEST(StrokeUndo, ParsesStrokesByPausesOfThreeTenthsOfASecondAtAnyRate) {
         Room room;
         room.dt_s = 1.0 / rate_Hz;
         room.hand.drill_pedal = true;
-        room.go({0.0, 0.0, 0.6}, 0.2);
+        room.go({0.0, 0.0, 0.2}, 0.2);
         // Off the pedal with the bur in bone, or off the bone with the foot down.
         if (lifts_foot) {
           room.hand.drill_pedal = false;
@@ -170,7 +170,7 @@ TEST(StrokeUndo, ParsesStrokesByPausesOfThreeTenthsOfASecondAtAnyRate) {
         }
         room.stay(pause_s);
         room.hand.drill_pedal = true;
-        room.hand.X_PT.translation_mm = {1.0, 0.0, 0.6};
+        room.hand.X_PT.translation_mm = {1.0, 0.0, 0.2};
         room.stay(0.2);
         EXPECT_EQ(room.tick.strokes, strokes) << rate_Hz << " Hz, " << pause_s << " s, foot " << lifts_foot;
       }

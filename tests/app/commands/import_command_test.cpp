@@ -240,6 +240,27 @@ TEST_F(ImportDicomRealData, AScanWithoutLabelsIsAPatientAtOnce) {
   EXPECT_TRUE(plan["canal_distance"]["value"].is_number());
 }
 
+/// Clicked twice, as a technician would who has looked at the first result.
+TEST_F(ImportDicomRealData, ClicksConfirmToothAndCanal) {
+  const std::string scan = tests::sharedData("patients/right_third_molar/ct.nrrd");
+  MOLAR_NEEDS(scan);
+  const std::string import = "import " + scan + " --out " + at("patient");
+  ASSERT_EQ(molar(import + " --json " + at("report")).status, 0);
+  const auto found = nlohmann::json::parse(read("report"))["jaw"];
+  const auto& line = found["canals"][0]["line_P_mm"];
+  const nlohmann::json clicks = {{"clicks",
+                                  {{{"edit", "number"}, {"fdi", 48}, {"at_P_mm", {found["teeth"][0]["centre_P_mm"]}}},
+                                   {{"edit", "canal"}, {"at_P_mm", {line[3], line[line.size() - 4]}}}}}};
+  write("clicks.json", clicks.dump());
+  const ProgramOutput said = molar(import + " --force --clicks " + at("clicks.json"));
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.err.find("not confirmed"), std::string::npos) << said.err;
+  EXPECT_TRUE(nlohmann::json::parse(molar("inspect " + at("patient") + " --json").out)["confirmed"]);
+  write("clicks.json", R"({"clicks": [{"edit": "no-tooth", "at_P_mm": [[0, 0, 0]]}]})");
+  expectRefusal(import + " --force --clicks " + at("clicks.json"), "no tooth was found within 1.5 mm of it");
+  EXPECT_TRUE(nlohmann::json::parse(molar("inspect " + at("patient") + " --json").out)["confirmed"]);
+}
+
 TEST_F(ImportDicom, AScanWithoutTeethIsRefusedUnlessItsGreyValuesAreEnough) {
   const on_disk::Scan scan{{80, 80, 80}, glm::dmat3(0.5), {0, 0, 0}};
   std::vector<std::int16_t> values(512000, -1000);

@@ -1,0 +1,134 @@
+#include "app/options/jaw_clicks_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "app/text/usage_error.h"
+#include "assets/json_depth.h"
+#include "assets/tooth.h"
+
+namespace app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostClicks = 200;
+constexpr std::uintmax_t kMostBytes = 1u << 20;
+constexpr double kMostCoordinate_mm = 1e5;
+constexpr std::string_view kCanal = "canal";
+
+class ClicksReader {
+ public:
+  explicit ClicksReader(const std::string& name) : name_(name) {}
+
+  assets::JawClicks read(const std::string& text) {
+    const json file = assets::isNestedTooDeep(text) ? json() : json::parse(text, nullptr, false);
+    if (!file.is_object() || file.size() != 1 || !file.contains("clicks") || !file.at("clicks").is_array())
+      throw UsageError("--clicks " + name_ +
+                       R"(: it is not {"clicks": [{"edit": "canal", "at_P_mm": [[x, y, z], …]}, …]})");
+    const json& list = file.at("clicks");
+    if (list.size() > kMostClicks)
+      throw UsageError(
+          fmt::format("--clicks {}: it holds {} clicks, give at most {}", name_, list.size(), kMostClicks));
+    for (const json& one : list) {
+      ++number_;
+      add(one);
+    }
+    return std::move(clicks_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw UsageError(fmt::format("--clicks {}, click {}: {}", name_, number_, why));
+  }
+
+  void add(const json& click) {
+    if (!click.is_object() || !click.contains("edit") || !click.at("edit").is_string())
+      refuse("'edit' is missing, give " + names());
+    for (const auto& [key, value] : click.items())
+      if (key != "edit" && key != "fdi" && key != "at_P_mm") refuse("a key is not edit, fdi or at_P_mm, remove it");
+    const std::string& edit = click.at("edit").get_ref<const std::string&>();
+    const std::vector<glm::dvec3> points = pointsIn(click);
+    if (edit == kCanal) {
+      if (points.size() < assets::kLeastCanalClicks || points.size() > assets::kMostCanalClicks)
+        refuse(fmt::format("a canal has {} to {} points, from one end to the other", assets::kLeastCanalClicks,
+                           assets::kMostCanalClicks));
+      clicks_.canals.push_back(points);
+      return;
+    }
+    const auto named = std::ranges::find(assets::kToothEdits, edit);
+    if (named == assets::kToothEdits.end()) refuse("'edit' is unknown, give " + names());
+    assets::ToothClick tooth;
+    tooth.edit = static_cast<assets::ToothEdit>(named - assets::kToothEdits.begin());
+    const std::size_t count = assets::pointsOf(tooth.edit);
+    if (points.size() != count) refuse(fmt::format("{} needs {} point{}", edit, count, count == 1 ? "" : "s"));
+    std::ranges::copy(points, tooth.at_P_mm.begin());
+    tooth.fdi = numberIn(click, tooth.edit);
+    clicks_.teeth.push_back(tooth);
+  }
+
+  static std::string names() {
+    std::string list;
+    for (const std::string_view name : assets::kToothEdits) list += std::string(name) + ", ";
+    return list + "or canal";
+  }
+
+  std::vector<glm::dvec3> pointsIn(const json& click) const {
+    if (!click.contains("at_P_mm") || !click.at("at_P_mm").is_array()) refuse("'at_P_mm' is missing, give [[x, y, z]]");
+    std::vector<glm::dvec3> points;
+    for (const json& point : click.at("at_P_mm")) {
+      if (!point.is_array() || point.size() != 3) refuse("a point of 'at_P_mm' is not three numbers");
+      glm::dvec3 at_P_mm{0.0};
+      for (int a = 0; a < 3; ++a) {
+        const json& number = point.at(static_cast<std::size_t>(a));
+        if (!number.is_number() || !(std::abs(number.get<double>()) < kMostCoordinate_mm))
+          refuse("a point of 'at_P_mm' is not three numbers in mm");
+        at_P_mm[a] = number.get<double>();
+      }
+      points.push_back(at_P_mm);
+    }
+    return points;
+  }
+
+  int numberIn(const json& click, assets::ToothEdit edit) const {
+    const bool has_number = click.contains("fdi");
+    if (edit != assets::ToothEdit::number) {
+      if (has_number) refuse("'fdi' belongs to number alone, remove it");
+      return 0;
+    }
+    if (!has_number || !click.at("fdi").is_number_integer()) refuse("'fdi' is missing, give the tooth's number as 48");
+    const auto fdi = click.at("fdi").get<std::int64_t>();
+    if (fdi < 31 || fdi > 48 || !assets::isToothNumber(static_cast<int>(fdi)))
+      refuse("'fdi' is no tooth of the lower jaw, give 31 to 38 or 41 to 48");
+    return static_cast<int>(fdi);
+  }
+
+  const std::string& name_;
+  assets::JawClicks clicks_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace
+
+assets::JawClicks jawClicksFrom(const std::string& text, const std::string& name) {
+  return ClicksReader(name).read(text);
+}
+
+assets::JawClicks readJawClicks(const std::string& path) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  std::ifstream file(path, std::ios::binary);
+  if (error || !file) throw UsageError("--clicks " + path + ": it cannot be read, check the name");
+  if (bytes > kMostBytes) throw UsageError("--clicks " + path + ": it is too long for clicks, check the name");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return jawClicksFrom(text.str(), path);
+}
+
+}  // namespace app
