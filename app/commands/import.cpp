@@ -270,6 +270,8 @@ int import(ImportOptions options) {
   if (!options.clicks.empty()) options.choices.clicks = readJawClicks(options.clicks);
   if (!options.scale.empty()) options.choices.scale = scaleOf(options.scale);
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
+  if (options.choices.scale && options.choices.window)
+    throw UsageError("--scale " + options.scale + ": --window states the scale already, give one of them");
   const bool has_no_place = options.out.empty();
   if (has_no_place) {
     makeDataFolder(usualPatientFolder());

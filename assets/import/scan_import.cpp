@@ -315,18 +315,31 @@ std::string scaleSentence(const GreyMap& map, const std::vector<GreyPeak>& peaks
 /// Slices farther apart show no roots (as of DICOM, dicom_survey.cpp).
 constexpr double kTooCoarseScan_mm = 1.5;
 
-/// A file without labels need not be in Hounsfield; throws for what cannot be segmented.
-void prepareForSegmentation(Volume& volume, const ScanImportOptions& options, std::vector<std::string>& remarks) {
-  if (volume.image.coarsest_mm > kTooCoarseScan_mm)
+/// The scale that the owner states, or the one that the values show; none where they show none.
+GreyJudgement scaleOf(std::span<const std::int16_t> grey, const std::optional<GreyMap>& stated) {
+  return stated ? GreyJudgement{stated, {}} : judgeGreyScale(grey, kNoGrey);
+}
+
+/// Calibrated scanners have no shading to speak of, and their values stay as they are. HU that were taken away.
+double flattenUncalibrated(const GreyMap& map, HounsfieldImage& image) {
+  const bool is_calibrated = map.scale == GreyScale::hounsfield || map.scale == GreyScale::shifted;
+  return is_calibrated ? 0.0 : flattenShading(image.grid, image.hounsfield);
+}
+
+/// A file is in Hounsfield, unless its owner states another scale. One without labels need not be: then its scale is
+/// judged. Throws for what cannot be segmented.
+void takeScale(Volume& volume, const ScanImportOptions& options, std::vector<std::string>& remarks) {
+  const bool is_judged = isToSegment(volume, options);
+  if (is_judged && volume.image.coarsest_mm > kTooCoarseScan_mm)
     throw JawRefused(volume.name, {"R1", "slices are " + shortNumber(volume.image.coarsest_mm, 1) +
                                              " mm apart; below 1 mm a third molar cannot be rehearsed"});
-  if (options.window) return;
-  const GreyJudgement judged =
-      options.scale ? GreyJudgement{options.scale, {}} : judgeGreyScale(volume.image.hounsfield, kNoGrey);
+  if (options.window || (!is_judged && !options.scale)) return;
+  std::vector<std::int16_t>& grey = volume.image.hounsfield;
+  const GreyJudgement judged = scaleOf(grey, options.scale);
   if (!judged.map) throw JawRefused(volume.name, {"V1", noScaleSentence(judged)});
-  applyGreyMap(*judged.map, kNoGrey, volume.image.hounsfield);
-  if (judged.map->scale == GreyScale::two_points || judged.map->scale == GreyScale::stated)
-    flattenShading(volume.image.grid, volume.image.hounsfield);
+  applyGreyMap(*judged.map, kNoGrey, grey);
+  std::ranges::replace(grey, kNoGrey, kAirHu);
+  flattenUncalibrated(*judged.map, volume.image);
   if (std::string said = scaleSentence(*judged.map, judged.peaks); !said.empty()) remarks.push_back(std::move(said));
 }
 
@@ -336,7 +349,7 @@ ImportedScan importScan(const std::string& source, const ScanImportOptions& opti
   const Sources sources = sourcesAt(source);
   Volume volume{readHounsfield(sources.ct, options.window), sources.ct, sources.labels, sources.teeth};
   std::vector<std::string> remarks;
-  if (isToSegment(volume, options)) prepareForSegmentation(volume, options, remarks);
+  takeScale(volume, options, remarks);
   return patientOf(std::move(volume), std::move(remarks), options);
 }
 
@@ -372,10 +385,9 @@ ScanOrigin originOf(const DicomSurvey& survey, const ScanImportOptions& options)
   return origin;
 }
 
-/// The scale that the owner states, or the one that the values show; says which. Throws LoadError: none.
+/// Says what was judged. Throws LoadError: there is no scale.
 GreyMap greyMapOf(DicomSurvey& survey, std::span<const std::int16_t> grey, const std::optional<GreyMap>& stated) {
-  if (stated) return *stated;
-  const GreyJudgement judged = judgeGreyScale(grey, kNoGrey);
+  const GreyJudgement judged = scaleOf(grey, stated);
   if (!judged.map) {
     survey.verdicts.push_back({"V1", noScaleSentence(judged), {}, true});
     throw LoadError(lineOf(survey.verdicts.back()));
@@ -406,9 +418,7 @@ ImportedScan importScan(DicomSurvey& survey, const ScanImportOptions& options) {
   ScanOrigin origin = originOf(survey, options);
   origin.blanked_text_lines = static_cast<int>(text.size());
   origin.scale = map.scale, origin.slope = map.slope, origin.offset_hu = map.offset_hu;
-  // Calibrated scanners have no shading to speak of, and their values stay as they are.
-  const bool is_calibrated = map.scale == GreyScale::hounsfield || map.scale == GreyScale::shifted;
-  if (!is_calibrated) origin.shading_hu = flattenShading(image.grid, image.hounsfield);
+  origin.shading_hu = flattenUncalibrated(map, image);
   std::vector<std::string> remarks;
   if (!options.keep_face) {
     const double removed_mm3 = removeDistantSoftTissue(image.grid, image.hounsfield, kBone_hu);

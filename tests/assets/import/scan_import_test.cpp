@@ -386,4 +386,22 @@ TEST(ScanImport, RefusesEightBitGreysWithoutAWindow) {
   EXPECT_EQ(windowed.patient.ct.hounsfield[500], 1824);
 }
 
+TEST(ScanImport, AStatedScaleCountsForSmallAndLabelledScansToo) {
+  const on_disk::Folder folder;
+  writeBlock(folder.at("ct.nrrd"), kBlock, 2024);
+  const assets::GreyMap higher{assets::GreyScale::shifted, 1.0, -1024.0};
+  EXPECT_EQ(importScan(folder.at("ct.nrrd"), {.scale = higher}).patient.ct.hounsfield[500], 1000);
+  writeLabels(folder.at("labels.nrrd"), kBlock);
+  EXPECT_EQ(importScan(folder.at(""), {.scale = higher}).patient.ct.hounsfield[500], 1000);
+  EXPECT_EQ(importScan(folder.at(""), {}).patient.ct.hounsfield[500], 2024);
+}
+
+TEST(ScanImport, ClicksNeedAWholeScanWithoutLabels) {
+  const on_disk::Folder folder;
+  writeBlock(folder.at("ct.nrrd"), kBlock, 1000);
+  const assets::JawClicks clicks{{{assets::ToothEdit::no_tooth, {}, 0}}, {}};
+  EXPECT_THAT(refusalOf(folder.at("ct.nrrd"), {.clicks = clicks}),
+              HasSubstr("clicks change what is found in a whole scan without labels"));
+}
+
 }  // namespace
