@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include <unistd.h>
+
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
@@ -154,26 +156,25 @@ assets::GreyWindow windowOf(const std::string& text) {
   return {*low_hu, *high_hu};
 }
 
-/// How long each stage of the segmentation took; a refusal stays one line, so they are printed in the end.
+/// How long each stage of the segmentation took. On a terminal its name stands there meanwhile.
 class StageClock {
  public:
   void begin(std::string_view stage) {
     end();
     stage_ = stage;
     begun_ = std::chrono::steady_clock::now();
+    if (on_terminal_) std::fprintf(stderr, "\r\033[K  finding: %s", stage_.c_str());
   }
   void end() {
     if (stage_.empty()) return;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun_;
     stages_.push_back({{"stage", std::exchange(stage_, {})}, {"seconds", took.count()}});
+    if (on_terminal_) std::fputs("\r\033[K", stderr);
   }
   const nlohmann::json& stages() const { return stages_; }
-  void print() const {
-    for (const nlohmann::json& stage : stages_)
-      printMessage(fmt::format("{}: {:.1f} s", stage["stage"].get<std::string>(), stage["seconds"].get<double>()));
-  }
 
  private:
+  bool on_terminal_ = isatty(STDERR_FILENO) == 1;
   std::string stage_;
   std::chrono::steady_clock::time_point begun_;
   nlohmann::json stages_ = nlohmann::json::array();
@@ -243,7 +244,6 @@ assets::ImportedScan importAny(ImportOptions& options) {
     assets::ImportedScan imported = is_dicom ? importDicom(options, report) : importFile(options, report);
     report["jaw"] = imported.jaw ? jsonOf(*imported.jaw) : nlohmann::json(nullptr);
     write();
-    clock.print();
     for (const std::string& remark : imported.remarks)
       printMessage((is_dicom ? "scan" : options.source) + ": " + remark);
     return imported;
