@@ -70,6 +70,16 @@ CellMask largestPiece(glm::ivec3 size, std::span<const std::uint8_t> mask) {
   return out;
 }
 
+std::vector<float> depthInside_mm(glm::ivec3 size, double spacing_mm, std::span<const std::uint8_t> mask) {
+  CellMask outside(mask.size());
+  std::ranges::transform(mask, outside.begin(), [](std::uint8_t in) -> std::uint8_t { return in == 0 ? 1 : 0; });
+  std::vector<float> depth_mm = exactDistance_mm(size, spacing_mm, outside);
+  // What fills the box has no outside.
+  const auto most_mm = static_cast<float>(spacing_mm * glm::length(glm::dvec3(size)));
+  for (float& depth : depth_mm) depth = std::clamp(depth, 0.0F, most_mm);
+  return depth_mm;
+}
+
 CellMask grownByOne(glm::ivec3 size, std::span<const std::uint8_t> mask) {
   CellMask out(mask.size());
   tbb::parallel_for(0, size.z, [&](int k) {
@@ -104,9 +114,7 @@ CellMask grownBy(glm::ivec3 size, std::span<const std::uint8_t> mask, double rea
 CellMask closedBy(glm::ivec3 size, std::span<const std::uint8_t> mask, double radius) {
   const int margin = static_cast<int>(std::ceil(radius)) + 1;
   const glm::ivec3 large = size + 2 * margin;
-  CellMask outside = grownBy(large, padded(size, mask, margin), radius);
-  for (std::uint8_t& value : outside) value = value == 0 ? 1 : 0;
-  const std::vector<float> depth = exactDistance_mm(large, 1.0, outside);
+  const std::vector<float> depth = depthInside_mm(large, 1.0, grownBy(large, padded(size, mask, margin), radius));
   CellMask out(mask.size());
   forCells(size, [&](glm::ivec3 ijk, std::size_t n) {
     out[n] = mask[n] != 0 || depth[indexIn(large, ijk + margin)] > radius ? 1 : 0;

@@ -70,6 +70,9 @@ CellPieces piecesOfCells(glm::ivec3 size, std::span<const std::uint8_t> mask);
 /// The largest piece, the first of equal ones.
 CellMask largestPiece(glm::ivec3 size, std::span<const std::uint8_t> mask);
 
+/// From every cell inside to the nearest outside, mm, between centres; 0 outside (scan/exact_distance.h).
+std::vector<float> depthInside_mm(glm::ivec3 size, double spacing_mm, std::span<const std::uint8_t> mask);
+
 /// With the neighbours; without the cells that have a neighbour outside.
 CellMask grownByOne(glm::ivec3 size, std::span<const std::uint8_t> mask);
 CellMask shrunkByOne(glm::ivec3 size, std::span<const std::uint8_t> mask);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "assets/load_error.h"
-#include "assets/scan/exact_distance.h"
 #include "assets/segment/cheapest_path.h"
 #include "assets/segment/flooding.h"
 
@@ -102,12 +101,9 @@ class TeethEditor {
     if (told_.fdi.size() > kMostNumbered) refuse("there are too many pieces already");
     const CellBox box = boxOfPart(part);
     const glm::ivec3 size = box.size();
-    CellMask mask = croppedTo(box, regions_.box.size(), regions_.part), outside(mask.size());
-    for (std::size_t n = 0; n < mask.size(); ++n) {
-      mask[n] = mask[n] == part ? 1 : 0;
-      outside[n] = mask[n] == 0 ? 1 : 0;
-    }
-    const std::vector<float> thickness_mm = exactDistance_mm(size, jaw_.grid.spacing_mm, outside);
+    CellMask mask = croppedTo(box, regions_.box.size(), regions_.part);
+    for (std::uint8_t& cell : mask) cell = cell == part ? 1 : 0;
+    const std::vector<float> thickness_mm = depthInside_mm(size, jaw_.grid.spacing_mm, mask);
     const auto thickest = [&](const glm::dvec3& p_P_mm) {
       std::optional<std::size_t> cell;
       forCellsNear(cellOf(p_P_mm) - glm::dvec3(box.low), kThickest_mm, jaw_.grid.spacing_mm, size,
@@ -158,7 +154,6 @@ class TeethEditor {
     });
     regions_.box = wide;
     regions_.part = std::move(part);
-    regions_.smooth_hu.clear();
   }
 
   /// The way from the tip to a tooth through what is as dense as dentine.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/scan/exact_distance.h"
 #include "assets/segment/cell_filters.h"
 
 namespace assets {
@@ -35,15 +34,15 @@ GreyLevels greyLevelsOf(const Mandible& jaw, const BiteSheet& sheet) {
   // Every second voxel along each axis is enough.
   const glm::ivec3 size = (jaw.grid.size + kStep - 1) / kStep;
   const double spacing_mm = kStep * jaw.grid.spacing_mm;
-  CellMask outside(countIn(size));
-  std::vector<float> greys(outside.size()), hard;
+  CellMask solid(countIn(size));
+  std::vector<float> greys(solid.size()), hard;
   forCells(size, [&](glm::ivec3 ijk, std::size_t n) {
     const std::size_t v = jaw.grid.index(kStep * ijk);
-    outside[n] = jaw.solid[v] == 0 ? 1 : 0;
+    solid[n] = jaw.solid[v];
     greys[n] = jaw.smooth_hu[v];
     if (jaw.hard[v] != 0) hard.push_back(greys[n]);
   });
-  const std::vector<float> depth_mm = exactDistance_mm(size, spacing_mm, outside);
+  const std::vector<float> depth_mm = depthInside_mm(size, spacing_mm, solid);
   const double below_P_mm = sheet.height_P_mm - kBelowBite_mm;
   std::vector<float> shell;
   forCells(size, [&](glm::ivec3 ijk, std::size_t n) {

@@ -121,15 +121,14 @@ glm::dvec2 JawArch::pointAt(int bin, double outside_mm) const {
   return centre_P_mm + from_centre_mm * glm::dvec2(std::sin(angle), -std::cos(angle));
 }
 
-ArchSearch findJawArch(const VolumeGrid& cells, const std::vector<float>& smooth_hu) {
+std::optional<JawArch> findJawArch(const VolumeGrid& cells, const std::vector<float>& smooth_hu) {
   JawArch arch;
   arch.dense = denseRow(cells, smooth_hu);
   std::vector<glm::dvec3> row;
   forVoxels(cells, [&](glm::ivec3 ijk, std::size_t n) {
     if (arch.dense[n] != 0) row.push_back(cells.centre_P_mm(ijk));
   });
-  arch.dense_mm3 = static_cast<double>(row.size()) * cells.voxelVolume_mm3();
-  if (arch.dense_mm3 < kLeastRow_mm3) return {std::nullopt, arch.dense_mm3};
+  if (static_cast<double>(row.size()) * cells.voxelVolume_mm3() < kLeastRow_mm3) return std::nullopt;
 
   // Teeth lie in one plane; other dense tissue may not.
   std::vector<double> heights;
@@ -151,11 +150,10 @@ ArchSearch findJawArch(const VolumeGrid& cells, const std::vector<float>& smooth
     arch.has_teeth[bin] = radii[bin].size() > kLeastCells;
     if (arch.has_teeth[bin]) radius_mm[bin] = medianOf(radii[bin]), z_mm[bin] = medianOf(z[bin]);
   }
-  if (std::ranges::none_of(arch.has_teeth, [](bool has) { return has; })) return {std::nullopt, arch.dense_mm3};
+  if (std::ranges::none_of(arch.has_teeth, [](bool has) { return has; })) return std::nullopt;
   arch.radius_mm = smoothed(radius_mm, arch.has_teeth, 2.0);
   arch.dense_z_P_mm = smoothed(z_mm, arch.has_teeth, 4.0);
-  const double dense_mm3 = arch.dense_mm3;
-  return {std::move(arch), dense_mm3};
+  return arch;
 }
 
 }  // namespace assets

@@ -22,7 +22,6 @@ struct JawArch {
   std::array<double, kArchBins> dense_z_P_mm{};  ///< height of its middle
   std::array<bool, kArchBins> has_teeth{};
   CellMask dense;  ///< the row, in the cells it was found in
-  double dense_mm3 = 0.0;
 
   double angleOf(const glm::dvec3& p_P_mm) const;
   static int binOf(double angle_rad);  ///< within the arch; ends are extended
@@ -33,11 +32,7 @@ struct JawArch {
   glm::dvec2 pointAt(int bin, double outside_mm) const;
 };
 
-/// `smooth_hu`: on cells of about 0.7 mm. None without a row of dense tissue; `dense_mm3` is how much there was.
-struct ArchSearch {
-  std::optional<JawArch> arch;
-  double dense_mm3 = 0.0;
-};
-ArchSearch findJawArch(const VolumeGrid& cells, const std::vector<float>& smooth_hu);
+/// `smooth_hu`: on cells of about 0.7 mm. None without a row of dense tissue.
+std::optional<JawArch> findJawArch(const VolumeGrid& cells, const std::vector<float>& smooth_hu);
 
 }  // namespace assets

@@ -83,9 +83,9 @@ JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_
   const VolumeGrid cells = meanGrid(grid, edge);
   std::vector<float> smooth_hu = meansOfCubes(grid, hounsfield, edge);
   smoothCells(cells.size, kCellSmooth_mm / cells.spacing_mm, smooth_hu);
-  const ArchSearch search = findJawArch(cells, smooth_hu);
-  if (!search.arch) return refused(toothlessJaw());
-  const JawArch& arch = *search.arch;
+  const std::optional<JawArch> found = findJawArch(cells, smooth_hu);
+  if (!found) return refused(toothlessJaw());
+  const JawArch& arch = *found;
   const BiteSheet sheet = findBiteSheet(cells, smooth_hu, arch);
 
   if (sheet.lower_dense_mm3 < kLeastLower_mm3)

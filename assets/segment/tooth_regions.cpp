@@ -49,12 +49,7 @@ CellMask bodyOf(glm::ivec3 size, double spacing_mm, const CellMask& dense) {
 }
 
 std::vector<float> thicknessOf(glm::ivec3 size, double spacing_mm, const CellMask& body) {
-  CellMask outside(body.size());
-  std::ranges::transform(body, outside.begin(), [](std::uint8_t in) -> std::uint8_t { return in == 0 ? 1 : 0; });
-  std::vector<float> thickness = exactDistance_mm(size, spacing_mm, outside);
-  // A body that fills the box has no outside.
-  const auto most_mm = static_cast<float>(spacing_mm * glm::length(glm::dvec3(size)));
-  for (float& depth : thickness) depth = std::clamp(depth, 0.0F, most_mm);
+  std::vector<float> thickness = depthInside_mm(size, spacing_mm, body);
   smoothCells(size, kThicknessBlur_cells, thickness);
   return thickness;
 }
@@ -84,13 +79,13 @@ ToothRegions findToothRegions(const Mandible& jaw, const GreyLevels& levels) {
   if (teeth.box.isEmpty()) return teeth;
   teeth.box = teeth.box.grown(kRegionMargin, jaw.grid.size);
   const glm::ivec3 size = teeth.box.size();
-  teeth.smooth_hu = croppedTo(teeth.box, jaw.grid.size, smooth_hu);
+  smooth_hu = croppedTo(teeth.box, jaw.grid.size, smooth_hu);
 
   const CellMask body = bodyOf(size, jaw.grid.spacing_mm, croppedTo(teeth.box, jaw.grid.size, dense));
   const std::vector<float> thickness = thicknessOf(size, jaw.grid.spacing_mm, body);
   CellPieces parts = thickParts(size, thickness, body, kRise_mm);
   // Parts that never reach the grey of dentine are dense bone.
-  const std::vector<float> high = highGreys(parts, teeth.smooth_hu);
+  const std::vector<float> high = highGreys(parts, smooth_hu);
   const double least_hu = levels.cortical_hu + kDentineShare * (levels.dentine_hu - levels.cortical_hu);
   for (std::int32_t& part : parts.of)
     if (part != 0 && high[static_cast<std::size_t>(part)] < least_hu) part = 0;
@@ -102,7 +97,7 @@ ToothRegions findToothRegions(const Mandible& jaw, const GreyLevels& levels) {
     RegionPart& part = graph[static_cast<std::size_t>(parts.of[n])];
     part.peak = std::max(part.peak, static_cast<double>(thickness[n]));
     part.volume_mm3 += voxel_mm3;
-    if (teeth.smooth_hu[n] > levels.enamel_hu()) part.enamel_mm3 += voxel_mm3;
+    if (smooth_hu[n] > levels.enamel_hu()) part.enamel_mm3 += voxel_mm3;
   }
   const std::vector<std::int32_t> joined = joinedParts(graph, necksBetween(size, thickness, parts.of));
 

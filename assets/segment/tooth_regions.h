@@ -16,7 +16,6 @@ struct ToothRegions {
   CellBox box;                     ///< of the jaw's grid, around all teeth
   std::vector<std::uint8_t> part;  ///< in the box: number from 1, 0 outside
   int count = 0;
-  std::vector<float> smooth_hu;  ///< over 0.4 mm, in the box
 };
 
 /// More than 254 parts: the smallest are left out.

@@ -46,7 +46,6 @@ void moveToEdges(const Mandible& jaw, ToothRegions& teeth) {
   flood(size, level, may_flood, label);
   std::ranges::replace(label, kOutside, std::uint8_t{0});
   teeth.part = std::move(label);
-  teeth.smooth_hu.clear();
 }
 
 }  // namespace assets

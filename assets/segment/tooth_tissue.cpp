@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/scan/exact_distance.h"
 #include "assets/segment/cell_filters.h"
 #include "assets/tissue.h"
 
@@ -22,9 +21,7 @@ class ToothBody {
  public:
   ToothBody(glm::ivec3 size, double spacing_mm, CellMask mask, std::vector<float> grey)
       : size_(size), spacing_mm_(spacing_mm), mask_(std::move(mask)), grey_(std::move(grey)) {
-    CellMask outside(mask_.size());
-    std::ranges::transform(mask_, outside.begin(), [](std::uint8_t in) -> std::uint8_t { return in == 0 ? 1 : 0; });
-    depth_mm_ = exactDistance_mm(size_, spacing_mm_, outside);
+    depth_mm_ = depthInside_mm(size_, spacing_mm_, mask_);
   }
 
   std::vector<std::uint8_t> tissues(const GreyLevels& levels) const {
