@@ -96,6 +96,9 @@ struct Quality {
   double step_voxels = 0.5;  ///< between samples along a ray
   int pixel_edge = 1;        ///< display pixels along the edge of a computed pixel
   bool tool_shadow = true;   ///< of the instrument, on the patient
+  /// Pixels that are larger than the display's are joined along edges, not only evenly. On the processor alone; it
+  /// takes about as long as to compute them at a quarter of the resolution.
+  bool smooth_enlarged_edges = true;
 };
 
 struct Frame {

@@ -14,8 +14,8 @@
 
 namespace app {
 
-/// While a hand drags along the time line and the processor draws: the moment, not its beauty.
-inline constexpr render::Quality kScrubQuality{render::Antialias::none, false, false, 1.0, 4, false};
+/// While a hand drags along the time line or jumps, and the processor draws: the moment, not its beauty.
+inline constexpr render::Quality kScrubQuality{render::Antialias::none, false, false, 1.0, 4, false, false};
 
 class DebriefScene {
  public:

@@ -386,7 +386,8 @@ class DebriefWindow {
     if (jump_at_) jumps_ms_.push_back(1e3 * secondsBetween(*std::exchange(jump_at_, std::nullopt), Clock::now()));
   }
 
-  /// Only when something has changed; better when nothing has for a while. False: the picture was kept.
+  /// Only when something has changed; roughly where it jumps, better when nothing has changed for a while. False: the
+  /// picture was kept.
   bool drawPictures(Clock::time_point now) {
     const glm::ivec2 px = picturePx();
     const double position_s = state_.transport.position_s();
@@ -396,17 +397,17 @@ class DebriefWindow {
     if (is_same && (shown_->is_refined || secondsBetween(drawn_at_, now) < kStill_s)) return false;
     // A hand on the time line is followed at once and roughly; where it rests comes the moment itself.
     if (is_same && scrubs_ && !shown_->is_near) return false;
+    const bool jumps = !is_same && shown_ && !state_.transport.isPlaying() && shown_->position_s != position_s;
     const bool is_near = scrubs_ && !is_same, refines = is_same && !scrubs_ && scene_.isPrepared();
     if (scene_.isPrepared() && (!refines || shown_->is_near)) {
-      if (!is_same && shown_ && !state_.transport.isPlaying() && shown_->position_s != position_s) jump_at_ = now;
+      if (jumps) jump_at_ = now;
       is_near ? scene_.goNear(position_s) : scene_.goTo(position_s);
     }
     scene_.choice = state_.choice;
     const Clock::time_point begun = Clock::now();
-    scene_.draw(px, refines                    ? render::kQualitySteps.front().quality
-                    : is_near && on_processor_ ? kScrubQuality
-                                               : ladder_->quality());
-    if (!refines && !is_near) ladder_->add(secondsBetween(begun, Clock::now()), true);
+    const bool is_rough = on_processor_ && (is_near || jumps);
+    scene_.draw(px, refines ? render::kQualitySteps.front().quality : is_rough ? kScrubQuality : ladder_->quality());
+    if (!refines && !is_near && !is_rough) ladder_->add(secondsBetween(begun, Clock::now()), true);
     shown_ = Shown{position_s, state_.prepared_share, px, state_.choice, refines, is_near};
     view_changed_ = false;
     drawn_at_ = Clock::now();

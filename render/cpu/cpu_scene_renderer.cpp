@@ -68,6 +68,7 @@ void blendOver(const Inset& inset, EyeImage& image) {
 struct RenderedEye {
   EyeImage image, enlarged;
   bool is_enlarged = false;  // since it was drawn
+  Enlarger::Edges edges = Enlarger::Edges::smooth;
   // Of two sizes: the picture is drawn small while it moves and whole where it rests.
   std::array<KeptHits, 2> static_hits;
   std::size_t newest_hits = 0;
@@ -194,6 +195,7 @@ void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   RenderedEye& to = drawn(eye);
   to.image.resize(px);
   to.is_enlarged = false;
+  to.edges = frame.quality.smooth_enlarged_edges ? Enlarger::Edges::smooth : Enlarger::Edges::even;
   const TraceScene scene = sceneFor(frame, eye);
   arena_.execute([&] {
     draw(scene, options_.samples, to.image, options_.samples == 1 ? &to.hitsOf(px) : nullptr);
@@ -298,7 +300,8 @@ void CpuSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, 
   arena_.execute([&] {
     const auto whole = [&](RenderedEye& eye) -> const EyeImage& {
       if (eye.image.px == full_px) return eye.image;
-      if (!eye.is_enlarged || eye.enlarged.px != full_px) enlarger_.enlarge(eye.image, full_px, eye.enlarged);
+      if (!eye.is_enlarged || eye.enlarged.px != full_px)
+        enlarger_.enlarge(eye.image, full_px, eye.enlarged, eye.edges);
       eye.is_enlarged = true;
       return eye.enlarged;
     };

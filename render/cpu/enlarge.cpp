@@ -121,9 +121,10 @@ void Enlarger::findEdges(const EyeImage& from) {
   });
 }
 
-void Enlarger::enlarge(const EyeImage& from, glm::ivec2 px, EyeImage& to) {
+void Enlarger::enlarge(const EyeImage& from, glm::ivec2 px, EyeImage& to, Edges edges) {
   to.resize(px);
-  findEdges(from);
+  const bool is_smooth = edges == Edges::smooth;
+  if (is_smooth) findEdges(from);
   const std::vector<Place> columns = placesAlong(from.px.x, px.x), rows = placesAlong(from.px.y, px.y);
   const auto width = static_cast<std::size_t>(from.px.x);
   tbb::parallel_for(0, px.y, [&](int y) {
@@ -134,7 +135,7 @@ void Enlarger::enlarge(const EyeImage& from, glm::ivec2 px, EyeImage& to) {
     const std::size_t low = from.at(0, row.low), high = from.at(0, row.high);
     const std::vector<float>* const planes[] = {&from.r,     &from.g,     &from.b,    &edge_,
                                                 &tensor_.xx, &tensor_.xy, &tensor_.yy};
-    for (std::size_t plane = 0; plane < 7; ++plane) {
+    for (std::size_t plane = 0; plane < (is_smooth ? 7U : 3U); ++plane) {
       const float *const a = planes[plane]->data() + low, *const b = planes[plane]->data() + high;
       float* const mixed = narrow.data() + plane * width;
       for (std::size_t x = 0; x < width; ++x) mixed[x] = a[x] + (b[x] - a[x]) * row.part;
@@ -147,7 +148,7 @@ void Enlarger::enlarge(const EyeImage& from, glm::ivec2 px, EyeImage& to) {
         return of[column.low] + (of[column.high] - of[column.low]) * column.part;
       };
       glm::vec3 light(mixed(0), mixed(1), mixed(2));
-      if (const float edge = mixed(3); edge > 0.0f)
+      if (const float edge = is_smooth ? mixed(3) : 0.0f; edge > 0.0f)
         light = glm::mix(light, alongEdge(from, column, row, tangentOf(mixed(4), mixed(5), mixed(6))), edge);
       to.r[first + x] = light.r, to.g[first + x] = light.g, to.b[first + x] = light.b;
     }

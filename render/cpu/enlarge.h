@@ -1,8 +1,8 @@
 // Enlarges an eye's image that was drawn at a half or a third of the resolution: bilinearly, and at edges by a kernel
 // that is long along the edge and narrow across it, so that silhouettes are lines and not steps. The direction is that
 // of the structure tensor (Bigün and Granlund 1987, ICCV 1:433) of the square root of the luminance, which is about
-// even to the eye. Weights are positive: nothing rings, no colour beyond its neighbours appears. The OpenGL back-end
-// enlarges bilinearly. Any thread, rows in parallel in the caller's arena; about 20 ns a pixel.
+// even to the eye. Weights are positive: nothing rings, no colour beyond its neighbours appears. Evenly, or in the
+// OpenGL back-end, bilinearly alone. Any thread, rows in parallel in the caller's arena; about 20 ns a pixel, evenly 2.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,9 @@ namespace render {
 
 class Enlarger {
  public:
+  enum class Edges { smooth, even };
   /// Colours only; `to` keeps its own memory from frame to frame.
-  void enlarge(const EyeImage& from, glm::ivec2 px, EyeImage& to);
+  void enlarge(const EyeImage& from, glm::ivec2 px, EyeImage& to, Edges edges = Edges::smooth);
 
  private:
   void findEdges(const EyeImage& from);

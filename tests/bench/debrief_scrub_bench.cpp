@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
       scrubs ? scene.goNear(t_s) : scene.goTo(t_s);
       times.move_ms.push_back(millisecondsSince(from));
       const Clock::time_point moved = Clock::now();
-      scene.draw(plan.size_px, scrubs ? app::kScrubQuality : render::kQualitySteps.back().quality);
+      scene.draw(plan.size_px, app::kScrubQuality);
       times.draw_ms.push_back(millisecondsSince(moved));
       times.all_ms.push_back(millisecondsSince(from));
     }

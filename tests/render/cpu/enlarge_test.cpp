@@ -64,6 +64,18 @@ TEST(Enlarge, IsBilinearWhereThereIsNoEdge) {
     for (int x = 0; x < px.x; ++x) EXPECT_LT(glm::distance(at(large, x, y), bilinear(shade, px, x, y)), 1e-6f);
 }
 
+TEST(Enlarge, EvenlyIsBilinearAcrossEdgesToo) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> light(0.0f, 1.0f);
+  const EyeImage small = sampled(kSmall, [&](glm::vec2) { return glm::vec3(light(random), light(random), 0.5f); });
+  const glm::ivec2 px = 4 * kSmall;
+  Enlarger enlarger;
+  EyeImage large;
+  enlarger.enlarge(small, px, large, Enlarger::Edges::even);
+  for (int y = 0; y < px.y; ++y)
+    for (int x = 0; x < px.x; ++x) EXPECT_LT(glm::distance(at(large, x, y), bilinear(small, px, x, y)), 1e-6f);
+}
+
 /// Against the same edge drawn at full size with smooth edges: nearer than bilinear, for edges of any direction.
 TEST(Enlarge, AnEdgeOfAnyDirectionIsNearerToTheTruthThanBilinear) {
   for (const int factor : {2, 3}) {
