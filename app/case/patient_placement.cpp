@@ -66,17 +66,32 @@ HeadPose headPose(PatientPosition position, int tooth_fdi) {
   return {turned_rad, std::clamp(tilt_rad, -kMaxHeadTilt_rad, kMaxHeadTilt_rad)};
 }
 
+namespace {
+
+/// Of a lying patient.
+glm::dquat headFromRoom(PatientPosition position, int tooth_fdi) {
+  const HeadPose head = headPose(position, tooth_fdi);
+  return glm::angleAxis(head.tilt_rad, glm::dvec3(1.0, 0.0, 0.0)) *
+         glm::angleAxis(-head.turn_rad, glm::dvec3(0.0, 1.0, 0.0));
+}
+
+Vector<calibration::Face> upInRoom(PatientPosition position, int tooth_fdi) {
+  if (position == PatientPosition::seated) return {{0.0, 1.0, 0.0}};
+  return {headFromRoom(position, tooth_fdi) * glm::dvec3(0.0, 0.0, 1.0)};
+}
+
+}  // namespace
+
 Pose<World, Patient> placePatientAtSite(const assets::Patient& patient, const assets::FacePose& X_PF,
                                         PatientPosition position) {
-  Vector<calibration::Face> eye_F{bestEyeDirection_F(patient.operatedTooth())}, up_F{{0.0, 1.0, 0.0}};
-  if (position != PatientPosition::seated) {
-    const HeadPose head = headPose(position, patient.operatedTooth());
-    const glm::dquat head_from_room = glm::angleAxis(head.tilt_rad, glm::dvec3(1.0, 0.0, 0.0)) *
-                                      glm::angleAxis(-head.turn_rad, glm::dvec3(0.0, 1.0, 0.0));
-    eye_F = {head_from_room * lyingEyeDirection(position)};
-    up_F = {head_from_room * glm::dvec3(0.0, 0.0, 1.0)};
-  }
-  return placePatient({patient.focus_P_mm()}, X_PF * eye_F, X_PF * up_F);
+  Vector<calibration::Face> eye_F{bestEyeDirection_F(patient.operatedTooth())};
+  if (position != PatientPosition::seated)
+    eye_F = {headFromRoom(position, patient.operatedTooth()) * lyingEyeDirection(position)};
+  return placePatient({patient.focus_P_mm()}, X_PF * eye_F, X_PF * upInRoom(position, patient.operatedTooth()));
+}
+
+Vector<Patient> downInRoom(const assets::Patient& patient, const assets::FacePose& X_PF, PatientPosition position) {
+  return X_PF * Vector<calibration::Face>{-upInRoom(position, patient.operatedTooth()).xyz};
 }
 
 bool hasNoPatientPose(const calibration::Rig& rig) {

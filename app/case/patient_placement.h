@@ -46,6 +46,10 @@ calibration::Pose<calibration::World, calibration::Patient> placePatientAtSite(c
                                                                                const assets::FacePose& X_PF,
                                                                                PatientPosition position = {});
 
+/// Unit, along gravity in the room, of a patient who sits or lies so.
+calibration::Vector<calibration::Patient> downInRoom(const assets::Patient& patient, const assets::FacePose& X_PF,
+                                                     PatientPosition position = {});
+
 /// X_WP is the identity: the program chooses the pose.
 bool hasNoPatientPose(const calibration::Rig& rig);
 

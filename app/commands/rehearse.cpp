@@ -132,8 +132,11 @@ std::string positionOf(const RehearseOptions& options, const std::optional<Chose
 void placePatient(RehearsalPlan& plan, const std::string& position, const std::optional<ChosenRig>& chosen,
                   const DeviceIdentity& device, const assets::FacePose& X_PF) {
   // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
-  if (hasNoPatientPose(plan.rig))
+  if (hasNoPatientPose(plan.rig)) {
     plan.rig.X_WP = placePatientAtSite(plan.patient, X_PF, patientPositionNamed(position));
+    plan.down_P = downInRoom(plan.patient, X_PF, patientPositionNamed(position)).xyz;
+  }
+  if (plan.recording) plan.recording->setup.down_P = plan.gravity_P();
   if (!chosen) return;
   const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
                                                    device.isCalibrated() ? device.model : std::string());

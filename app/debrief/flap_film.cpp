@@ -1,16 +1,12 @@
 #include "app/debrief/flap_film.h"
 
-#include <algorithm>
-
 #include "app/procedure/flap/flap_mesh.h"
 
 namespace app {
 
 FlapFilm::FlapFilm(const assets::Patient& patient, const assets::PlannedCut& cut, const assets::MeshModel& closed_gum_P,
                    const assets::SoftTissueField& soft_tissue, const glm::dvec3& down_P)
-    : flap_(patient, closed_gum_P, cut, soft_tissue, down_P), closed_gum_P_(closed_gum_P) {
-  gums_.keep(0.0, closed_gum_P);
-}
+    : flap_(patient, closed_gum_P, cut, soft_tissue, down_P), closed_gum_P_(closed_gum_P) {}
 
 void FlapFilm::follow(const haptics::Tick& tick, const haptics::Command& command) {
   flap_.follow(tick, command);
@@ -31,9 +27,9 @@ void FlapFilm::keep(double t_s) {
 }
 
 void FlapFilm::show(double t_s, render::Frame& frame) const {
-  const auto* const gum = gums_.at(std::max(t_s, 0.0));
-  frame.gum = &gum->content;
-  frame.gum_serial = gum->serial;
+  const auto* const gum = gums_.at(t_s);
+  frame.gum = gum != nullptr ? &gum->content : &closed_gum_P_;
+  frame.gum_serial = gum != nullptr ? gum->serial + 1 : 1;  // the closed one is the first
   const auto* const sheet = sheets_.at(t_s);
   const bool any = sheet != nullptr && !sheet->content.parts.empty();
   frame.flap = any ? &sheet->content : nullptr;

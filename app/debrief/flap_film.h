@@ -19,7 +19,7 @@ class FlapFilm {
  public:
   static constexpr std::size_t kMost = 600, kMostGums = 32;
 
-  /// Borrows soft tissue; `closed_gum_P`: with the flap's part. `down_P`: as the patient lay.
+  /// Borrows soft tissue and `closed_gum_P`, with the flap's part. `down_P`: as the patient lay.
   FlapFilm(const assets::Patient& patient, const assets::PlannedCut& cut, const assets::MeshModel& closed_gum_P,
            const assets::SoftTissueField& soft_tissue, const glm::dvec3& down_P);
 
@@ -35,8 +35,8 @@ class FlapFilm {
 
   Flap flap_;
   std::uint64_t kept_sheet_ = 0, kept_incision_ = 0, kept_number_ = 0;
-  assets::MeshModel closed_gum_P_;
-  Film<assets::MeshModel> gums_{kMostGums, 0.0};  ///< the closed one first
+  const assets::MeshModel& closed_gum_P_;
+  Film<assets::MeshModel> gums_{kMostGums, 0.0};  ///< around the sheets that were laid
   Film<assets::MeshModel> sheets_{kMost, 0.1};
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/rehearsal/site_beads.h"
-
 namespace app {
 namespace {
 
@@ -22,31 +20,24 @@ bool areSame(const render::SoftMarks& a, const render::SoftMarks& b) {
 
 SiteFilm::SiteFilm(const assets::Patient& patient, const haptics::Bodies& bodies,
                    const assets::SoftTissueField& soft_tissue, const glm::dvec3& down_P)
-    : chips_(bodies, soft_tissue, down_P), follicle_(follicleOf(patient)), stitches_(stitchPlaces_P_mm(patient)) {}
+    : loose_(patient, bodies, soft_tissue, down_P) {}
 
 void SiteFilm::follow(const haptics::Tick& tick, const haptics::Command& command) {
-  const std::optional<SuctionTip> tip = suctionOf(tick, command);
-  chips_.follow(tick, tip);
-  follicle_.follow(tick, command.tool, tip);
-  if (out_ > 0) stitches_.follow(tick, command.tool);
+  loose_.follow(tick, command);
   soft_marks_.follow(std::span(&tick, 1), command.tool.head);
   // Loose from the tick on that says so.
   if (tick.chips != haptics::ChipAnswer::done || command.chips.serial == loosened_ || command.chips.plan == nullptr)
     return;
   loosened_ = command.chips.serial;
-  chips_.add(*command.chips.plan, tick);
+  loose_.loosen(*command.chips.plan, tick);
 }
 
 void SiteFilm::look(const haptics::Tick& tick, std::span<const glm::ivec3> bricks) {
   next_look_s_ = tick.t_s + kBetweenLooks_s;
-  chips_.followBone(bricks, tick);
-  const auto out = std::ranges::count_if(tick.X_PQ, haptics::Bodies::isAside);
-  const bool has_come = std::exchange(out_, out) != out;
-  if ((!bricks.empty() || has_come) && out > 0)
-    follicle_.letLoose([this](const glm::dvec3& p, double within_mm) { return chips_.isBare(p, within_mm); });
+  loose_.followBone(bricks, tick);
   const double now_s = tick.t_s + tick.dt_s;
   if (!film_.isDue(now_s)) return;
-  Shown shown{siteBeads(chips_, follicle_, out > 0 ? &stitches_ : nullptr), soft_marks_.marks()};
+  Shown shown{loose_.beads(), soft_marks_.marks()};
   if (const auto* const newest = film_.newest();
       newest != nullptr && newest->content.beads == shown.beads && areSame(newest->content.marks, shown.marks))
     return;

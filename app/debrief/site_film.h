@@ -11,9 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "app/debrief/film.h"
-#include "app/procedure/closure/stitches.h"
-#include "app/procedure/debris/follicle.h"
-#include "app/procedure/debris/loose_chips.h"
+#include "app/rehearsal/loose_site.h"
 #include "app/rehearsal/soft_mark_trail.h"
 #include "assets/patient.h"
 #include "assets/soft_tissue_field.h"
@@ -47,11 +45,8 @@ class SiteFilm {
     render::SoftMarks marks;
   };
 
-  LooseChips chips_;
-  Follicle follicle_;
-  Stitches stitches_;
+  LooseSite loose_;
   SoftMarkTrail soft_marks_;
-  std::ptrdiff_t out_ = 0;      ///< pieces, at the last look
   std::uint64_t loosened_ = 0;  ///< serial of the newest order for chips that was done
   double next_look_s_ = 0.0;
   Film<Shown> film_{kMost, 0.1};

@@ -11,17 +11,12 @@ namespace {
 
 constexpr double kBetweenFlapEvents_s = 1.0;
 
-/// Down, as the patient lies.
-glm::dvec3 downIn_P(const calibration::Rig& rig) {
-  return glm::conjugate(rig.X_WP.rotation) * glm::dvec3(0.0, -1.0, 0.0);
-}
-
 }  // namespace
 
 FlapFollower::FlapFollower(const RehearsalPlan& plan, EventLog& event_log)
     : plan_(plan),
       event_log_(event_log),
-      flap_(plan.patient, plan.patient.gingiva, plan.cut.value(), plan.soft_tissue, downIn_P(plan.rig)) {
+      flap_(plan.patient, plan.patient.gingiva, plan.cut.value(), plan.soft_tissue, plan.gravity_P()) {
   event_log_.note("flap planned", fmt::format("incision {:.1f} mm", flap_.plan().incisionLength_mm()));
 }
 

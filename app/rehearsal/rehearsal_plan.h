@@ -49,6 +49,7 @@ struct RehearsalPlan {
   bool shows_clearance = true;              ///< in the picture; it is recorded in any case
   bool sounds_clearance = false;            ///< told by tones
   calibration::Rig rig;
+  std::optional<glm::dvec3> down_P;  ///< unit, along gravity; none: down in the picture
   bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
@@ -85,6 +86,10 @@ struct RehearsalPlan {
   std::optional<int> quality_step;          ///< held; none: by measured frame times
   std::unique_ptr<DisplayWindows> windows;  ///< opened while the patient was prepared, or null
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< start of the program
+
+  glm::dvec3 gravity_P() const {
+    return down_P.value_or(glm::conjugate(rig.X_WP.rotation) * glm::dvec3(0.0, -1.0, 0.0));
+  }
 };
 
 }  // namespace app

@@ -5,18 +5,11 @@
 
 #include <fmt/core.h>
 
-#include "app/rehearsal/site_beads.h"
-
 namespace app {
 namespace {
 
 constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6;  ///< radii
 constexpr double kBetweenEvents_s = 1.0;
-
-/// Down, as the patient lies.
-glm::dvec3 downOf(const calibration::Rig& rig) {
-  return glm::conjugate(rig.X_WP.rotation) * glm::dvec3(0.0, -1.0, 0.0);
-}
 
 Amount amountOf(const std::vector<const LooseChip*>& chips) {
   Amount amount;
@@ -27,43 +20,30 @@ Amount amountOf(const std::vector<const LooseChip*>& chips) {
 }  // namespace
 
 SocketFollower::SocketFollower(const RehearsalPlan& plan, const haptics::Bodies& bodies, EventLog& event_log)
-    : event_log_(event_log),
-      desk_(bodies),
-      chips_(bodies, plan.soft_tissue, downOf(plan.rig)),
-      follicle_(follicleOf(plan.patient)),
-      stitches_(stitchPlaces_P_mm(plan.patient)) {
+    : event_log_(event_log), desk_(bodies), loose_(plan.patient, bodies, plan.soft_tissue, plan.gravity_P()) {
   if (bodies.pieces() == 0 || !plan.patient.site || plan.patient.ct.label.empty()) return;
   watch_.emplace(plan.patient, plan.scanned_solid.empty() ? plan.patient.ct.solid : plan.scanned_solid, bodies);
 }
 
 void SocketFollower::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
   for (const haptics::Tick& tick : ticks) {
-    const std::optional<SuctionTip> tip = suctionOf(tick, command);
-    chips_.follow(tick, tip);
-    follicle_.follow(tick, command.tool, tip);
-    if (isAnyOut() && stitches_.follow(tick, command.tool)) {
-      news_ = fmt::format("stitch {} of {}", stitches_.made(), stitches_.places().size());
-      event_log_.note("stitch", news_);
-    }
+    if (!loose_.follow(tick, command)) continue;
+    news_ = fmt::format("stitch {} of {}", loose_.stitches().made(), loose_.stitches().places().size());
+    event_log_.note("stitch", news_);
   }
 }
 
 std::optional<haptics::ChipOrder> SocketFollower::follow(const Frame& frame) {
   const auto order = desk_.follow(frame.bricks, frame.newest, frame.is_applied, frame.waits);
-  chips_.followBone(frame.bricks, frame.newest);
-  // A piece that is lifted leaves the follicle where it was.
-  const auto out = std::ranges::count_if(frame.newest.X_PQ, haptics::Bodies::isAside);
-  const bool has_come = std::exchange(out_, out) != out;
-  if ((!frame.bricks.empty() || has_come) && out > 0)
-    follicle_.letLoose([this](const glm::dvec3& p, double within_mm) { return chips_.isBare(p, within_mm); });
-  if (const haptics::ChipPlan* const loosened = desk_.takeLoosened()) chips_.add(*loosened, frame.newest);
+  loose_.followBone(frame.bricks, frame.newest);
+  if (const haptics::ChipPlan* const loosened = desk_.takeLoosened()) loose_.loosen(*loosened, frame.newest);
   if (watch_) watch_->follow(frame.bricks, frame.newest, frame.waits);
   tell(frame.newest.t_s, false);
   return order;
 }
 
 void SocketFollower::finish(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
-  chips_.followBone(bricks, newest);
+  loose_.followBone(bricks, newest);
   if (watch_) watch_->finish(bricks, newest);
   tell(newest.t_s, true);
 }
@@ -74,14 +54,14 @@ std::optional<SocketRecord> SocketFollower::record() const {
     record = watch_->newest()->record;
   else
     record.is_out = false;
-  const std::vector<const LooseChip*> left = chips_.left();
+  const std::vector<const LooseChip*> left = loose_.chips().left();
   record.chips = amountOf(left);
   if (record.is_out) {
-    record.stitches = stitches_.made();
-    record.stitch_places = static_cast<int>(stitches_.places().size());
+    record.stitches = loose_.stitches().made();
+    record.stitch_places = static_cast<int>(loose_.stitches().places().size());
   }
-  record.follicle_left = follicle_.left();
-  record.chips_taken = amountOf(chips_.taken());
+  record.follicle_left = loose_.follicle().left();
+  record.chips_taken = amountOf(loose_.chips().taken());
   for (const LooseChip* const chip : left) record.chip_places.push_back({chip->chip.volume_mm3, chip->at_P_mm});
   std::ranges::stable_sort(record.chip_places, std::greater{}, &Place::amount);
   if (record.chip_places.size() > kMostPlaces) record.chip_places.resize(kMostPlaces);
@@ -113,20 +93,20 @@ std::string SocketFollower::line() const {
 
 SiteLeft SocketFollower::left() const {
   SiteLeft left;
-  for (const LooseChip* const chip : chips_.left())
+  for (const LooseChip* const chip : loose_.chips().left())
     if (chip->chip.volume_mm3 >= kDust_mm3) left.chips_P_mm.push_back(chip->at_P_mm);
-  for (const FollicleBlob& blob : follicle_.blobs()) {
+  for (const FollicleBlob& blob : loose_.follicle().blobs()) {
     if (blob.state == FollicleBlob::State::stuck) left.stuck_P_mm.push_back(blob.at_P_mm);
     if (blob.state == FollicleBlob::State::loose) left.loose_P_mm.push_back(blob.at_P_mm);
   }
   if (watch_ && watch_->newest()) left.edges = watch_->newest()->edges;
-  for (const StitchPlace& place : stitches_.places())
+  for (const StitchPlace& place : loose_.stitches().places())
     if (!place.is_made) left.stitches_P_mm.push_back(place.at_P_mm);
   return left;
 }
 
 std::vector<render::Bead> SocketFollower::beads() const {
-  std::vector<render::Bead> beads = siteBeads(chips_, follicle_, isAnyOut() ? &stitches_ : nullptr);
+  std::vector<render::Bead> beads = loose_.beads();
   if (!isAnyOut()) return beads;
   for (const SharpEdge& edge : watch_->newest()->edges)
     for (const glm::dvec3& p : edge.points_P_mm) beads.push_back({{p}, kEdgeMark_mm, render::BeadKind::mark});

@@ -3,20 +3,17 @@
 // recording. Main thread, once a frame. Without a labelled tooth of its own it looks for chips alone.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "app/procedure/closure/stitches.h"
 #include "app/procedure/debris/chip_desk.h"
-#include "app/procedure/debris/follicle.h"
-#include "app/procedure/debris/loose_chips.h"
 #include "app/procedure/socket/socket_watch.h"
 #include "app/procedure/third_molar/cleaning_plan.h"
 #include "app/rehearsal/event_log.h"
+#include "app/rehearsal/loose_site.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "haptics/servo/command.h"
 #include "render/frame.h"
@@ -48,7 +45,7 @@ class SocketFollower {
   /// Chips, follicle, and marks where sharp edges and pieces of tooth are.
   std::vector<render::Bead> beads() const;
   /// Jaw and pieces that lie in it, in the order of the jaw's grid, of the last frame.
-  std::span<const std::uint8_t> solidInMouth() const { return chips_.solid(); }
+  std::span<const std::uint8_t> solidInMouth() const { return loose_.chips().solid(); }
   /// For a hand that cleans.
   SiteLeft left() const;
   /// None: no piece is out and no chip came loose.
@@ -61,14 +58,11 @@ class SocketFollower {
 
   EventLog& event_log_;
   ChipDesk desk_;
-  LooseChips chips_;
-  Follicle follicle_;
-  Stitches stitches_;
+  LooseSite loose_;
   std::optional<SocketWatch> watch_;
   std::optional<SocketRecord> told_;
   std::optional<double> told_s_;
   std::string news_;
-  std::ptrdiff_t out_ = 0;  ///< pieces, at the last call
 };
 
 }  // namespace app

@@ -45,15 +45,20 @@ std::vector<int> teethTouched(const haptics::Tick& tick, const haptics::BurShape
 std::vector<Touch> Touches::follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool) {
   std::vector<Touch> ended;
   for (const haptics::Tick& tick : ticks) {
-    for (const int fdi : teethTouched(tick, tool.head, patient_)) touch(assets::toothName(fdi), tick);
-    // Only what lies in bone can reach the canal.
-    if (tick.depth_mm > 0.0 && !canal_.isEmpty() && haptics::clearance_mm(canal_, tool, heldPose(tick)) <= 0.0)
-      touch(kCanalTouch, tick);
+    // A curette or an elevator is no bur, wherever it is held.
+    if (tool.turns()) lookAt(tick, tool);
     if (running_.empty()) continue;
     const std::vector<Touch> over = endedBefore(tick.t_s - kTouchPause_s);
     ended.insert(ended.end(), over.begin(), over.end());
   }
   return ended;
+}
+
+void Touches::lookAt(const haptics::Tick& tick, const haptics::Tool& tool) {
+  for (const int fdi : teethTouched(tick, tool.head, patient_)) touch(assets::toothName(fdi), tick);
+  // Only what lies in bone can reach the canal.
+  if (tick.depth_mm > 0.0 && !canal_.isEmpty() && haptics::clearance_mm(canal_, tool, heldPose(tick)) <= 0.0)
+    touch(kCanalTouch, tick);
 }
 
 std::vector<Touch> Touches::finish() { return endedBefore(std::numeric_limits<double>::infinity()); }

@@ -1,7 +1,7 @@
-// How often and how long the bur touched teeth and the mandibular canal, from every tick, so that a touch shorter than
-// a frame counts. Each touch that ended becomes an event
-// of the recording, from which metrics makes the same numbers (app/session/touch_event). Main thread, once a frame;
-// microseconds a tick, some tens of them while a tooth is touched.
+// How often and how long a bur, and no other instrument, touched teeth and the mandibular canal, from every tick, so
+// that a touch shorter than a frame counts. Each touch that ended becomes an event of the recording, from which metrics
+// makes the same numbers (app/session/touch_event). Main thread, once a frame; microseconds a tick, some tens of them
+// while a tooth is touched.
 #pragma once
 
 #include <map>
@@ -38,6 +38,7 @@ class Touches {
   struct Running {
     double last_s = 0.0, contact_s = 0.0;
   };
+  void lookAt(const haptics::Tick& tick, const haptics::Tool& tool);
   void touch(const std::string& what, const haptics::Tick& tick) {
     Running& running = running_[what];
     running.last_s = tick.t_s;

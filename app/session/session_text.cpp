@@ -104,6 +104,7 @@ json setupJson(const SessionSetup& setup) {
                       {"axis_P", three(setup.site->axis_P)}};
   for (const glm::dvec3& p : setup.canal_P_mm) object["canal"]["line_P_mm"].push_back(three(p));
   if (!setup.canal_P_mm.empty()) object["canal"]["radius_mm"] = setup.canal_radius_mm;
+  if (setup.down_P) object["down_P"] = three(*setup.down_P);
   return object;
 }
 
@@ -127,6 +128,10 @@ void readSite(const json& object, SessionSetup& setup) {
     const double length = glm::length(setup.site->axis_P);
     if (!assets::isToothNumber(setup.site->fdi) || !(std::abs(length - 1.0) < 1e-3))
       throw damagedSession("it has no valid site");
+  }
+  if (const auto down = object.find("down_P"); down != object.end()) {
+    setup.down_P = vectorFrom(*down);
+    if (!(std::abs(glm::length(*setup.down_P) - 1.0) < 1e-3)) throw damagedSession("it has no valid site");
   }
   const auto canal = object.find("canal");
   if (canal == object.end() || !canal->is_object()) return;

@@ -64,5 +64,21 @@ TEST(PatientPosition, ThePictureIsAsTheSurgeonStandsThere) {
   }
 }
 
+TEST(PatientPosition, DownIsAlongGravityInTheRoom) {
+  for (const int fdi : {38, 48})
+    for (const std::string_view name : kPatientPositions) {
+      const assets::Patient patient = patientWith(fdi);
+      const PatientPosition position = patientPositionNamed(name);
+      const glm::dquat R_WP = placePatientAtSite(patient, assets::kFaceAxes_PF, position).rotation;
+      const glm::dvec3 down_W = R_WP * downInRoom(patient, assets::kFaceAxes_PF, position).xyz;
+      EXPECT_NEAR(glm::length(down_W), 1.0, 1e-12);
+      EXPECT_NEAR(down_W.x, 0.0, 1e-12) << "the horizon is level in the picture, " << name;
+      EXPECT_LT(down_W.y, 0.0) << name;
+      // A surgeon looks down into a lying patient's mouth at 60 degrees.
+      if (position == PatientPosition::seated) continue;
+      EXPECT_NEAR(down_W.z, -std::sin(calibration::radFromDegrees(60.0)), 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace app

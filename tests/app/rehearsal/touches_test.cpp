@@ -87,6 +87,19 @@ TEST(Touches, TellTheTeethApartAndLeaveBoneOut) {
   EXPECT_NEAR(touches.counts()[0].contact_s, 0.010, 1e-12);
 }
 
+TEST(Touches, AreOfABurAlone) {
+  Jaw jaw;
+  jaw.stay(10, {-4.0, 0.0, 0.0}, true);
+  jaw.stay(10, {1.0, 0.0, -3.8}, true, assets::Tissue::trabecular);
+  for (const haptics::Tool& tool : {haptics::handInstrumentTool(haptics::HandInstrument::curette),
+                                    haptics::elevatorTool(haptics::ElevatorKind::straight_301)}) {
+    Touches touches(jaw.patient, jaw.canal);
+    touches.follow(jaw.ticks, tool);
+    touches.finish();
+    EXPECT_TRUE(touches.counts().empty());
+  }
+}
+
 TEST(Touches, ReachTheCanalWhereTheHeadMeetsItsWall) {
   Jaw jaw;
   // To half a voxel: the labels' own.

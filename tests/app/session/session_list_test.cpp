@@ -164,6 +164,7 @@ TEST(SessionSetup, IsStoredWithTheSession) {
   start.setup.built_in = jaw;
   start.setup.tray = {{{haptics::ShapeKind::sphere, 1.5, 0.0}, {0.9, 25.0}},
                       {{haptics::ShapeKind::capsule, 0.8, 4.125}, {0.5, 20.0}}};
+  start.setup.down_P = glm::dvec3(0.0, 0.6, -0.8);
   start.setup.former = FormerSession{"2026-11-19-tooth-48.molar", 61.25, 0xfedcba9876543210u};
   const std::string path = (at.sessions / "a.molar").string();
   SessionWriter(path, false, start).write({{}, test::imaginedTicks(0, 10), {}});
@@ -174,6 +175,7 @@ TEST(SessionSetup, IsStoredWithTheSession) {
   EXPECT_EQ(stored.setup.built_in->seed, jaw.seed);
   EXPECT_EQ(stored.setup.built_in->opening_mm, 28.5);
   EXPECT_EQ(stored.setup.tray, start.setup.tray);
+  EXPECT_EQ(stored.setup.down_P, start.setup.down_P);
   ASSERT_TRUE(stored.setup.former);
   EXPECT_EQ(stored.setup.former->file, "2026-11-19-tooth-48.molar");
   EXPECT_EQ(stored.setup.former->bone_digest, 0xfedcba9876543210u);
