@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/commands/command.h"
 #include "app/review/comparison_page.h"
@@ -32,16 +33,21 @@ void addCompare(CommandLine& molar) {
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
     const std::string a = sessionNamed(options->a), b = sessionNamed(options->b);
+    std::optional<calibration::OutputFile> out;
     if (!options->out.empty()) {
       if (options->json) throw UsageError("--json, --out: give one of them");
       if (!options->out.ends_with(".html"))
         throw UsageError("--out " + options->out + ": a comparison is a page, name it .html");
-      calibration::OutputFile out(options->out, options->force);
-      const SessionComparison found = comparisonOf(a, b);
-      out.commit(comparisonHtml(found, comparisonPictures(a, b)));
+      out.emplace(options->out, options->force);
+    }
+    const ComparedEnds ends = comparedEnds(a, b);
+    for (const auto& [path, left] : {std::pair(&a, &ends.left_a), std::pair(&b, &ends.left_b)})
+      for (const std::string& remark : left->remarks) printMessage(*path + ": " + remark);
+    const SessionComparison found = comparisonOf(a, b, ends);
+    if (out) {
+      out->commit(comparisonHtml(found, comparisonPictures(ends)));
       return 0;
     }
-    const SessionComparison found = comparisonOf(a, b);
     std::fputs((options->json ? comparisonJson(found) : comparisonText(found)).c_str(), stdout);
     return 0;
   });

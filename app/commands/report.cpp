@@ -23,28 +23,36 @@ struct ReportOptions {
   bool force = false;
 };
 
+/// Of the same case, measured.
+SessionMetrics otherOf(const std::string& name, const std::string& case_title) {
+  const std::string path = sessionNamed(name);
+  const std::string title = SessionReader(path).about().patient_title;
+  if (title != case_title)
+    throw UsageError("--compare " + name + ": is of another case (" + title + "), name a session of " + case_title);
+  return metricsOf(path, caseOfSession);
+}
+
 int report(const ReportOptions& options) {
   if (!options.out.ends_with(".html")) throw UsageError("--out " + options.out + ": a report is a page, name it .html");
   calibration::OutputFile out(options.out, options.force);
+  // All that is named is looked at before the session is run again.
   const std::string patient = options.patient.empty() ? "" : patientNamed(options.patient);
-  std::optional<ReferenceSet> set;
-  if (!options.reference.empty()) set = loadReference(options.reference);
   const std::string session = sessionNamed(options.session);
-  SessionReview review = reviewOf(session, patient, [&](const std::vector<ToldMoment>& moments) {
-    return momentPictures(session, patient, moments);
-  });
-  if (set) tellAgainst(review.metrics, *set);
+  const std::string case_title = SessionReader(session).about().patient_title;
+  std::optional<ReferenceSet> set;
+  if (!options.reference.empty()) refuseOtherCase(case_title, set.emplace(loadReference(options.reference)));
+  if (!options.trend.empty()) refuseMissingFolder(options.trend);
   std::optional<SessionMetrics> other;
-  if (!options.compare.empty()) {
-    other = metricsOf(sessionNamed(options.compare), caseOfSession);
-    if (other->patient_title != review.metrics.patient_title)
-      throw UsageError("--compare " + options.compare + ": is of another case (" + other->patient_title +
-                       "), name a session of " + review.metrics.patient_title);
+  if (!options.compare.empty()) other = otherOf(options.compare, case_title);
+
+  SessionReview review = reviewWithPictures(session, patient);
+  if (set) tellAgainst(review.metrics, *set);
+  std::optional<CaseTrend> trend;
+  if (!options.trend.empty()) {
+    trend = trendOf(options.trend, printMessage, session, review.metrics);
+    if (!trend) printMessage("--trend " + options.trend + ": holds no session of " + case_title);
   }
-  std::vector<CaseTrend> trend;
-  if (!options.trend.empty()) trend = trendOf(options.trend, printMessage, review.metrics.patient_title);
-  out.commit(
-      reviewHtml(review, {other ? &*other : nullptr, set ? &*set : nullptr, trend.empty() ? nullptr : &trend.front()}));
+  out.commit(reviewHtml(review, {other ? &*other : nullptr, set ? &*set : nullptr, trend ? &*trend : nullptr}));
   return 0;
 }
 

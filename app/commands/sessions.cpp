@@ -50,8 +50,8 @@ std::string table(const std::vector<SessionListing>& sessions, const std::filesy
                             (one.continues ? ", continues " + *one.continues : "") +
                             (one.case_title.empty() || one.remark.empty() ? "" : ", " + one.remark));
   }
-  return text + fmt::format("{} session{}, {:.0f} MB in {}\n", sessions.size(), sessions.size() == 1 ? "" : "s",
-                            total_MB, folder.string());
+  return text + fmt::format("{} session{}, {:.0f} MB in {}; times are local\n", sessions.size(),
+                            sessions.size() == 1 ? "" : "s", total_MB, folder.string());
 }
 
 int list(const SessionsOptions& options) {

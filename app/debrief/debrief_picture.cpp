@@ -20,7 +20,8 @@ bool PictureChoice::operator==(const PictureChoice& other) const {
 DebriefPicture::DebriefPicture(DebriefRun& run, const render::RenderOptions& options)
     : run_(run), clearance_(run.risks()), head_up_(true, false) {
   const assets::Patient& patient = run.patient();
-  renderer_ = patientRenderer(patient, run.moments().command().tool, run.cut(), patient.ct.solid, options);
+  // A continued rehearsal began with what was left.
+  renderer_ = patientRenderer(patient, run.moments().command().tool, run.cut(), run.moments().start().solid, options);
   frame_.site_P = {patient.focus_P_mm()};
   frame_.X_PT.translation_mm = frame_.site_P.mm;
 }

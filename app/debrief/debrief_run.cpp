@@ -48,11 +48,10 @@ DebriefRun::DebriefRun(const std::string& session, const std::string& patient_fo
     if (event.kind == kFlapEvent) recorded_flap_ = flapFrom(event.text);
   site_.emplace(patient_, moments_.bodies(), start.soft_tissue, down_P());
   if (recorded_flap_ && has_patient_ && cut_) beginFlap(start);
-  // A continued rehearsal began with what was left.
-  patient_.ct.solid = start.solid;
 }
 
 glm::dvec3 DebriefRun::down_P() const {
+  if (const auto& recorded = moments_.start().setup.down_P) return *recorded;
   return glm::conjugate(placePatientAtSite(patient_, assets::kFaceAxes_PF).rotation) * glm::dvec3(0.0, -1.0, 0.0);
 }
 

@@ -41,7 +41,9 @@ class DebriefRun {
   const std::string& path() const { return path_; }
   /// File without its folder.
   std::string name() const;
+  /// As scanned, with its gum as it is closed. Not known: only what the session itself holds.
   const assets::Patient& patient() const { return patient_; }
+  bool knowsPatient() const { return has_patient_; }
   const std::optional<assets::PlannedCut>& cut() const { return cut_; }
   const assets::RiskStructures& risks() const { return risks_; }
   /// Bricks of the jaw's grid that have changed since the last call; may name one twice.
@@ -61,7 +63,7 @@ class DebriefRun {
  private:
   void lookAtSite(const haptics::Tick& tick);
   void beginFlap(const StoredStart& start);
-  /// Down, as the patient lay where nothing else was asked for.
+  /// As the patient lay; of a session before that was stored, down in the usual picture.
   glm::dvec3 down_P() const;
 
   std::string path_;

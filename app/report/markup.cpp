@@ -1,5 +1,7 @@
 #include "app/report/markup.h"
 
+#include <cmath>
+
 #include <fmt/core.h>
 
 namespace app {
@@ -32,6 +34,10 @@ std::string fixedText(double value, int digits) {
 std::string signedText(double value, int digits) {
   const std::string text = fixedText(value, digits);
   return value > 0.0 && text.find_first_not_of("0.") != std::string::npos ? "+" + text : text;
+}
+
+std::string shortText(double value) {
+  return fixedText(value, std::abs(value) < 10.0 ? 2 : std::abs(value) < 100.0 ? 1 : 0);
 }
 
 std::string timeText(const std::string& utc) {

@@ -12,6 +12,8 @@ std::string escaped(std::string_view text);
 std::string fixedText(double value, int digits);
 /// The same with a plus before positive values.
 std::string signedText(double value, int digits);
+/// No finer than it means something to a reader: 1.23, 12.3, 123.
+std::string shortText(double value);
 /// "2026-11-21T08:20:00Z" as "2026-11-21 08:20 UTC"; other text unchanged.
 std::string timeText(const std::string& utc);
 

@@ -1,8 +1,6 @@
 #include "app/review/comparison_page.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <fmt/core.h>
 
@@ -11,7 +9,6 @@
 #include "app/review/review_figures.h"
 #include "app/review/site_view.h"
 #include "app/session/gates.h"
-#include "app/session/replay.h"
 #include "app/station/session_patient.h"
 #include "app/text/clock_text.h"
 #include "assets/trilinear.h"
@@ -20,11 +17,6 @@ namespace app {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
-
-ReplayedState endOf(const std::string& path) {
-  SessionReader session(path);
-  return replayTo(session, std::numeric_limits<double>::infinity());
-}
 
 /// As a distance to a plan: -1 where all of what was there is gone, 1 where nothing is.
 std::function<double(const glm::dvec3&)> fromRemoval(const StoredStart& start, const std::vector<std::uint8_t>& after) {
@@ -45,16 +37,13 @@ std::string eventWords(const Gate& gate) {
   return gate.words.empty() ? said : said + ": " + gate.words;
 }
 
-std::string shortText(const std::optional<double>& value) {
-  if (!value) return "-";
-  return fixedText(*value, std::abs(*value) < 10.0 ? 2 : std::abs(*value) < 100.0 ? 1 : 0);
-}
+std::string orDash(const std::optional<double>& value) { return value ? shortText(*value) : "-"; }
 
 std::string boneSection(const SessionComparison& c, const ComparisonPictures& pictures) {
   std::string content = tableMarkup({"Bone", "mm³"}, {{"removed by both", shortText(c.bone.both_mm3)},
                                                       {"by the first alone", shortText(c.bone.onlyInA_mm3())},
                                                       {"by the second alone", shortText(c.bone.onlyInB_mm3())},
-                                                      {"overlap (Dice)", shortText(c.bone.dice())}});
+                                                      {"overlap (Dice)", orDash(c.bone.dice())}});
   std::vector<BonePicture> pairs;
   for (std::size_t n = 0; n < std::min(pictures.a.size(), pictures.b.size()); ++n) {
     pairs.push_back({"first, " + pictures.a[n].from, pictures.a[n].image});
@@ -67,14 +56,11 @@ std::string boneSection(const SessionComparison& c, const ComparisonPictures& pi
 }
 
 std::string stepsSection(const SessionComparison& c) {
-  if (!c.a.procedure || !c.b.procedure) return "";
   Rows rows;
-  for (const StepRecord& step : c.a.procedure->steps) {
-    const auto same = std::ranges::find(c.b.procedure->steps, step.key, &StepRecord::key);
-    const double other_s = same == c.b.procedure->steps.end() ? 0.0 : same->duration_s;
-    if (step.duration_s > 0.0 || other_s > 0.0)
-      rows.push_back({step.title, clockText(step.duration_s), clockText(other_s)});
-  }
+  for (const ComparedStep& step : comparedSteps(c))
+    if (step.a_s > 0.0 || step.b_s.value_or(0.0) > 0.0)
+      rows.push_back({step.title, clockText(step.a_s), clockText(step.b_s.value_or(0.0))});
+  if (rows.empty()) return "";
   return figureMarkup(stepsFigure(c.a, c.b), "Steps of both over the same time.") +
          tableMarkup({"Step", "first", "second"}, rows);
 }
@@ -84,23 +70,22 @@ std::string measuresSection(const SessionComparison& c) {
   for (const ComparedMeasure& row : comparedMeasures(c)) {
     if (isAmongMeasures(row.key) || (!row.a && !row.b)) continue;
     const std::string difference = row.a && row.b ? signedText(*row.b - *row.a, 2) : "-";
-    rows.push_back({std::string(row.name), shortText(row.a), shortText(row.b), difference, unitText(row.unit)});
+    rows.push_back({std::string(row.name), orDash(row.a), orDash(row.b), difference, unitText(row.unit)});
   }
   return tableMarkup({"Measure", "first", "second", "difference", ""}, rows);
 }
 
 }  // namespace
 
-ComparisonPictures comparisonPictures(const std::string& path_a, const std::string& path_b) {
-  const ReplayedState a = endOf(path_a), b = endOf(path_b);
-  const std::vector<std::uint8_t> whole_a = boneAtTime(path_a, {}).solid, whole_b = boneAtTime(path_b, {}).solid;
-  const SiteView site = siteViewOf(a.start, patientOfSession(a.start, ""), whole_a);
-  const auto pictures = [&](const ReplayedState& of, const std::vector<std::uint8_t>& other) {
-    const std::vector<std::uint8_t> in_mouth = of.bodies.solidInMouth();
-    return bonePictures({of.start.grid, of.start.label, of.start.solid, in_mouth}, site, fromRemoval(of.start, other),
+ComparisonPictures comparisonPictures(const ComparedEnds& ends) {
+  const StoredStart& start = ends.start_a;
+  const std::optional<assets::Patient> patient = patientOfSession(start, "");
+  const SiteView site = siteViewOf(start, patient ? &*patient : nullptr, ends.left_a.solid);
+  const auto pictures = [&](const BoneLeft& of, const BoneLeft& other) {
+    return bonePictures({start.grid, start.label, start.solid, of.solid}, site, fromRemoval(start, other.solid),
                         {480, 420});
   };
-  return {pictures(a, whole_b), pictures(b, whole_a)};
+  return {pictures(ends.left_a, ends.left_b), pictures(ends.left_b, ends.left_a)};
 }
 
 std::string comparisonHtml(const SessionComparison& c, const ComparisonPictures& pictures) {

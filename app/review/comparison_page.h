@@ -15,9 +15,8 @@ namespace app {
 struct ComparisonPictures {
   std::vector<BonePicture> a, b;
 };
-/// Bone that this one alone cut is red, bone that the other alone cut is blue. Throws as comparisonOf(); any thread;
-/// the time of two replays, and a second a picture.
-ComparisonPictures comparisonPictures(const std::string& path_a, const std::string& path_b);
+/// Bone that this one alone cut is red, bone that the other alone cut is blue. Any thread; a second a picture.
+ComparisonPictures comparisonPictures(const ComparedEnds& ends);
 
 /// Pure; any thread.
 std::string comparisonHtml(const SessionComparison& comparison, const ComparisonPictures& pictures);

@@ -87,12 +87,6 @@ std::optional<double> zOf(double value, const std::vector<double>& values) {
   return deviation > 1e-9 * std::max(1.0, std::abs(mean)) ? std::optional((value - mean) / deviation) : std::nullopt;
 }
 
-void refuseOtherCase(const SessionMetrics& run, const ReferenceSet& set) {
-  if (run.patient_title != set.case_title)
-    throw UsageError("--reference " + set.name + ": is of another case (" + set.case_title + "), name a set of " +
-                     run.patient_title);
-}
-
 /// Median of the graded, better is positive; none: nothing is graded.
 std::optional<double> zOfRun(const SessionMetrics& run, const ReferenceSet& set) {
   std::vector<double> zs;
@@ -206,8 +200,14 @@ std::vector<std::string> referenceNames() {
   return names;
 }
 
+void refuseOtherCase(const std::string& case_title, const ReferenceSet& set) {
+  if (case_title != set.case_title)
+    throw UsageError("--reference " + set.name + ": is of another case (" + set.case_title + "), name a set of " +
+                     case_title);
+}
+
 std::vector<Score> scoresOf(const SessionMetrics& run, const ReferenceSet& set) {
-  refuseOtherCase(run, set);
+  refuseOtherCase(run.patient_title, set);
   std::vector<Score> scores;
   for (const MeasureValue& measure : run.measures) {
     const std::vector<double> values = valuesIn(set, measure.id);
@@ -220,7 +220,7 @@ std::vector<Score> scoresOf(const SessionMetrics& run, const ReferenceSet& set) 
 }
 
 void tellAgainst(SessionMetrics& run, const ReferenceSet& set) {
-  refuseOtherCase(run, set);
+  refuseOtherCase(run.patient_title, set);
   const auto tell = [&](std::string_view id, const ContactEnvelope::ByBand& own,
                         const ContactEnvelope::ByBand& experts) {
     const auto found = std::ranges::find(run.measures, id, &MeasureValue::id);

@@ -49,6 +49,9 @@ inline constexpr const char* kReferenceHelp =
 /// Of the data folder, by name.
 std::vector<std::string> referenceNames();
 
+/// Throws UsageError: runs of this case are not held against the set, which is of another.
+void refuseOtherCase(const std::string& case_title, const ReferenceSet& set);
+
 struct Score {
   std::string_view id, name, unit;
   double value = 0.0, median = 0.0, low = 0.0, high = 0.0;  ///< the run's; of the set

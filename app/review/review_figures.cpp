@@ -6,6 +6,7 @@
 
 #include "app/report/axes.h"
 #include "app/report/drawing.h"
+#include "app/report/markup.h"
 #include "app/text/clock_text.h"
 
 namespace app {
@@ -191,7 +192,7 @@ std::string picturesFigure(const std::vector<BonePicture>& pictures, std::string
   return drawing.markup(description);
 }
 
-std::string trendFigure(const CaseTrend& trend, const SessionMetrics& own) {
+std::string trendFigure(const CaseTrend& trend) {
   constexpr double kColumn = 200.0, kRow = 118.0;
   constexpr std::size_t kInRow = 4;
   const TrendTable table = trendTable(trend);
@@ -218,11 +219,10 @@ std::string trendFigure(const CaseTrend& trend, const SessionMetrics& own) {
     for (std::size_t run = 0; run < table.runs.size(); ++run) {
       const auto& value = table.runs[run].values[n];
       if (!value) continue;
-      const SessionMetrics& of = trend.runs[run].metrics;
-      const bool is_own = of.ticks == own.ticks && of.duration_s == own.duration_s && of.removed_mm3 == own.removed_mm3;
       const glm::dvec2 at = axes.at({static_cast<double>(run) + 1.0, *value});
-      is_own ? drawing.box(at - 4.0, glm::dvec2(8.0), paper::kOrange) : drawing.disc(at, 3.5, paper::kBlue);
-      drawing.hint(at - 6.0, glm::dvec2(12.0), fmt::format("{}: {:.2f}", table.runs[run].name, *value));
+      trend.runs[run].is_own ? drawing.box(at - 4.0, glm::dvec2(8.0), paper::kOrange)
+                             : drawing.disc(at, 3.5, paper::kBlue);
+      drawing.hint(at - 6.0, glm::dvec2(12.0), table.runs[run].name + ": " + shortText(*value));
     }
   }
   return drawing.markup("Measures of the rehearsals of this case from old to new");

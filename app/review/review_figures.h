@@ -24,8 +24,8 @@ std::string forceFigure(const SessionCourse& course);
 /// Side by side; `has_words`: each with where it is seen from.
 std::string picturesFigure(const std::vector<BonePicture>& pictures, std::string_view description,
                            bool has_words = true);
-/// A few measures over the runs, from old to new; the run with `own` measures is marked, and the median from three on.
-std::string trendFigure(const CaseTrend& trend, const SessionMetrics& own);
+/// A few measures over the runs, from old to new; that of the report is marked, and the median from three on.
+std::string trendFigure(const CaseTrend& trend);
 /// A disc for "no", a square for "yes", a dashed outline for "not known".
 std::string answerSymbol(std::optional<bool> is_error);
 

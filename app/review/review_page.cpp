@@ -19,14 +19,11 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// No finer than it means something to a reader.
-int digitsOf(double value) { return std::abs(value) < 10.0 ? 2 : std::abs(value) < 100.0 ? 1 : 0; }
-
 std::string valueWords(const MeasureValue& measure) {
   if (!measure.value) return "not told: " + std::string(measure.why);
   // What is counted, a share of all or nothing.
   const bool is_whole = measure.unit.empty() && *measure.value == std::round(*measure.value);
-  std::string words = fixedText(*measure.value, is_whole ? 0 : digitsOf(*measure.value));
+  std::string words = is_whole ? fixedText(*measure.value, 0) : shortText(*measure.value);
   if (!measure.unit.empty()) words += " " + unitText(measure.unit);
   if (measure.t_s) words += " at " + clockText(*measure.t_s);
   return words;
@@ -60,16 +57,11 @@ std::string momentLink(const SessionReview& review, double t_s) {
   return shown ? "<a href=\"#" + pictureId(*shown) + "\">" + clockText(t_s) + "</a>" : clockText(t_s);
 }
 
-const MeasureValue* measureOf(const SessionReview& review, std::string_view id) {
-  const auto named = std::ranges::find(review.metrics.measures, id, &MeasureValue::id);
-  return named == review.metrics.measures.end() ? nullptr : &*named;
-}
-
 /// When the event of a gate happened; none: it did not, or is of no moment.
 std::optional<double> momentOf(const SessionReview& review, const Gate& gate) {
   if (!gate.is_open.value_or(false)) return {};
   for (const auto& [key, id] : {std::pair("perforation", "O5.area"), std::pair("second_molar", "O10.second_molar")})
-    if (const MeasureValue* const measure = measureOf(review, id);
+    if (const MeasureValue* const measure = measureOf(review.metrics, id);
         gate.key == key && measure != nullptr && measure->value.value_or(0.0) > 0.0 && measure->t_s)
       return measure->t_s;
   for (const auto& [key, what] :
@@ -123,16 +115,15 @@ bool isOutcome(const MeasureValue& measure) { return measure.id.starts_with("O")
 std::string clearanceTable(const SessionReview& review) {
   Rows rows;
   const auto cell = [&](const std::string& id) {
-    const MeasureValue* const measure = measureOf(review, id);
-    return measure == nullptr || !measure->value
-               ? std::string("-")
-               : fixedText(*measure->value, digitsOf(*measure->value)) + " " + escaped(unitText(measure->unit));
+    const MeasureValue* const measure = measureOf(review.metrics, id);
+    return measure == nullptr || !measure->value ? std::string("-")
+                                                 : shortText(*measure->value) + " " + escaped(unitText(measure->unit));
   };
   for (const auto& [id, name] :
        {std::pair("canal", "mandibular canal"), std::pair("lingual", "outer lingual surface"),
         std::pair("second_molar", "second molar"), std::pair("lingual_nerve", "lingual nerve's band (modelled)")}) {
     const std::string least = std::string("S1.") + id, near = std::string("S2.") + id;
-    const MeasureValue* const measure = measureOf(review, least);
+    const MeasureValue* const measure = measureOf(review.metrics, least);
     if (measure == nullptr) continue;
     if (!measure->value) {
       rows.push_back({name, "not told: " + escaped(measure->why), "", "", "", "", "", ""});
@@ -160,8 +151,9 @@ std::string nearSection(const SessionReview& review) {
   for (const MeasureValue& measure : metrics.measures)
     if (isSafety(measure) && is_told(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
   if (metrics.touched)
-    rows.push_back(
-        {"touched by the bur", metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)});
+    rows.push_back({"touched by the bur", !metrics.touched->empty() ? touchesText(*metrics.touched)
+                                          : review.has_canal        ? "no tooth, no canal"
+                                                                    : "no tooth"});
   const std::string cut = softTouchesText(metrics.soft_touches.cut),
                     pressed = softTouchesText(metrics.soft_touches.touched);
   rows.push_back({"bur turned on soft tissue", cut.empty() ? "never" : cut});
@@ -180,11 +172,11 @@ std::string momentsSection(const SessionReview& review) {
                clockText(moment.t_s) + "</b> " + escaped(moment.what) + "; force " + fixedText(force_N, 1) +
                " N</figcaption></figure>\n";
   }
-  content +=
-      "</div>\n<p class=\"quiet\">Drawn from the recording as it was run again: on the left as the surgeon saw "
-      "it, on the right the jaw alone from aside with the mandibular canal.";
-  for (const std::string& remark : review.remarks) content += " " + escaped(remark) + ".";
-  return content + "</p>\n";
+  const std::vector<BonePicture>& views = review.moments.front().views;
+  std::string from;
+  for (const BonePicture& view : views) from += (from.empty() ? "" : "; ") + view.from;
+  return content + "</div>\n<p class=\"quiet\">Drawn from the recording run again. " +
+         escaped("From left to right: " + from + ".") + "</p>\n";
 }
 
 std::string removedSection(const SessionReview& review) {
@@ -212,8 +204,8 @@ std::string handSection(const SessionReview& review, const SessionMetrics* other
     if (isSafety(measure) || isOutcome(measure)) continue;
     std::vector<std::string> row{std::string(measure.name), valueWords(measure)};
     if (other != nullptr) {
-      const auto same = std::ranges::find(other->measures, measure.id, &MeasureValue::id);
-      row.push_back(same == other->measures.end() ? "" : valueWords(*same));
+      const MeasureValue* const same = measureOf(*other, measure.id);
+      row.push_back(same == nullptr ? "" : valueWords(*same));
     }
     rows.push_back(std::move(row));
   }
@@ -243,7 +235,7 @@ std::string courseSection(const SessionReview& review) {
   return content + "</ul>\n";
 }
 
-std::string trendSection(const SessionReview& review, const CaseTrend& trend) {
+std::string trendSection(const CaseTrend& trend) {
   const TrendTable table = trendTable(trend);
   std::vector<std::string> heads{"Rehearsal"};
   heads.insert(heads.end(), table.names.begin(), table.names.end());
@@ -251,17 +243,16 @@ std::string trendSection(const SessionReview& review, const CaseTrend& trend) {
   for (const auto* const part : {&table.runs, &table.spread})
     for (const TrendTable::Row& row : *part) {
       std::vector<std::string>& cells = rows.emplace_back(1, row.name);
-      for (const auto& value : row.values) cells.push_back(value ? fixedText(*value, digitsOf(*value)) : "-");
+      for (const auto& value : row.values) cells.push_back(value ? shortText(*value) : "-");
     }
   std::string words =
       fmt::format("{} of this case.", trend.runs.size() == 1 ? std::string("One rehearsal")
                                                              : fmt::format("{} rehearsals", trend.runs.size()));
-  if (table.spread.empty()) words += fmt::format(" Median and range are told from {} on.", kRunsForTrend);
-  return figureMarkup(
-             trendFigure(trend, review.metrics),
-             escaped(words +
-                     " Each dot is one, from old to new; the square is this one, the broken line the median.")) +
-         tableMarkup(heads, rows);
+  words += " Each dot is one, from old to new; ";
+  words += std::ranges::any_of(trend.runs, &TrendRun::is_own) ? "the square is this one" : "this one is not among them";
+  words += table.spread.empty() ? fmt::format(". Median and range are told from {} on.", kRunsForTrend)
+                                : std::string(", the broken line is the median.");
+  return figureMarkup(trendFigure(trend), escaped(words)) + tableMarkup(heads, rows);
 }
 
 std::string conditionsSection(const SessionReview& review) {
@@ -276,6 +267,9 @@ std::string conditionsSection(const SessionReview& review) {
   rows.push_back({"Force clamped or slew-limited", fixedText(metrics.limited_s, 2) + " s"});
   rows.push_back({"Invalid pose, force or device fault", fixedText(metrics.faulty_s, 2) + " s"});
   rows.push_back({"Recording", metrics.closed ? "closed in order" : "ended early; complete up to then"});
+  std::string again;
+  for (const std::string& remark : review.remarks) again += (again.empty() ? "" : "; ") + remark;
+  rows.push_back({"Run again for the pictures", again.empty() ? "as recorded" : again});
   if (metrics.former)
     rows.push_back({"Continues", fmt::format("an earlier rehearsal of {} before it; measures are of this part alone",
                                              clockText(metrics.former->duration_s))});
@@ -297,7 +291,7 @@ std::string reviewHtml(const SessionReview& review, const HeldAgainst& against) 
   page.section("Bone and tooth removed", removedSection(review));
   page.section("The hand's work", handSection(review, other));
   page.section("The course", courseSection(review));
-  if (trend != nullptr) page.section("Over time", trendSection(review, *trend));
+  if (trend != nullptr) page.section("Over time", trendSection(*trend));
   page.section("Conditions", conditionsSection(review));
   return page.text(std::string("Measures as in molar metrics; ") +
                    (reference == nullptr ? "no score is given, for no reference was named"

@@ -5,29 +5,13 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/session/replay.h"
+#include "app/session/session_error.h"
 #include "app/station/session_case.h"
 #include "app/text/clock_text.h"
 #include "app/text/usage_error.h"
 
 namespace app {
 namespace {
-
-/// Of a step in both.
-struct StepRow {
-  std::string title;
-  const StepRecord *a = nullptr, *b = nullptr;
-};
-
-std::vector<StepRow> stepsOf(const SessionComparison& c) {
-  std::vector<StepRow> rows;
-  if (!c.a.procedure || !c.b.procedure) return rows;
-  for (const StepRecord& step : c.a.procedure->steps) {
-    const auto same = std::ranges::find(c.b.procedure->steps, step.key, &StepRecord::key);
-    rows.push_back({step.title, &step, same == c.b.procedure->steps.end() ? nullptr : &*same});
-  }
-  return rows;
-}
 
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value + 0.0) : "-"; }
 
@@ -46,14 +30,38 @@ std::vector<ComparedMeasure> comparedMeasures(const SessionComparison& c) {
   return rows;
 }
 
-SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b) {
-  SessionComparison comparison{metricsOf(path_a, caseOfSession), metricsOf(path_b, caseOfSession), {}};
-  const BoneAtTime a = boneAtTime(path_a, {}), b = boneAtTime(path_b, {});
-  if (!(a.start.grid == b.start.grid) || a.start.label != b.start.label || a.start.solid != b.start.solid)
+std::vector<ComparedStep> comparedSteps(const SessionComparison& c) {
+  std::vector<ComparedStep> rows;
+  if (!c.a.procedure || !c.b.procedure) return rows;
+  for (const StepRecord& step : c.a.procedure->steps) {
+    const auto same = std::ranges::find(c.b.procedure->steps, step.key, &StepRecord::key);
+    rows.push_back({step.title, step.duration_s,
+                    same == c.b.procedure->steps.end() ? std::nullopt : std::optional(same->duration_s)});
+  }
+  return rows;
+}
+
+ComparedEnds comparedEnds(const std::string& path_a, const std::string& path_b) {
+  SessionReader a(path_a), b(path_b);
+  for (auto* const one : {&a, &b}) {
+    const std::string& path = one == &a ? path_a : path_b;
+    refuseDamaged(*one, path);
+    if (const auto log = one->missingLog()) throw missingLogError(path, *log);
+  }
+  ComparedEnds ends{a.start(), b.start(), {}, {}};
+  if (!(ends.start_a.grid == ends.start_b.grid) || ends.start_a.label != ends.start_b.label ||
+      ends.start_a.solid != ends.start_b.solid)
     throw UsageError(path_b + ": begins with another bone than " + path_a + ", compare two rehearsals of one case");
-  comparison.bone = compareRemovals(a.start.grid, a.start.solid, a.solid, b.solid,
-                                    [&](std::size_t v) { return countsAsBone(a.start.label[v]); });
-  return comparison;
+  ends.left_a = boneLeft(a, ends.start_a);
+  ends.left_b = boneLeft(b, ends.start_b);
+  return ends;
+}
+
+SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b, const ComparedEnds& ends) {
+  const StoredStart& start = ends.start_a;
+  return {metricsOf(path_a, caseOfSession, &ends.left_a), metricsOf(path_b, caseOfSession, &ends.left_b),
+          compareRemovals(start.grid, start.solid, ends.left_a.solid, ends.left_b.solid,
+                          [&](std::size_t v) { return countsAsBone(start.label[v]); })};
 }
 
 std::string comparisonText(const SessionComparison& c) {
@@ -64,10 +72,10 @@ std::string comparisonText(const SessionComparison& c) {
                   c.bone.both_mm3, c.bone.onlyInA_mm3(), c.bone.onlyInB_mm3());
   if (const auto dice = c.bone.dice()) words += fmt::format("; overlap (Dice) {:.2f}", *dice);
   words += "\n\n";
-  for (const StepRow& step : stepsOf(c))
-    words += fmt::format("{:>10} {:>10}  {}\n", clockText(step.a->duration_s),
-                         step.b != nullptr ? clockText(step.b->duration_s) : "-", step.title);
-  if (!stepsOf(c).empty()) words += "\n";
+  const std::vector<ComparedStep> steps = comparedSteps(c);
+  for (const ComparedStep& step : steps)
+    words += fmt::format("{:>10} {:>10}  {}\n", clockText(step.a_s), step.b_s ? clockText(*step.b_s) : "-", step.title);
+  if (!steps.empty()) words += "\n";
   words += fmt::format("{:>11} {:>11} {:>11}\n", "first", "second", "difference");
   for (const ComparedMeasure& row : comparedMeasures(c)) {
     if (isAmongMeasures(row.key)) continue;
@@ -89,10 +97,8 @@ std::string comparisonJson(const SessionComparison& c) {
                                    {"dice", orNull(c.bone.dice())}}},
                                  {"steps", nlohmann::ordered_json::array()},
                                  {"measures", nlohmann::ordered_json::array()}};
-  for (const StepRow& step : stepsOf(c))
-    json["steps"].push_back({{"title", step.title},
-                             {"first_s", step.a->duration_s},
-                             {"second_s", step.b != nullptr ? nlohmann::ordered_json(step.b->duration_s) : nullptr}});
+  for (const ComparedStep& step : comparedSteps(c))
+    json["steps"].push_back({{"title", step.title}, {"first_s", step.a_s}, {"second_s", orNull(step.b_s)}});
   for (const ComparedMeasure& row : comparedMeasures(c)) {
     nlohmann::ordered_json entry = {
         {"id", row.key}, {"name", row.name}, {"unit", row.unit}, {"first", orNull(row.a)}, {"second", orNull(row.b)}};

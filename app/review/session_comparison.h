@@ -12,13 +12,21 @@
 
 namespace app {
 
+/// How both began and what they left, read once for all that is made of them.
+struct ComparedEnds {
+  StoredStart start_a, start_b;
+  BoneLeft left_a, left_b;
+};
+/// Throws SessionError; UsageError where they are of different cases, before anything is run again. A replay of each
+/// that does not hold its bone.
+ComparedEnds comparedEnds(const std::string& path_a, const std::string& path_b);
+
 struct SessionComparison {
   SessionMetrics a, b;
   RemovalDifference bone;
 };
-
-/// Throws SessionError; UsageError where they are of different cases.
-SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b);
+/// `ends`: of these. Throws SessionError.
+SessionComparison comparisonOf(const std::string& path_a, const std::string& path_b, const ComparedEnds& ends);
 
 /// Of both; those of kMeasures first.
 struct ComparedMeasure {
@@ -27,6 +35,14 @@ struct ComparedMeasure {
   std::optional<double> a, b;
 };
 std::vector<ComparedMeasure> comparedMeasures(const SessionComparison& comparison);
+
+/// Of the steps of the first; none where a procedure was not followed in both.
+struct ComparedStep {
+  std::string title;
+  double a_s = 0.0;
+  std::optional<double> b_s;
+};
+std::vector<ComparedStep> comparedSteps(const SessionComparison& comparison);
 
 std::string comparisonText(const SessionComparison& comparison);
 std::string comparisonJson(const SessionComparison& comparison);

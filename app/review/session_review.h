@@ -1,10 +1,8 @@
 // All that is told of one recorded rehearsal: measures, course, the case, what was removed against the plan, pictures.
-// Gathered once, told by review_page. The patient of a built-in case is made again; that of an imported one is named.
-// Any one thread; some seconds, and the time of a replay: what is left in the mouth, and the pictures of moments, are
-// of the session run again.
+// Gathered once, told by review_page; what comes of the session run again (app/debrief/moment_pictures) is given. Any
+// one thread; some seconds, and the drawing of the moments.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +13,7 @@
 #include "app/review/session_course.h"
 #include "app/review/told_moments.h"
 #include "app/session/metrics.h"
+#include "assets/patient.h"
 
 namespace app {
 
@@ -26,22 +25,23 @@ struct SessionReview {
   std::optional<ExtractionPlan> plan;  ///< none: why_no_plan
   std::string why_no_plan;
   bool is_against_plan = false;  ///< pictures are coloured by it
+  bool has_canal = false;
   std::vector<BonePicture> pictures;
   std::vector<MomentPicture> moments;  ///< in order of time
-  std::vector<std::string> remarks;    ///< on the pictures
+  std::vector<std::string> remarks;    ///< for people: what is not as it was when it was run again
 };
 
-/// What a session leaves when it is run again: these moments as pictures, and the solid fraction without what was taken
-/// out of the mouth, in the order of its grid.
+/// A session run again once to its end, for its report.
 struct RunAgain {
-  std::vector<MomentPicture> moments;
-  std::vector<std::string> remarks;  ///< for people: what is not as it was
-  std::vector<std::uint8_t> in_mouth;
+  const StoredStart& start;
+  const assets::Patient* patient = nullptr;  ///< as scanned; null: not known
+  const assets::RiskStructures& risks;
+  BoneLeft left;
+  std::vector<std::string> remarks;
+  std::function<std::vector<MomentPicture>(const std::vector<ToldMoment>&)> draw;
 };
-using RunsAgain = std::function<RunAgain(const std::vector<ToldMoment>&)>;
 
-/// `patient_folder` empty: the built-in patient of the session, or none. Throws SessionError; UsageError where the
-/// folder is of another patient.
-SessionReview reviewOf(const std::string& path, const std::string& patient_folder, const RunsAgain& runs_again);
+/// Throws SessionError.
+SessionReview reviewOf(const std::string& path, const RunAgain& again);
 
 }  // namespace app

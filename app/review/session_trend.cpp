@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/report/markup.h"
 #include "app/session/measures/painting.h"
 #include "app/session/session_error.h"
 #include "app/session/session_list.h"
 #include "app/station/session_case.h"
-#include "app/text/clock_text.h"
+#include "calibration/record/utc.h"
 
 namespace app {
 namespace {
@@ -57,11 +59,45 @@ std::optional<Grade> gradeOf(const CaseTrend& one, const ReferenceSet* reference
 }
 
 std::string gradeText(const Grade& grade) {
-  std::string words = "grade             " + grade.words;
+  std::string words = "grade                 " + grade.words;
   if (grade.z)
     words += fmt::format("; median z {:+.1f}, from {:+.1f} to {:+.1f}, positive is better", *grade.z, *grade.low,
                          *grade.high);
   return words + "\n";
+}
+
+std::string fileOf(const SessionListing& session) { return std::filesystem::path(session.path).filename().string(); }
+
+TrendRun measured(const SessionListing& session) {
+  return {fileOf(session), session.unix_s, metricsOf(session.path, caseOfSession)};
+}
+
+/// By title, each from old to new.
+std::vector<CaseTrend> casesOf(const std::filesystem::path& folder, const ReportLine& report,
+                               const std::function<bool(const SessionListing&)>& is_asked,
+                               const std::function<TrendRun(const SessionListing&)>& run) {
+  refuseMissingFolder(folder);
+  std::map<std::string, CaseTrend> by_title;
+  std::vector<SessionListing> listed = listSessions(folder);
+  std::ranges::reverse(listed);
+  for (const SessionListing& session : listed) {
+    if (!session.isReadable()) {
+      report(fileOf(session) + ": " + session.remark + ", left out");
+      continue;
+    }
+    if (!is_asked(session)) continue;
+    try {
+      TrendRun one = run(session);
+      CaseTrend& trend = by_title[session.case_title];
+      trend.title = session.case_title;
+      trend.runs.push_back(std::move(one));
+    } catch (const SessionError& error) {
+      report(std::string(error.what()) + ", left out");
+    }
+  }
+  std::vector<CaseTrend> cases;
+  for (auto& [title, one] : by_title) cases.push_back(std::move(one));
+  return cases;
 }
 
 }  // namespace
@@ -73,7 +109,7 @@ TrendTable trendTable(const CaseTrend& one) {
     table.names.emplace_back(column.name);
   }
   for (const TrendRun& run : one.runs) {
-    TrendTable::Row& row = table.runs.emplace_back(TrendTable::Row{localDateTime(run.unix_s), {}});
+    TrendTable::Row& row = table.runs.emplace_back(TrendTable::Row{timeText(calibration::utcOf(run.unix_s)), {}});
     for (const Column& column : kColumns) row.values.push_back(column.of(run.metrics));
   }
   if (one.runs.size() < kRunsForTrend) return table;
@@ -88,46 +124,42 @@ TrendTable trendTable(const CaseTrend& one) {
   return table;
 }
 
-std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report,
-                               const std::string& only_title) {
+void refuseMissingFolder(const std::filesystem::path& folder) {
   if (std::error_code failed; !std::filesystem::is_directory(folder, failed))
     throw SessionError(folder.string() + ": there is no such folder, name one that molar rehearse recorded into");
-  std::map<std::string, CaseTrend> by_title;
-  std::vector<SessionListing> listed = listSessions(folder);
-  std::ranges::reverse(listed);
-  for (const SessionListing& session : listed) {
-    const std::string file = std::filesystem::path(session.path).filename().string();
-    if (session.isReadable() && !only_title.empty() && session.case_title != only_title) continue;
-    if (!session.isReadable()) {
-      report(file + ": " + session.remark + ", left out");
-      continue;
-    }
-    try {
-      CaseTrend& one = by_title[session.case_title];
-      one.title = session.case_title;
-      one.runs.push_back({file, session.unix_s, metricsOf(session.path, caseOfSession)});
-    } catch (const SessionError& error) {
-      report(std::string(error.what()) + ", left out");
-    }
-  }
-  std::vector<CaseTrend> cases;
-  for (auto& [title, one] : by_title)
-    if (!one.runs.empty()) cases.push_back(std::move(one));
+}
+
+std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report) {
+  std::vector<CaseTrend> cases = casesOf(
+      folder, report, [](const SessionListing&) { return true; }, measured);
   if (cases.empty())
     throw SessionError(folder.string() + ": holds no session that can be measured, record one with molar rehearse");
   return cases;
+}
+
+std::optional<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report,
+                                 const std::string& own_path, const SessionMetrics& own) {
+  std::vector<CaseTrend> cases = casesOf(
+      folder, report, [&own](const SessionListing& session) { return session.case_title == own.patient_title; },
+      [&](const SessionListing& session) {
+        std::error_code failed;
+        if (!std::filesystem::equivalent(session.path, own_path, failed)) return measured(session);
+        return TrendRun{fileOf(session), session.unix_s, own, true};
+      });
+  if (cases.empty()) return {};
+  return std::move(cases.front());
 }
 
 std::string trendText(const std::vector<CaseTrend>& cases, const ReferenceSet* reference) {
   std::string words;
   for (const CaseTrend& one : cases) {
     const TrendTable table = trendTable(one);
-    words += (words.empty() ? "" : "\n") + one.title + "\n" + fmt::format("{:<18}", "");
+    words += (words.empty() ? "" : "\n") + one.title + "\n" + fmt::format("{:<22}", "");
     for (const std::string& head : table.heads) words += fmt::format("{:>10}", head);
     words += "\n";
     const auto add = [&words](const std::vector<TrendTable::Row>& rows) {
       for (const TrendTable::Row& row : rows) {
-        words += fmt::format("{:<18}", row.name);
+        words += fmt::format("{:<22}", row.name);
         for (const auto& value : row.values)
           words += value ? fmt::format("{:>10.2f}", *value + 0.0) : fmt::format("{:>10}", "-");
         words += "\n";

@@ -19,6 +19,7 @@ struct TrendRun {
   std::string file;  ///< without folder
   std::int64_t unix_s = 0;
   SessionMetrics metrics;
+  bool is_own = false;  ///< the session that is reported
 };
 
 struct CaseTrend {
@@ -29,15 +30,22 @@ struct CaseTrend {
 /// Runs below this have no median.
 inline constexpr std::size_t kRunsForTrend = 3;
 
-/// Complete or killed sessions, `only_title`: of this case; what cannot be read is told and left out. Throws
-/// SessionError where the folder holds none.
-std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report,
-                               const std::string& only_title = {});
+/// Throws SessionError: there is no such folder.
+void refuseMissingFolder(const std::filesystem::path& folder);
+
+/// Complete or killed sessions; what cannot be read is told and left out. Throws SessionError where the folder holds
+/// none, or is missing.
+std::vector<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report);
+
+/// Of the case of a session that is measured already, which is known by its file and not measured again; nothing where
+/// the folder holds no session of that case. Throws as the other.
+std::optional<CaseTrend> trendOf(const std::filesystem::path& folder, const ReportLine& report,
+                                 const std::string& own_path, const SessionMetrics& own);
 
 /// A few measures of each run, and from kRunsForTrend on median, least and most of each.
 struct TrendTable {
   struct Row {
-    std::string name;  ///< when it was, or "median"
+    std::string name;  ///< when it was, "2026-11-24 15:43 UTC", or "median"
     std::vector<std::optional<double>> values;
   };
   std::vector<std::string> heads, names;  ///< short; for people, with the unit

@@ -38,10 +38,9 @@ SiteView siteOfBlock() {
 
 }  // namespace
 
-SiteView siteViewOf(const StoredStart& start, const std::optional<assets::Patient>& patient,
-                    std::span<const std::uint8_t> after) {
+SiteView siteViewOf(const StoredStart& start, const assets::Patient* patient, std::span<const std::uint8_t> after) {
   if (!start.setup.practice.empty()) return siteOfBlock();
-  return patient && patient->site ? siteOf(*patient) : siteFromBone(start, after);
+  return patient != nullptr && patient->site ? siteOf(*patient) : siteFromBone(start, after);
 }
 
 }  // namespace app

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "app/review/bone_pictures.h"
@@ -13,7 +12,7 @@
 namespace app {
 
 /// `after`: solid at the end, in the order of the grid.
-SiteView siteViewOf(const StoredStart& start, const std::optional<assets::Patient>& patient,
-                    std::span<const std::uint8_t> after);
+/// `patient`: null where it is not known.
+SiteView siteViewOf(const StoredStart& start, const assets::Patient* patient, std::span<const std::uint8_t> after);
 
 }  // namespace app

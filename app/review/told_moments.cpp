@@ -45,8 +45,8 @@ std::vector<ToldMoment> toldMoments(const SessionMetrics& metrics, const Session
                               Words{"S1.second_molar", "nearest to the second molar, ", " mm", true}};
   Told told;
   for (const Words& words : kNamed) {
-    const auto measure = std::ranges::find(metrics.measures, words.id, &MeasureValue::id);
-    if (measure == metrics.measures.end() || !measure->value || !measure->t_s) continue;
+    const MeasureValue* const measure = measureOf(metrics, words.id);
+    if (measure == nullptr || !measure->value || !measure->t_s) continue;
     if (!words.is_told_at_zero && !(*measure->value > 0.0)) continue;
     std::string what(words.before);
     if (!words.after.empty()) what += fixedText(*measure->value, 2) + std::string(words.after);

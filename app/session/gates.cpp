@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "app/session/measures/clearance_measures.h"
 #include "app/session/metrics.h"
 #include "app/session/touch_event.h"
 #include "app/text/clock_text.h"
@@ -13,12 +14,6 @@ namespace {
 
 /// The neighbour's name in touches, of either side.
 constexpr std::string_view kSecondMolar = "second molar";
-
-const MeasureValue* measureOf(const SessionMetrics& metrics, std::string_view id) {
-  for (const MeasureValue& measure : metrics.measures)
-    if (measure.id == id) return &measure;
-  return nullptr;
-}
 
 std::string atTime(const std::optional<double>& t_s) { return t_s ? " at " + clockText(*t_s) : ""; }
 
@@ -33,6 +28,12 @@ std::string touchWords(const TouchCount& count) {
   return fmt::format("the bur was on it {}, {} s in all",
                      count.times == 1 ? std::string("once") : fmt::format("{} times", count.times),
                      fmt::format("{:.1f}", count.contact_s));
+}
+
+/// The case has none of the structure of this least clearance: what is not there is not missed either.
+bool hasNone(const SessionMetrics& metrics, std::string_view id) {
+  const MeasureValue* const least = measureOf(metrics, id);
+  return least != nullptr && !least->value && least->why == kNoStructure;
 }
 
 Gate perforationGate(const SessionMetrics& metrics) {
@@ -76,15 +77,18 @@ Gate canalGate(const SessionMetrics& metrics) {
   Gate gate{"canal", "mandibular canal touched or laid open", {}, {}};
   const TouchCount* const touch = touchOf(metrics, kCanalTouch);
   const double laid_open_mm2 = metrics.socket && metrics.socket->is_out ? metrics.socket->canal.amount : 0.0;
+  const bool is_none = hasNone(metrics, "S1.canal");
   if (laid_open_mm2 > 0.0)
     gate.words = fmt::format("{:.1f}", laid_open_mm2) + " mm² laid open";
   else if (touch != nullptr)
     gate.words = touchWords(*touch);
+  else if (is_none)
+    gate.words = kNoStructure;
   else if (!metrics.touched)
     gate.words = "touches were not counted when this was recorded";
   if (laid_open_mm2 > 0.0 || touch != nullptr)
     gate.is_open = true;
-  else if (metrics.touched)
+  else if (metrics.touched && !is_none)
     gate.is_open = false;
   return gate;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,7 +17,6 @@
 #include "app/session/measures/practice_measures.h"
 #include "app/session/measures/sight.h"
 #include "app/session/measures/tissue_work.h"
-#include "app/session/replay.h"
 #include "app/session/session_error.h"
 #include "app/text/parse_number.h"
 
@@ -81,15 +79,11 @@ std::optional<double> measuredMm(const std::string& text) {
   return end == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(0, end));
 }
 
-/// The bone that is left: as recorded, else by a replay; none where that ends with another bone. Rewinds the session.
-std::optional<std::vector<std::uint8_t>> boneLeft(SessionReader& session, const StoredStart& start,
-                                                  SessionMetrics& metrics) {
-  if (auto left = session.finalBone(start)) return std::move(left->solid);
-  const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
-  session.rewind();
-  if (end.divergence) return {};
-  metrics.removed_mm3_by_label = removedByKey(end.bodies.removedByTissue_mm3());
-  return end.bodies.solidInGridOrder();
+/// None where a replay ends with another bone than the recording.
+std::optional<std::vector<std::uint8_t>> knownBone(BoneLeft left, SessionMetrics& metrics) {
+  if (left.divergence) return {};
+  if (left.removed_mm3) metrics.removed_mm3_by_label = std::move(left.removed_mm3);
+  return std::move(left.solid);
 }
 
 /// What is told by events.
@@ -167,7 +161,7 @@ MeasureValue outOfSight(const RemovalClock* clock, const StoredStart& start, std
 
 }  // namespace
 
-SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
+SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const BoneLeft* left) {
   SessionReader session(path);
   refuseDamaged(session, path);
   SessionMetrics metrics;
@@ -187,7 +181,8 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
   const SessionCase about = case_of ? case_of(start) : SessionCase();
   // A replay, of a recording that was not closed, is for who looks at the case.
   std::optional<std::vector<std::uint8_t>> after;
-  if (case_of) after = boneLeft(session, start, metrics);
+  const auto bone_left = [&] { return knownBone(left != nullptr ? *left : boneLeft(session, start), metrics); };
+  if (case_of) after = bone_left();
   std::optional<RemovalClock> clock;
   if (after) clock.emplace(start.grid, start.solid, *after);
   std::vector<float> work_us;
@@ -241,7 +236,7 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
   }
   if (metrics.missing_log && metrics.ticks == 0) throw missingLogError(path, *metrics.missing_log);
   metrics.lost = session.lost();
-  if (!is_removal_stored && !case_of) boneLeft(session, start, metrics);
+  if (!is_removal_stored && !case_of) bone_left();
   if (is_removal_stored) {
     metrics.removed_mm3 = 0.0;
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) metrics.removed_mm3 += removed_mm3;
@@ -263,7 +258,8 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of) {
                              onlooker, out_s)});
   add(!case_of ? noOutcome(kNotLookedAt)
       : !clock ? noOutcome("the bone at the end is not known")
-               : outcomeMeasures({start, *after, *clock, surface, about, metrics.socket, parted_s}));
+               : outcomeMeasures(
+                     {start, *after, *clock, surface, about, metrics.socket, parted_s, metrics.removed_mm3_by_label}));
   if (const auto task = assets::practiceTaskOf(start.setup.practice); task && clock)
     add(practiceMeasures(*task, start.grid, start.label, start.solid, *after));
   metrics.envelope = near.envelope();

@@ -16,6 +16,7 @@
 #include "app/session/measures/contact_envelope.h"
 #include "app/session/measures/measure_value.h"
 #include "app/session/measures/session_case.h"
+#include "app/session/replay.h"
 #include "app/session/session_calibration.h"
 #include "app/session/session_conditions.h"
 #include "app/session/session_setup.h"
@@ -117,12 +118,15 @@ inline constexpr std::array kMeasures = std::to_array<Measure>({
 
 /// Throws SessionError if the file is missing, not a session, or damaged. `case_of` a session's start: what its bur had
 /// to keep off and what was to be removed (app/station/session_case); without it neither is told. 8 to 10 s for ten
-/// minutes; of a recording that was not closed the time of its replay as well, where a case is asked for.
-SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of = {});
+/// minutes; of a recording that does not hold the bone at its end (it was not closed) the time of its replay as well,
+/// where a case is asked for and that bone is not given as `left`.
+SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of = {}, const BoneLeft* left = nullptr);
 
 /// Units as people write them: mm³, mm², °.
 std::string unitText(std::string_view unit);
 
+/// A measure by its id; null: it is not among them.
+const MeasureValue* measureOf(const SessionMetrics& metrics, std::string_view id);
 /// A measure's value by its id; none: the recording cannot tell.
 std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id);
 

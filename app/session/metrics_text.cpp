@@ -35,9 +35,14 @@ std::string unitText(std::string_view unit) {
   return text == "deg" ? "°" : text;
 }
 
-std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id) {
+const MeasureValue* measureOf(const SessionMetrics& metrics, std::string_view id) {
   const auto found = std::ranges::find(metrics.measures, id, &MeasureValue::id);
-  return found == metrics.measures.end() ? std::nullopt : found->value;
+  return found == metrics.measures.end() ? nullptr : &*found;
+}
+
+std::optional<double> valueOf(const SessionMetrics& metrics, std::string_view id) {
+  const MeasureValue* const measure = measureOf(metrics, id);
+  return measure != nullptr ? measure->value : std::nullopt;
 }
 
 bool isAmongMeasures(std::string_view id) {

@@ -98,6 +98,11 @@ std::string divergenceText(const ReplayedState& state) {
       state.removed_excess_mm3 < 0.0 ? "less" : "more");
 }
 
+std::string replayedText(const StoredStart& start) {
+  return "the final bone is not in it, so it is recomputed by a replay, which needs the version that recorded it (" +
+         start.program_version + ")";
+}
+
 }  // namespace
 
 void refuseDamaged(SessionReader& session, const std::string& path) {
@@ -165,6 +170,22 @@ ReplayedState replayTo(SessionReader& session, double t_s) {
   return {std::move(start), std::move(bodies), last, command, divergence, again_mm3 - recorded_mm3};
 }
 
+BoneLeft boneLeft(SessionReader& session, const StoredStart& start) {
+  BoneLeft left;
+  if (auto recorded = session.finalBone(start)) {
+    left.solid = std::move(recorded->solid);
+    return left;
+  }
+  const ReplayedState state = replayTo(session, std::numeric_limits<double>::infinity());
+  session.rewind();
+  left.solid = state.bodies.solidInMouth();
+  left.removed_mm3 = removedByKey(state.bodies.removedByTissue_mm3());
+  left.divergence = state.divergence;
+  left.remarks.push_back(replayedText(start));
+  if (state.divergence) left.remarks.push_back(divergenceText(state));
+  return left;
+}
+
 BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   SessionReader session(path);
   refuseDamaged(session, path);
@@ -176,15 +197,12 @@ BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
     if (const auto log = session.missingLog()) throw missingLogError(path, *log);
     bone.start = session.start();
     bone.t_s = end_s;
-    if (auto left = session.finalBone(bone.start)) {
-      bone.solid = std::move(left->solid);
-      return bone;
-    }
-    bone.remarks.push_back(
-        "the final bone is not in it, so it is recomputed by a replay, which needs the version that recorded it (" +
-        bone.start.program_version + ")");
+    BoneLeft left = boneLeft(session, bone.start);
+    bone.solid = std::move(left.solid);
+    bone.remarks = std::move(left.remarks);
+    return bone;
   }
-  ReplayedState state = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
+  ReplayedState state = replayTo(session, *t_s);
   if (state.divergence) bone.remarks.push_back(divergenceText(state));
   bone.solid = state.bodies.solidInMouth();
   bone.t_s = state.tick.t_s + state.tick.dt_s;

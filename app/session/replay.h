@@ -63,6 +63,17 @@ struct ReplayedState {
 /// which must be undamaged.
 ReplayedState replayTo(SessionReader& session, double t_s);
 
+/// The bone that a session left in the mouth.
+struct BoneLeft {
+  std::vector<std::uint8_t> solid;             ///< in the order of the grid
+  std::optional<RemovedByTissue> removed_mm3;  ///< by the replay; none: the bone is as recorded, without one
+  std::optional<ReplayDifference> divergence;  ///< why the replay ended with another bone than the recording
+  std::vector<std::string> remarks;            ///< for people: that it was replayed, and how exact that is
+};
+
+/// As recorded, else by a replay. `start` is that of this session, which must be undamaged and is rewound.
+BoneLeft boneLeft(SessionReader& session, const StoredStart& start);
+
 /// The bone at a time.
 struct BoneAtTime {
   StoredStart start;

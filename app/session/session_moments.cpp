@@ -152,6 +152,7 @@ void SessionMoments::run(const haptics::Tick& recorded, const Follow& follow, bo
   auto what = rerun_.prepare(recorded);
   at_.tick = rerun_.step(recorded);
   ++at_.ticks;
+  if (compares) recorded_digest_ = recorded.bone_digest;
   if (compares && !difference_) {
     if (!what) what = differenceOf(recorded, at_.tick);
     if (what) difference_ = ReplayDifference{recorded.index, *what};
@@ -213,6 +214,18 @@ void SessionMoments::goTo(double t_s, const Follow& follow) {
 }
 
 std::vector<glm::ivec3> SessionMoments::takeChangedBricks() { return rerun_.takeChanged(); }
+
+BoneLeft SessionMoments::boneLeft() {
+  BoneLeft left;
+  if (auto recorded = session_.finalBone(start_)) {
+    left.solid = std::move(recorded->solid);
+    return left;
+  }
+  left.solid = bodies_.solidInMouth();
+  left.removed_mm3 = removedByKey(bodies_.removedByTissue_mm3());
+  if (recorded_digest_ != bodies_.digest()) left.divergence = difference_;
+  return left;
+}
 
 std::size_t SessionMoments::keyframeBytes() const {
   std::size_t all = undo_.bytes() + keyframes_.capacity() * sizeof(Keyframe);

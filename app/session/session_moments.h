@@ -63,6 +63,8 @@ class SessionMoments {
 
   /// The first difference from the recording, found by index().
   const std::optional<ReplayDifference>& difference() const { return difference_; }
+  /// What was left, where it is at the end, as boneLeft().
+  BoneLeft boneLeft();
   std::size_t keyframes() const { return keyframes_.size(); }
   double betweenKeyframes_s() const { return between_s_; }
   /// Of the keyframes alone; of all.
@@ -111,6 +113,7 @@ class SessionMoments {
   bool indexed_ = false;
   std::uint64_t indexed_ticks_ = 0;
   std::optional<ReplayDifference> difference_;
+  std::uint64_t recorded_digest_ = 0;  ///< of the bone after the newest tick that index() ran
 
   std::vector<Keyframe> keyframes_;
   std::vector<std::uint8_t> first_solid_;              ///< of the jaw, block by block

@@ -1,6 +1,7 @@
 #include "app/station/session_case.h"
 
 #include <memory>
+#include <utility>
 
 #include "app/case/gutter_plan.h"
 #include "app/case/impaction_measures.h"
@@ -44,13 +45,10 @@ SessionCase practiceCase(assets::PracticeTask task, const StoredStart& start) {
   return known;
 }
 
-}  // namespace
-
-SessionCase caseOfSession(const StoredStart& start) {
-  if (const auto task = assets::practiceTaskOf(start.setup.practice)) return practiceCase(*task, start);
-  const assets::Patient patient = patientWithinSession(start);
+/// `patient`: within the session.
+SessionCase operationCase(const StoredStart& start, const assets::Patient& patient, assets::RiskStructures risks) {
   SessionCase known;
-  known.risks = risksOfSession(start, patient);
+  known.risks = std::move(risks);
   if (!patient.site) {
     known.why_no_plan = "no operated tooth is known";
     return known;
@@ -60,6 +58,19 @@ SessionCase caseOfSession(const StoredStart& start) {
   known.sight_P = assets::surgeonEyeDirection(patient.site->fdi);
   plan(known, start, patient);
   return known;
+}
+
+}  // namespace
+
+SessionCase caseOfSession(const StoredStart& start) {
+  if (const auto task = assets::practiceTaskOf(start.setup.practice)) return practiceCase(*task, start);
+  const assets::Patient patient = patientWithinSession(start);
+  return operationCase(start, patient, risksOfSession(start, patient));
+}
+
+SessionCase caseOfSessionWith(const StoredStart& start, const assets::RiskStructures& risks) {
+  if (const auto task = assets::practiceTaskOf(start.setup.practice)) return practiceCase(*task, start);
+  return operationCase(start, patientWithinSession(start), risks);
 }
 
 }  // namespace app

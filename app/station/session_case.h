@@ -10,5 +10,7 @@
 namespace app {
 
 SessionCase caseOfSession(const StoredStart& start);
+/// With its structures as risksOfSession() gives them, for who has them.
+SessionCase caseOfSessionWith(const StoredStart& start, const assets::RiskStructures& risks);
 
 }  // namespace app

@@ -29,8 +29,7 @@ constexpr std::array<std::string_view, 3> kBandIds{"S2.canal_1mm", "S2.canal_2mm
 constexpr std::array<std::string_view, 3> kBandNames{"time nearer than 1 mm to the mandibular canal",
                                                      "time nearer than 2 mm to the mandibular canal",
                                                      "time nearer than 4 mm to the mandibular canal"};
-constexpr std::string_view kNoStructure = "the case has no such structure, or was recorded before it was kept",
-                           kNotOn = "the drill was not on", kJustBegun = "the bur had just begun to turn";
+constexpr std::string_view kNotOn = "the drill was not on", kJustBegun = "the bur had just begun to turn";
 
 /// Interpolation between voxels is not exactly a distance.
 constexpr double kSlack_voxels = 0.5;

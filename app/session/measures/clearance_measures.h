@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/session/measures/measure_value.h"
@@ -15,6 +16,9 @@
 #include "haptics/tool/clearance.h"
 
 namespace app {
+
+/// Why a clearance is not told where there is nothing to keep off.
+inline constexpr std::string_view kNoStructure = "the case has no such structure, or was recorded before it was kept";
 
 /// Kind of the event with what was found live, written at the end of a rehearsal.
 inline constexpr char kClearanceEvent[] = "clearance";

@@ -110,12 +110,20 @@ class Outcome {
     std::array<double, kZones> by_zone_mm3{};
     for (const RemovedVoxel& voxel : of_.clock.removed()) {
       const double mm3 = voxel.share * voxel_mm3;
-      if (assets::isTooth(start.label[voxel.index])) tooth_mm3 += mm3;
+      // What was taken out in one piece was not removed by the bur.
+      if (assets::isTooth(start.label[voxel.index]) && voxel.t_s) tooth_mm3 += mm3;
       if (!isBone(voxel.index)) continue;
       bone_mm3 += mm3;
       if (zones) by_zone_mm3[static_cast<std::size_t>(zones->at(start.grid.centre_P_mm(voxel.ijk)))] += mm3;
     }
     tell("O1.bone", bone_mm3);
+    if (of_.removed_mm3) {
+      tooth_mm3 = 0.0;
+      for (const assets::TissueProperties& tissue : assets::kTissues)
+        if (const auto found = of_.removed_mm3->find(std::string(tissue.key));
+            tissue.tooth && found != of_.removed_mm3->end())
+          tooth_mm3 += found->second;
+    }
     tell("O1.tooth", tooth_mm3);
     if (!zones) return refuse(kIds, "no operated tooth is known");
     for (std::size_t n = 0; n < kZones; ++n) tell(kIds[n], by_zone_mm3[n]);

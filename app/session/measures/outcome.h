@@ -14,6 +14,7 @@
 #include "app/session/measures/original_surface.h"
 #include "app/session/measures/removal_clock.h"
 #include "app/session/measures/session_case.h"
+#include "app/session/session_text.h"
 #include "app/session/socket_event.h"
 
 namespace app {
@@ -26,6 +27,8 @@ struct OutcomeOf {
   const SessionCase& about;
   const std::optional<SocketRecord>& socket;
   std::optional<double> parted_s;  ///< when the tooth first came apart; none: it did not
+  /// As recorded; none: what a bur covered of the tooth counts as removed by it.
+  std::optional<RemovedByTissue> removed_mm3 = {};
 };
 
 std::vector<MeasureValue> outcomeMeasures(const OutcomeOf& of);

@@ -78,6 +78,40 @@ TEST_F(ReportCommand, TellsTheTrendOfAFolderFromThreeRunsOn) {
   EXPECT_NE(molar("trend " + at("")).out.find("median"), std::string::npos);
 }
 
+/// The same work twice: only the file tells which of them is reported.
+TEST_F(ReportCommand, FindsItsSessionInTheTrendByTheFile) {
+  std::filesystem::create_directory(at("folder"));
+  for (const char* file : {"folder/a.molar", "folder/b.molar"}) rehearse(file, "--seconds 3");
+  const auto page = [&](const std::string& session) {
+    const ProgramOutput said =
+        molar("report " + at(session) + " --trend " + at("folder") + " --force --out " + at("t.html"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    return read("t.html");
+  };
+  const auto own = [](const std::string& text) { return text.find("the square is this one") != std::string::npos; };
+  const std::string first = page("folder/a.molar"), second = page("folder/b.molar");
+  EXPECT_TRUE(own(first) && own(second));
+  EXPECT_NE(first.substr(first.find("<h2>Over time")), second.substr(second.find("<h2>Over time")))
+      << "the square is at another place";
+  std::filesystem::copy(at("folder/a.molar"), at("c.molar"));
+  EXPECT_FALSE(own(page("c.molar"))) << "a copy that lies elsewhere is not in the folder";
+}
+
+/// A wrong file named beside it costs no replay: it is refused before the session is read, here one that is broken.
+TEST_F(ReportCommand, LooksAtAllThatIsNamedBeforeTheReplay) {
+  rehearse("a.molar", "--seconds 1");
+  rehearse("left.molar", "--seconds 1 --case shallow");
+  std::string bytes = read("a.molar");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write("broken.molar", bytes);
+  write("set.json", R"({"molar_reference": 1, "name": "s", "case": "another", "made_utc": "", "runs": []})");
+  const std::string broken = "report " + at("broken.molar") + " --out " + at("c.html") + " ";
+  expectRefusal(broken + "--compare " + at("left.molar"), "another case");
+  expectRefusal(broken + "--reference " + at("set.json"), "another case");
+  expectRefusal(broken + "--trend " + at("nowhere"), "no such folder");
+  expectRefusal(broken, "damaged");
+}
+
 TEST_F(ReportCommand, RefusesInOneLine) {
   rehearse("a.molar", "--seconds 1");
   rehearse("left.molar", "--seconds 1 --case shallow");

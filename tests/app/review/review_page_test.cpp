@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/review/review_figures.h"
+#include "app/session/measures/clearance_measures.h"
 
 namespace app {
 namespace {
@@ -61,6 +62,10 @@ TEST(ReviewPage, ErrorsAreYesNoOrNotKnown) {
   review.metrics.touched->erase(review.metrics.touched->begin());
   EXPECT_NE(reviewHtml(review).find("<b>No</b>: Second molar touched"), std::string::npos)
       << "the third molar is not its neighbour";
+  EXPECT_NE(reviewHtml(review).find("<b>No</b>: Mandibular canal touched"), std::string::npos);
+  review.metrics.measures.push_back({"S1.canal", "least clearance", "mm", {}, kNoStructure, {}});
+  EXPECT_NE(reviewHtml(review).find("<b>Not known</b>: Mandibular canal touched"), std::string::npos)
+      << "what is not there is not missed";
 }
 
 TEST(ReviewPage, WhatIsNotKnownSaysWhy) {
@@ -91,6 +96,22 @@ TEST(ReviewPage, AMomentLeadsToItsPicture) {
   EXPECT_NE(page.find("</b> nearest to the canal; force 1.5 N"), std::string::npos);
 }
 
+TEST(ReviewPage, SpeaksOfTheCanalWhereTheCaseHasOne) {
+  SessionReview review = someReview();
+  review.metrics.touched.emplace();
+  const auto told = [&review] { return reviewHtml(review).find("no tooth, no canal") != std::string::npos; };
+  EXPECT_FALSE(told());
+  review.has_canal = true;
+  EXPECT_TRUE(told());
+}
+
+TEST(ReviewPage, WhatIsNotAsItWasIsSaidWithoutPictures) {
+  SessionReview review = someReview();
+  EXPECT_NE(reviewHtml(review).find("<td>Run again for the pictures</td><td>as recorded</td>"), std::string::npos);
+  review.remarks = {"from tick 12 on: the force served differs"};
+  EXPECT_NE(reviewHtml(review).find("from tick 12 on: the force served differs"), std::string::npos);
+}
+
 TEST(ReviewPage, PicturesHaveNoIdsThatClash) {
   // Of the same size, but not the same: each must be shown at its own place.
   EXPECT_EQ(reviewHtml(someReview()).find(" id=\"source"), std::string::npos);
@@ -101,9 +122,13 @@ TEST(ReviewPage, TellsTheRunsOfTheCaseOverTime) {
   CaseTrend trend{"built-in patient", {}};
   for (int run = 0; run < 2; ++run) trend.runs.push_back({"a/path/of/somebody.molar", 86400 * run, {}});
   trend.runs[1].metrics = someReview().metrics;
+  EXPECT_NE(reviewHtml(someReview(), {.trend = &trend}).find("this one is not among them"), std::string::npos)
+      << "a session with the same measures is not this one";
+  trend.runs[1].is_own = true;
   const std::string two = reviewHtml(someReview(), {.trend = &trend});
-  EXPECT_NE(two.find("2 rehearsals of this case. Median and range are told from 3 on."), std::string::npos);
+  EXPECT_NE(two.find("the square is this one. Median and range are told from 3 on."), std::string::npos);
   EXPECT_EQ(two.find("median</td>"), std::string::npos);
+  EXPECT_NE(two.find("<td>1970-01-02 00:00 UTC</td>"), std::string::npos) << "as in the heading";
   EXPECT_EQ(two.find("somebody"), std::string::npos) << "no file";
   trend.runs.push_back({"c.molar", 0, {}});
   const std::string three = reviewHtml(someReview(), {.trend = &trend});

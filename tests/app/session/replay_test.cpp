@@ -3,9 +3,11 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "app/session/measures/practice_measures.h"
 #include "app/session/metrics.h"
 #include "app/session/session_error.h"
 #include "app/session/session_writer.h"
@@ -104,7 +106,7 @@ struct RecordedUndo {
   double dry_s = 0.0, cut_mm3 = 0.0, returned_mm3 = 0.0;
   std::uint64_t digest_after_first = 0;
 
-  RecordedUndo() {
+  explicit RecordedUndo(bool closes = true) {
     haptics::Servo servo(bone);
     haptics::Command command = block.start().command;
     SessionWriter writer(path, true, block.start());
@@ -127,7 +129,7 @@ struct RecordedUndo {
       (tick.removed_mm3 < 0.0 ? returned_mm3 : cut_mm3) += std::abs(tick.removed_mm3);
       writer.write(batch);
     }
-    writer.seal(0, &bone);
+    if (closes) writer.seal(0, &bone);
   }
 };
 
@@ -138,6 +140,40 @@ TEST(Replay, FindsARehearsalWithUndoneStrokesIdentical) {
   EXPECT_TRUE(report.verified()) << report.line();
   EXPECT_EQ(report.replayed, 2400u);
   EXPECT_EQ(report.bone_digest, session.bone.digest());
+}
+
+SessionCase noCase(const StoredStart&) { return {}; }
+
+TEST(Metrics, EachMeasureHasAnIdOfItsOwn) {
+  const RecordedUndo session;
+  std::set<std::string_view> ids;
+  for (const MeasureValue& measure : metricsOf(session.path, noCase).measures) {
+    EXPECT_TRUE(ids.insert(measure.id).second) << measure.id;
+    EXPECT_TRUE(measure.value || !measure.why.empty()) << measure.id;
+  }
+  EXPECT_GT(ids.size(), 80U);
+  for (const Measure& measure : kMeasures) EXPECT_TRUE(ids.insert(measure.key).second) << measure.key;
+  const assets::VolumeGrid grid{{4, 4, 4}, 0.5, glm::dvec3(0.0)};
+  const std::vector<std::uint8_t> bytes(64);
+  for (std::size_t task = 0; task < assets::kPracticeTasks.size(); ++task) {
+    std::set<std::string_view> all = ids;
+    for (const MeasureValue& measure :
+         practiceMeasures(static_cast<assets::PracticeTask>(task), grid, bytes, bytes, bytes))
+      EXPECT_TRUE(all.insert(measure.id).second) << measure.id;
+  }
+}
+
+TEST(Metrics, OfAnUnclosedRecordingTakeTheBoneThatIsAtHand) {
+  const RecordedUndo session(false);
+  SessionReader reader(session.path);
+  BoneLeft left = boneLeft(reader, reader.start());
+  EXPECT_TRUE(left.removed_mm3) << "it took a replay";
+  EXPECT_EQ(left.solid, session.bone.solidInMouth());
+  EXPECT_EQ(metricsJson(metricsOf(session.path, noCase, &left)), metricsJson(metricsOf(session.path, noCase)));
+  left.divergence = ReplayDifference{3, "the force served differs"};
+  const SessionMetrics metrics = metricsOf(session.path, noCase, &left);
+  EXPECT_EQ(measureOf(metrics, "O5.area")->why, "the bone at the end is not known");
+  EXPECT_EQ(measureOf(metrics, "no such"), nullptr);
 }
 
 TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {

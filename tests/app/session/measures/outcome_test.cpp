@@ -238,6 +238,14 @@ TEST(Outcome, BoneIsCountedByTheSideOfTheToothItLayOn) {
   EXPECT_EQ(named(values, "O1.lingual").value.value(), 0.0);
   EXPECT_NEAR(named(values, "O1.bone").value.value(), behind_mm3 + beside_mm3, 1e-3);
   EXPECT_EQ(named(values, "O1.tooth").value.value(), 0.0);
+  // A tooth that is out was not removed by the bur.
+  for (std::size_t v = 0; v < cut.after.size(); ++v)
+    if (start.is_tooth[v] != 0) cut.after[v] = 0;
+  const RemovedByTissue removed{{"dentine", 0.25}, {"cortical", 3.0}};
+  EXPECT_EQ(named(outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}}), "O1.tooth").value, 0.0);
+  EXPECT_EQ(
+      named(outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}, removed}), "O1.tooth").value,
+      0.25);
   about.directions.reset();
   const auto untold = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
   EXPECT_EQ(named(untold, "O1.distal").why, "no operated tooth is known");
