@@ -10,7 +10,7 @@ namespace app {
 namespace {
 
 constexpr double kOver_mm = 16.0;                                  ///< the piece, before it is gripped
-constexpr double kTravel_mm_per_s = 120.0, kTurn_rad_per_s = 2.5;  ///< free of the mouth
+constexpr double kTravel_mm_per_s = 100.0, kTurn_rad_per_s = 2.5;  ///< free of the mouth
 constexpr double kDown_mm_per_s = 15.0, kOut_mm_per_s = 12.0;
 constexpr double kSwing_Hz = 0.8, kFirstSwing_rad = 0.2, kLastSwing_rad = 0.45, kPull_mm = 1.5;
 constexpr double kTwist_rad = 1.0, kTwist_Hz = 0.5, kTwists = 2.0;

@@ -18,7 +18,9 @@ constexpr double kSettles_s = 0.6;                               ///< after a st
 constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
 constexpr double kAssistantWait_s = 10.0;                        ///< for the flap to be held aside
-constexpr double kGutter_mm_per_s = 16.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
+constexpr double kGutter_mm_per_s = 20.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
+/// Means of ways that begin and end at rest: at most 94 mm/s, as hands go with a bur in them.
+constexpr double kOver_mm_per_s = 60.0, kIn_mm_per_s = 40.0;
 constexpr const char* kAllDone = "the operation is done";
 constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
 
@@ -29,7 +31,10 @@ haptics::LedPath cutPath(assets::PlannedCut cut, const haptics::Tool& bur, doubl
   const glm::dvec3 to_middle_mm = (haptics::halfHeight_mm(bur.head) - bur.head.radius_mm) * cut.shaft_P;
   for (auto& stroke : cut.strokes_P_mm)
     for (glm::dvec3& p : stroke) p += to_middle_mm;
-  const haptics::TroughPath path(cut, {.shaft_P = cut.shaft_P, .speed_mm_per_s = speed_mm_per_s});
+  const haptics::TroughPath path(cut, {.shaft_P = cut.shaft_P,
+                                       .speed_mm_per_s = speed_mm_per_s,
+                                       .travel_mm_per_s = kOver_mm_per_s,
+                                       .approach_mm_per_s = kIn_mm_per_s});
   return {[path](double t_s) { return path.at(t_s); }, path.duration_s()};
 }
 

@@ -9,8 +9,6 @@
 namespace haptics {
 namespace {
 
-constexpr double kTravel_mm_per_s = 40.0;
-constexpr double kApproach_mm_per_s = 13.0;
 constexpr double kPedalBefore = 0.1;  // of the approach
 constexpr double kMeets_mm = 1.6;     // ends of strokes that are joined in the bone
 constexpr double kTilt_rad = 0.35;    // of the shaft towards the cheek, so that the handpiece clears the teeth
@@ -41,7 +39,7 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   if (!std::isfinite(glm::length(motion.shaft_P)))
     throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
   if (!positive(cut.bur_radius_mm) || !positive(cut.over_mm) || !positive(motion.speed_mm_per_s) ||
-      !positive(motion.clearance_mm))
+      !positive(motion.travel_mm_per_s) || !positive(motion.approach_mm_per_s) || !positive(motion.clearance_mm))
     throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
 
   const glm::dvec3 outward = glm::normalize(outward_D), along = across / area;
@@ -70,13 +68,13 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   corner_mm_.push_back(strokes_mm.front().front() + motion.clearance_mm * away);
   way_mm_.push_back(0.0);
   first_.push_back(1);
-  go(strokes_mm.front().front(), kApproach_mm_per_s);
+  go(strokes_mm.front().front(), motion.approach_mm_per_s);
   pedal_from_s_ = (1.0 - kPedalBefore) * begins_s_.back();
   for (const auto& stroke : strokes_mm) {
     if (glm::distance(corner_mm_.back(), stroke.front()) > kMeets_mm) {
-      go(lifted(corner_mm_.back()), kTravel_mm_per_s);
-      go(lifted(stroke.front()), kTravel_mm_per_s);
-      go(stroke.front(), kTravel_mm_per_s);
+      go(lifted(corner_mm_.back()), motion.travel_mm_per_s);
+      go(lifted(stroke.front()), motion.travel_mm_per_s);
+      go(stroke.front(), motion.travel_mm_per_s);
     } else if (corner_mm_.back() != stroke.front()) {
       go(stroke.front(), motion.speed_mm_per_s);
     }
@@ -85,9 +83,9 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   pedal_to_s_ = begins_s_.back();
   // Out of the gutter as between strokes, then to where the shaft leads.
   const glm::dvec3 end_mm = corner_mm_.back();
-  go(lifted(end_mm), kApproach_mm_per_s);
+  go(lifted(end_mm), motion.approach_mm_per_s);
   const double above_mm = glm::dot(strokes_mm.front().front() - end_mm, outward) + motion.clearance_mm;
-  go(end_mm + std::max(above_mm, motion.clearance_mm) * way_per_height * away, kApproach_mm_per_s);
+  go(end_mm + std::max(above_mm, motion.clearance_mm) * way_per_height * away, motion.approach_mm_per_s);
 }
 
 void TroughPath::go(const glm::dvec3& to_mm, double speed_mm_per_s) {

@@ -17,7 +17,8 @@ namespace haptics {
 struct CuttingMotion {
   glm::dvec3 shaft_P{0.0};       ///< from bur to handle; zero: outward, tilted to the cheek, in and out along outward
   double speed_mm_per_s = 12.0;  ///< mean along a stroke
-  double clearance_mm = 15.0;    ///< of the bur above the bone, before and after
+  double travel_mm_per_s = 40.0, approach_mm_per_s = 13.0;  ///< mean; over the bone; in and out
+  double clearance_mm = 15.0;                               ///< of the bur above the bone, before and after
 };
 
 class TroughPath {
