@@ -13,11 +13,9 @@ static_assert(HeightMap::kHalf % kRow == 0, "a cut of the middle row alone has s
 constexpr double kLeastStroke_mm = 0.25;
 constexpr double kStraight_mm = 0.05;  ///< corners that a stroke leaves out
 
-using Stroke = std::vector<glm::dvec3>;
-
 /// Leaves out the corners that lie on the line between their neighbours.
-Stroke straightened(const Stroke& stroke) {
-  Stroke kept{stroke.front()};
+std::vector<glm::dvec3> straightened(const std::vector<glm::dvec3>& stroke) {
+  std::vector<glm::dvec3> kept{stroke.front()};
   for (std::size_t begin = 0, end = 2; end < stroke.size(); ++end) {
     const glm::dvec3 line = glm::normalize(stroke[end] - stroke[begin]);
     const auto off_mm = [&](const glm::dvec3& p) { return glm::length(glm::cross(p - stroke[begin], line)); };
@@ -37,7 +35,7 @@ class Strokes {
   Strokes(const WayIn& way, const Heights& heights, const std::vector<char>& planned, const StrokePlan& plan)
       : way_(way), h_(heights), planned_(planned), plan_(plan) {}
 
-  std::vector<Stroke> make() {
+  std::vector<std::vector<glm::dvec3>> make() {
     double top_mm = kNoHeight_mm, bottom_mm = -kNoHeight_mm;
     for (int j = 0; j < HeightMap::kSide; ++j)
       for (int i = 0; i < HeightMap::kSide; ++i)
@@ -49,26 +47,21 @@ class Strokes {
     while (level_mm > bottom_mm) {
       const double above_mm = level_mm;
       level_mm = std::max(level_mm - plan_.level_mm, bottom_mm);
-      std::vector<Stroke> level;
       for (int j = HeightMap::kSide - 1; j >= 0; --j)
-        if (j % kRow == 0) addRow(j, level_mm, above_mm, level);
-      take(std::move(level));
+        if (j % kRow == 0) row(j, level_mm, above_mm);
     }
     // Along the bottom, between the rows too, while the bone gives way.
-    for (int pass = 0; pass < plan_.finishing_passes; ++pass) {
-      std::vector<Stroke> level;
+    for (int pass = 0; pass < plan_.finishing_passes; ++pass)
       for (int j = HeightMap::kSide - 1; j >= 0; --j)
-        if (pass > 0 || j % (kRow / 2) == 0) addRow(j, bottom_mm, -kNoHeight_mm, level);
-      take(std::move(level));
-    }
+        if (pass > 0 || j % (kRow / 2) == 0) row(j, bottom_mm, -kNoHeight_mm);
     return std::move(strokes_);
   }
 
  private:
   bool isPlanned(int i, int j) const { return planned_[HeightMap::column(i, j)] != 0; }
 
-  void addRow(int j, double level_mm, double above_mm, std::vector<Stroke>& level) const {
-    std::vector<Stroke> runs;
+  void row(int j, double level_mm, double above_mm) {
+    std::vector<std::vector<glm::dvec3>> runs;
     bool in_run = false;
     double former_mm = 0.0;
     for (int i = 0; i < HeightMap::kSide; ++i) {
@@ -86,28 +79,23 @@ class Strokes {
       in_run = cuts;
     }
     std::erase_if(runs, [](const auto& run) { return glm::distance(run.front(), run.back()) < kLeastStroke_mm; });
-    for (const Stroke& run : runs) level.push_back(straightened(run));
-  }
-
-  /// From where the bur is to the nearest end of what is left of a level, so that it is seldom lifted over the crown.
-  void take(std::vector<Stroke> level) {
+    if (runs.empty()) return;
+    // From the end that is nearer to where the bur is.
     const auto way_mm = [&](const glm::dvec3& p) {
       return strokes_.empty() ? 0.0 : glm::distance(strokes_.back().back(), p);
     };
-    while (!level.empty()) {
-      const auto next = std::ranges::min_element(
-          level, {}, [&](const Stroke& stroke) { return std::min(way_mm(stroke.front()), way_mm(stroke.back())); });
-      if (way_mm(next->back()) < way_mm(next->front())) std::ranges::reverse(*next);
-      strokes_.push_back(std::move(*next));
-      level.erase(next);
+    if (way_mm(runs.back().back()) < way_mm(runs.front().front())) {
+      std::ranges::reverse(runs);
+      for (auto& run : runs) std::ranges::reverse(run);
     }
+    for (const auto& run : runs) strokes_.push_back(straightened(run));
   }
 
   const WayIn& way_;
   const Heights& h_;
   const std::vector<char>& planned_;
   StrokePlan plan_;
-  std::vector<Stroke> strokes_;
+  std::vector<std::vector<glm::dvec3>> strokes_;
 };
 
 }  // namespace

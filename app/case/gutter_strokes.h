@@ -1,6 +1,5 @@
-// The strokes that cut a gutter from a height map: level by level from the top, in rows along the crown, to and fro,
-// each level from the bur to the nearest end of a row; then along the bottom while the bone gives way. Frame P, mm. Any
-// thread; some ms.
+// The strokes that cut a gutter from a height map: level by level from the top, row by row along the crown, to and fro,
+// then along the bottom while the bone gives way. Frame P, mm. Any thread; some ms.
 #pragma once
 
 #include <vector>

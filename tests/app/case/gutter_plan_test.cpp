@@ -75,17 +75,6 @@ TEST(GutterPlan, KeepsTheLingualSide) {
   alongStrokes(*cut, [](const glm::dvec3& p) { EXPECT_LT(p.x, -20.0 + 4.0); });
 }
 
-/// Rows of one side of the crown follow each other: what is farther than kMeets_mm of the hand's path is a lift.
-TEST(GutterPlan, IsLiftedOverTheCrownInFewerThanAThirdOfItsStrokes) {
-  const auto cut = planGutter(blockWithMolar(), kUsualBurRadius_mm);
-  ASSERT_TRUE(cut.has_value());
-  int lifts = 0;
-  for (std::size_t n = 0; n + 1 < cut->strokes_P_mm.size(); ++n)
-    lifts += glm::distance(cut->strokes_P_mm[n].back(), cut->strokes_P_mm[n + 1].front()) > 1.6 ? 1 : 0;
-  EXPECT_GT(cut->strokes_P_mm.size(), 20U);
-  EXPECT_LT(3 * lifts, static_cast<int>(cut->strokes_P_mm.size())) << lifts;
-}
-
 TEST(GutterPlan, ComesFartherFromTheFrontToACrownThatLeans) {
   const auto forward = [](const glm::dvec3& axis_P) {
     assets::Patient patient = blockWithMolar();
