@@ -113,8 +113,7 @@ TEST_F(AssessmentCommand, RunsOfACaseAreAReferenceForOthers) {
   const std::string words = molar("metrics " + at("5.molar") + " --reference expert").out;
   EXPECT_LT(words.find("lingual plate broken through"), words.find("length of the work"));
   EXPECT_NE(words.find("conditions: "), std::string::npos);
-  EXPECT_NE(molar("trend " + at("") + " --reference expert").out.find("grade             as the set expert"),
-            std::string::npos);
+  EXPECT_NE(molar("trend " + at("") + " --reference expert").out.find("as the set expert"), std::string::npos);
   ASSERT_EQ(molar("report " + at("5.molar") + " --reference expert --out " + at("r.html")).status, 0);
   EXPECT_NE(read("r.html").find("Against the reference"), std::string::npos);
   ASSERT_EQ(rehearse("--case block-plate --seconds 2 --record " + at("p.molar")).status, 0);
