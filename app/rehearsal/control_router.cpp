@@ -6,6 +6,8 @@
 #include <exception>
 #include <filesystem>
 
+#include <fmt/core.h>
+
 #include "app/options/picture_option.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/ruler.h"
