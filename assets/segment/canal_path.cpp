@@ -52,8 +52,9 @@ struct HalfJaw {
 
 /// Cells of the jaw on one side.
 CellBox boxOfHalf(const CanalScene& scene, bool is_right) {
-  const auto& [jaw, teeth, arch, sheet] = scene;
-  const VolumeGrid& grid = jaw.grid;
+  const JawArch& arch = scene.arch;
+  const BiteSheet& sheet = scene.sheet;
+  const VolumeGrid& grid = scene.jaw.grid;
   const int middle = static_cast<int>(std::lround(grid.indexFromPoint(glm::dvec3(arch.centre_P_mm, 0.0)).x));
   const int over = static_cast<int>(kOverMiddle_mm / grid.spacing_mm);
   const double back_P_mm = grid.centre_P_mm(grid.size - 1).y;
@@ -69,7 +70,8 @@ CellBox boxOfHalf(const CanalScene& scene, bool is_right) {
 enum class Ends { guessed, clicked };
 
 HalfJaw halfIn(const CanalScene& scene, const CellBox& box, Ends ends) {
-  const auto& [jaw, teeth, arch, sheet] = scene;
+  const Mandible& jaw = scene.jaw;
+  const ToothRegions& teeth = scene.regions;
   const VolumeGrid& grid = jaw.grid;
   HalfJaw half;
   half.grid = {glm::max(box.size(), glm::ivec3(0)), grid.spacing_mm, grid.centre_P_mm(box.low)};
