@@ -270,8 +270,6 @@ int import(ImportOptions options) {
   if (!options.clicks.empty()) options.choices.clicks = readJawClicks(options.clicks);
   if (!options.scale.empty()) options.choices.scale = scaleOf(options.scale);
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
-  if (options.choices.scale && options.choices.window)
-    throw UsageError("--scale " + options.scale + ": --window states the scale already, give one of them");
   const bool has_no_place = options.out.empty();
   if (has_no_place) {
     makeDataFolder(usualPatientFolder());
@@ -323,7 +321,8 @@ void addImport(CommandLine& molar) {
       .from(1.0, 2000.0)
       .showsDefault();
   command.option("--tooth", options->choices.tooth_fdi, "FDI number of the operated tooth [the third molar]");
-  command.option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
+  const Option window =
+      command.option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
   command.option("--labels", options->choices.labels,
                  "Label map of DentalSegmentator, ToothFairy, TotalSegmentator, AMASSS or Molar");
   command.option("--label-set", options->label_set, "Whose values it has, where the file does not name them")
@@ -342,8 +341,10 @@ void addImport(CommandLine& molar) {
               "What the source holds, what was found and said, seconds by stage: to this file")
       .valueNamed("REPORT");
   addDicomOptions(command, options->dicom);
-  command.option("--scale", options->scale,
-                 "Grey values: hu, hu+1000, hu+1024 or AIR,MUSCLE,DENTINE [judged by their histogram]");
+  command
+      .option("--scale", options->scale,
+              "Grey values: hu, hu+1000, hu+1024 or AIR,MUSCLE,DENTINE [judged by their histogram]")
+      .excludes(window);
   command.flag("--keep-face", options->choices.keep_face, "Keep the skin, by which the patient can be recognised");
   command.flag("--keep-age-band", options->choices.keep_age_band, "Keep the patient's age in decades, and sex");
   command.does([options] { return import(*options); });

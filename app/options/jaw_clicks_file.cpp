@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/text/usage_error.h"
 #include "assets/json_depth.h"
+#include "assets/toml_reader.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -19,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostClicks = 200;
-constexpr std::uintmax_t kMostBytes = 1u << 20;
+constexpr std::size_t kMostBytes = 1u << 20;
 constexpr double kMostCoordinate_mm = 1e5;
 constexpr std::string_view kCanal = "canal";
 
@@ -121,14 +119,7 @@ assets::JawClicks jawClicksFrom(const std::string& text, const std::string& name
 }
 
 assets::JawClicks readJawClicks(const std::string& path) {
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file) throw UsageError("--clicks " + path + ": it cannot be read, check the name");
-  if (bytes > kMostBytes) throw UsageError("--clicks " + path + ": it is too long for clicks, check the name");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return jawClicksFrom(text.str(), path);
+  return jawClicksFrom(assets::readSmallFile(path, kMostBytes, "check the name"), path);
 }
 
 }  // namespace app

@@ -10,7 +10,7 @@
 
 namespace app {
 
-/// Throws UsageError of one line: file, number of the click, what is wrong.
+/// Throws LoadError: it cannot be read; UsageError of one line: file, number of the click, what is wrong.
 assets::JawClicks readJawClicks(const std::string& path);
 /// The same of a text; `name` stands for it in messages.
 assets::JawClicks jawClicksFrom(const std::string& text, const std::string& name);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <filesystem>
 
@@ -212,8 +211,10 @@ void ControlRouter::changeView(const ControlRequest& request, render::Frame& fra
   if (request.control == Control::magnify) desk_view_.magnify(1);
   if (request.control == Control::shrink) desk_view_.magnify(-1);
   if (request.control == Control::first_view) desk_view_.backToFirst();
-  const bool as_at_first = std::abs(desk_view_.magnified() - 1.0) < 1e-9;
-  head_up_.say(as_at_first ? "loupes as at first" : fmt::format("loupes {:.1f} x the first", desk_view_.magnified()));
+  if (request.control == Control::first_view)
+    head_up_.say("the first view");
+  else
+    head_up_.say(fmt::format("loupes {:.1f} times as strong as at first", desk_view_.magnified()));
   showDeskView(frame);
 }
 

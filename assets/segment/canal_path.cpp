@@ -285,17 +285,14 @@ std::optional<CanalProposal> proposedCanal(const CanalScene& scene, const std::v
 
 /// The jaw's cell that is nearest to a click.
 std::optional<std::size_t> boneAt(const HalfJaw& half, const glm::dvec3& p_P_mm) {
-  const glm::dvec3 at = half.grid.indexFromPoint(p_P_mm);
-  const double reach = kOffBone_mm / half.grid.spacing_mm;
-  const glm::ivec3 low = glm::clamp(glm::ivec3(glm::ceil(at - reach)), glm::ivec3(0), half.grid.size),
-                   end = glm::clamp(glm::ivec3(glm::floor(at + reach)) + 1, glm::ivec3(0), half.grid.size);
   std::optional<std::size_t> nearest;
-  double least = reach;
-  forVoxels(low, end, [&](glm::ivec3 ijk) {
-    const double away = glm::distance(glm::dvec3(ijk), at);
-    const std::size_t cell = half.grid.index(ijk);
-    if (half.solid[cell] != 0 && away <= least) least = away, nearest = cell;
-  });
+  double least_mm = 2.0 * kOffBone_mm;
+  const VolumeGrid& grid = half.grid;
+  forCellsNear(grid.indexFromPoint(p_P_mm), kOffBone_mm, grid.spacing_mm, grid.size,
+               [&](glm::ivec3 ijk, double away_mm) {
+                 if (half.solid[grid.index(ijk)] != 0 && away_mm < least_mm)
+                   least_mm = away_mm, nearest = grid.index(ijk);
+               });
   return nearest;
 }
 

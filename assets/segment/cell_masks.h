@@ -32,6 +32,18 @@ void forCells(glm::ivec3 size, const Visit& visit) {
   forVoxels(glm::ivec3(0), size, [&](glm::ivec3 ijk) { visit(ijk, n++); });
 }
 
+/// visit(ijk, distance in mm) of the cells of a box within a distance of a point, which is in cells.
+template <class Visit>
+void forCellsNear(const glm::dvec3& at, double reach_mm, double spacing_mm, glm::ivec3 size, const Visit& visit) {
+  const double reach = reach_mm / spacing_mm;
+  const glm::ivec3 low = glm::clamp(glm::ivec3(glm::ceil(at - reach)), glm::ivec3(0), size),
+                   end = glm::clamp(glm::ivec3(glm::floor(at + reach)) + 1, glm::ivec3(0), size);
+  forVoxels(low, end, [&](glm::ivec3 ijk) {
+    const double away_mm = spacing_mm * glm::distance(glm::dvec3(ijk), at);
+    if (away_mm <= reach_mm) visit(ijk, away_mm);
+  });
+}
+
 /// visit(index) of the neighbours of a cell within the box.
 template <class Visit>
 void forNeighbours(glm::ivec3 size, std::size_t cell, const Visit& visit) {

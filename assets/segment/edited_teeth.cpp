@@ -17,18 +17,6 @@ constexpr double kNear_mm = 1.5, kThickest_mm = 2.0, kRootReach_mm = 14.0, kRoot
 constexpr double kMostCost = 9.0, kLeastCost = 0.05, kLevelsPerMm = 200.0;
 constexpr std::size_t kMostNumbered = 254;
 
-/// Cells of a box within a distance of a point: visit(ijk, distance in mm).
-template <class Visit>
-void forCellsNear(const glm::dvec3& at, double reach_mm, double spacing_mm, glm::ivec3 size, const Visit& visit) {
-  const double reach = reach_mm / spacing_mm;
-  const glm::ivec3 low = glm::clamp(glm::ivec3(glm::ceil(at - reach)), glm::ivec3(0), size),
-                   end = glm::clamp(glm::ivec3(glm::floor(at + reach)) + 1, glm::ivec3(0), size);
-  forVoxels(low, end, [&](glm::ivec3 ijk) {
-    const double away_mm = spacing_mm * glm::distance(glm::dvec3(ijk), at);
-    if (away_mm <= reach_mm) visit(ijk, away_mm);
-  });
-}
-
 class TeethEditor {
  public:
   TeethEditor(const Mandible& jaw, const GreyLevels& levels, ToothRegions& regions)
