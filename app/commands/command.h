@@ -28,6 +28,7 @@ void addReport(CommandLine& molar);
 void addCompare(CommandLine& molar);
 void addTrend(CommandLine& molar);
 void addReference(CommandLine& molar);
+void addEvaluate(CommandLine& molar);
 void addStudy(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
@@ -39,10 +40,10 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse, addStart,         addImport, addInspect,  addPlan,      addClearance,
-                                   addFeel,     addCarve,         addSee,    addDisplay,  addCalibrate, addDevices,
-                                   addDoctor,   addDebrief,       addReplay, addMetrics,  addReport,    addCompare,
-                                   addTrend,    addReference,     addStudy,  addSessions, addExport,    addPieces,
-                                   addLaws,     addPsychophysics, addHelp,   addManual,   addCompletion};
+inline constexpr auto kCommands = {
+    addRehearse, addStart,   addImport,        addInspect,   addPlan,     addClearance, addFeel,     addCarve,
+    addSee,      addDisplay, addCalibrate,     addDevices,   addDoctor,   addDebrief,   addReplay,   addMetrics,
+    addReport,   addCompare, addTrend,         addReference, addEvaluate, addStudy,     addSessions, addExport,
+    addPieces,   addLaws,    addPsychophysics, addHelp,      addManual,   addCompletion};
 
 }  // namespace app

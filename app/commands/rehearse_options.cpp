@@ -18,11 +18,6 @@
 namespace app {
 
 void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
-  command.example("molar rehearse", "on the desk, with the mouse, on the built-in patient");
-  command.example("molar rehearse --case horizontal --tool round:3.0 --tool fissure:1.6,6 --instructor",
-                  "a difficult case with two burs, and the instructor's window beside it");
-  command.example("molar rehearse PATIENT --device openhaptics --record first.molar",
-                  "an imported patient, with a haptic device, recorded");
   command.optionGroup("Patient");
   Option patient = command.option("PATIENT", options.patient, std::string(kPatientHelp) + " [the built-in patient]");
   command.flag("--cases", options.list_cases,

@@ -37,7 +37,7 @@ struct RehearseOptions {
   std::string clearance;
 };
 
-/// Adds them, in groups, with examples and the keys; the values go to `options`, which must outlive the command.
+/// Adds them, in groups, with the keys; the values go to `options`, which must outlive the command.
 void addRehearseOptions(CommandLine& command, RehearseOptions& options);
 
 }  // namespace app

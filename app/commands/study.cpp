@@ -1,9 +1,11 @@
-// `molar study`: what a cooperative evaluation found, from tables of answers, tasks and problems.
+// `molar study`: what a cooperative evaluation found, from its folder, or from tables of answers, tasks and problems.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -11,9 +13,11 @@
 #include "app/study/questionnaire.h"
 #include "app/study/study_data.h"
 #include "app/study/study_export.h"
+#include "app/study/study_folder.h"
 #include "app/study/study_page.h"
 #include "app/study/study_result.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "calibration/output_file.h"
 
@@ -21,7 +25,7 @@ namespace app {
 namespace {
 
 struct StudyOptions {
-  std::string questionnaire, answers, tasks, problems, html, csv, json, blank, sheet;
+  std::string folder, questionnaire, answers, tasks, problems, html, csv, json, blank, sheet;
   int participants = 0;
   bool force = false;
 };
@@ -57,8 +61,14 @@ std::string blankTable(const StudyOptions& options) {
   return blankAnswers(questionnaireNamed(options.questionnaire));
 }
 
+/// Of the folder, where one is named; a table that is named replaces the folder's.
 StudyInput inputOf(const StudyOptions& options) {
   StudyInput input;
+  if (!options.folder.empty()) {
+    StudyFolder folder = readStudyFolder(options.folder, options.answers.empty() ? options.questionnaire : "");
+    for (const std::string& remark : folder.remarks) printMessage(remark);
+    input = std::move(folder.input);
+  }
   if (!options.answers.empty()) {
     if (options.questionnaire.empty()) throw UsageError("--answers " + options.answers + ": to which --questionnaire?");
     input.questionnaire = questionnaireNamed(options.questionnaire);
@@ -66,12 +76,13 @@ StudyInput inputOf(const StudyOptions& options) {
   }
   if (!options.tasks.empty()) input.tasks = tasksFrom(csvTableOf(options.tasks));
   if (!options.problems.empty()) input.problems = problemsFrom(csvTableOf(options.problems));
-  input.participants = static_cast<std::size_t>(options.participants);
+  input.participants = std::max(input.participants, static_cast<std::size_t>(options.participants));
   return input;
 }
 
 int runStudy(const StudyOptions& options) {
-  const bool has_tables = !options.answers.empty() || !options.tasks.empty() || !options.problems.empty();
+  const bool has_tables =
+      !options.folder.empty() || !options.answers.empty() || !options.tasks.empty() || !options.problems.empty();
   if (!options.sheet.empty()) {
     if (options.questionnaire.empty()) throw UsageError("--sheet " + options.sheet + ": of which --questionnaire?");
     writeStudyFile("--sheet", options.sheet, ".html", options.force,
@@ -87,7 +98,7 @@ int runStudy(const StudyOptions& options) {
       return 0;
     }
     if (!options.html.empty() || !options.csv.empty() || !options.json.empty())
-      throw UsageError("study: of what, give --answers, --tasks or --problems");
+      throw UsageError("study: of what, give STUDY, --answers, --tasks or --problems");
     return listQuestionnaires();
   }
   const StudyResult result = studyResult(inputOf(options));
@@ -106,6 +117,9 @@ int runStudy(const StudyOptions& options) {
 void addStudy(CommandLine& molar) {
   auto options = std::make_shared<StudyOptions>();
   CommandLine& command = molar.command("study", "What an evaluation found: answers, tasks, problems, as tables");
+  command.option(
+      "STUDY", options->folder,
+      "Folder that molar evaluate filled: its tasks, problems and answers; a table named below replaces its");
   command
       .option("--questionnaire", options->questionnaire,
               "Shipped, see molar study, or your own FILE.toml; alone: its file is printed, to be copied and edited")

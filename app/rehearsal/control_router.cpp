@@ -154,6 +154,8 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (request.control == Control::end) return monitor_.endByUser();
   if (plan_.procedure && plan_.procedure->take(request)) return;
   if (isHelpRefused(request)) return;
+  if (plan_.evaluation && !plan_.evaluation->allows(request))
+    return head_up_.say(std::string(meaningOf(request.control).name) + ": not in this evaluation");
   if (request.control == Control::tool && ring_.isOpen()) closeRing();
   if (active_command_.execute(request, where)) return;
   if (request.control == Control::ring)

@@ -95,6 +95,7 @@ class Rehearsal {
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
+    if (plan_.evaluation) plan_.evaluation->open(plan_.risks);
     if (equipment_.led() != nullptr) beginOperation();
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
@@ -119,7 +120,7 @@ class Rehearsal {
         figures.frame_ms = 1000.0 * (loop_s - view_.still_s()) /
                            static_cast<double>(std::max<std::uint64_t>(1, figures.frames - frames_before));
         std::fputs((plan_.summary ? summaryText(figures) : recordingText(figures)).c_str(),
-                   plan_.procedure ? stderr : stdout);
+                   plan_.procedure || plan_.evaluation ? stderr : stdout);
         return std::max(exitStatus(figures), demonstrationStatus());
       }
       updateCommand();
@@ -233,7 +234,8 @@ class Rehearsal {
   }
 
   bool isProcedureOver() const {
-    return (plan_.procedure && plan_.procedure->isOver()) || (demonstration_ && demonstration_->isOver());
+    return (plan_.procedure && plan_.procedure->isOver()) || (plan_.evaluation && plan_.evaluation->isOver()) ||
+           (demonstration_ && demonstration_->isOver());
   }
 
   /// 1: the tooth could not be taken out.
@@ -274,9 +276,18 @@ class Rehearsal {
     if (coach_)
       coach_->follow(ticks, command,
                      {clearance_.now(), steps_ && steps_->usesOtherInstrument(), worksOutOfSight(ticks)});
+    if (plan_.evaluation) followEvaluation(ticks, command);
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  /// Marks go into the recording, words do not.
+  void followEvaluation(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
+    EvaluationDesk& desk = *plan_.evaluation;
+    desk.follow(ticks, command, station().commandSerial());
+    for (const ControlRequest& request : desk.takeRequests()) active_command_.execute(request);
+    for (const std::string& mark : desk.takeMarks()) event_log_.note(kEvaluationEvent, mark);
   }
 
   /// By the newest tick that removes something: not every tick of a cut does.
@@ -467,6 +478,7 @@ class Rehearsal {
 
   std::string task() const {
     if (plan_.procedure) return plan_.procedure->messages().to_surgeon;
+    if (plan_.evaluation) return plan_.evaluation->toSurgeon();
     const std::string question = router_.question();
     if (!question.empty()) return question;
     return steps_ ? steps_->task() : plan_.instruction;
@@ -484,6 +496,10 @@ class Rehearsal {
   RehearsalFigures finish(Ending ending) {
     followTicks();
     for (const Touch& touch : touches_.finish()) noteTouch(touch);
+    if (plan_.evaluation) {
+      plan_.evaluation->finish();
+      for (const std::string& mark : plan_.evaluation->takeMarks()) event_log_.note(kEvaluationEvent, mark);
+    }
     if (steps_) steps_->finish();
     if (flap_) flap_->finish();
     socket_->finish(view_.takeChangedBricks(), station().newestTick());

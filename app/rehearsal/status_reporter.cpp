@@ -48,6 +48,10 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
     s.to_surgeon = messages.to_surgeon;
     s.to_instructor = messages.to_instructor;
   }
+  if (plan_.evaluation) {
+    s.to_surgeon = plan_.evaluation->toSurgeon();
+    s.to_instructor = plan_.evaluation->toEvaluator();
+  }
   if (!state.question.empty()) s.to_surgeon = state.question;
   s.device = equipment_.deviceName();
   s.has_motors = equipment_.hasMotors();

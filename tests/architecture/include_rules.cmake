@@ -3,8 +3,8 @@
 #   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | segment | synthetic }, segment < import.
 #   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
-#     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
-#     | start_screen | study | review }; before commands, after rehearsal and review: debrief.
+#     < { procedure | study < evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
+#     | start_screen | review }; before commands, after rehearsal and review: debrief.
 #   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -49,9 +49,8 @@ foreach(room station options controls instructor)
   list(APPEND seen app/${room}/)
   set(app/${room} ${seen})
 endforeach()
-foreach(room procedure evaluation)
-  set(app/${room} ${seen} app/${room}/)
-endforeach()
+set(app/procedure ${seen} app/procedure/)
+set(app/evaluation ${seen} app/study/ app/evaluation/)
 set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
 foreach(room pattern doctor calibrate psychophysics start_screen study review)
   set(app/${room} ${seen} app/procedure/ app/${room}/)

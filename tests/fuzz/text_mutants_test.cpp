@@ -5,6 +5,8 @@
 
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_csv.h"
+#include "app/evaluation/script.h"
+#include "app/evaluation/study_template.h"
 #include "app/options/command_settings.h"
 #include "app/options/jaw_clicks_file.h"
 #include "app/options/view_option.h"
@@ -92,6 +94,26 @@ TEST(TextMutants, ProcedureToml) {
 TEST(TextMutants, CoachToml) {
   judge<assets::LoadError>(app::shippedCoachText(),
                            [](const std::string& text) { app::coachRulesFromToml(text, "coach.toml"); });
+}
+
+const std::string kStudyTemplate =
+    "title = \"T\"\nlanguage = \"en\"\nconsent = \"c.md\"\norder = \"latin-square\"\n[[prompt]]\nid = \"why\"\n"
+    "say = \"Why?\"\n[[task]]\nid = \"cut\"\nsay = \"Cut\"\ntool = \"round:3.0\"\ntime_box_s = 60\nsuccess = "
+    "\"O1.removed >= 2 mm3 and not (S1.canal < 1.5 mm or pieces > 1)\"\nhold_s = 0.5\n[[questionnaire]]\nuse = "
+    "\"sus\"\ngroups = [\"surgeon\"]\n";
+
+TEST(TextMutants, StudyTemplateToml) {
+  judge<assets::LoadError>(kStudyTemplate,
+                           [](const std::string& text) { app::studyTemplateFrom(text, "template.toml"); });
+}
+
+TEST(TextMutants, EvaluationScript) {
+  const app::StudyTemplate study = app::studyTemplateFrom(kStudyTemplate, "template.toml");
+  judge<app::UsageError>(
+      R"({"during": "cut", "at_s": 1.5, "type": "note", "for": ["P01"], "data": {"kind": "comment", "severity": 2}}
+{"during": "consent", "type": "consent", "src": "participant", "data": {"stream": "log", "given": true}}
+)",
+      [&](const std::string& text) { app::EvaluationScript(text, "script.jsonl", study, "P01"); });
 }
 
 TEST(TextMutants, TouchesYaml) {

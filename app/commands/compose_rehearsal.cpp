@@ -1,0 +1,566 @@
+#include "app/commands/compose_rehearsal.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <future>
+#include <memory>
+#include <thread>
+
+#include "app/case/case.h"
+#include "app/case/clearance_source.h"
+#include "app/case/closed_gum.h"
+#include "app/case/extraction_plan.h"
+#include "app/case/handpiece_direction.h"
+#include "app/case/impaction_class.h"
+#include "app/case/patient_placement.h"
+#include "app/case/patient_source.h"
+#include "app/case/soft_tissue_source.h"
+#include "app/case/trough_plan.h"
+#include "app/controls/prediction_question.h"
+#include "app/device/falcon_scale_file.h"
+#include "app/device/pose_source_table.h"
+#include "app/options/command_settings.h"
+#include "app/options/law_text.h"
+#include "app/options/pedal_option.h"
+#include "app/options/settings_text.h"
+#include "app/options/tool_text.h"
+#include "app/options/view_option.h"
+#include "app/procedure/coach/coach_file.h"
+#include "app/procedure/steps/step_file.h"
+#include "app/procedure/third_molar/demonstration.h"
+#include "app/rehearsal/continuation.h"
+#include "app/rehearsal/live_view.h"
+#include "app/rehearsal/recording_check.h"
+#include "app/session/data_folder.h"
+#include "app/session/session_error.h"
+#include "app/session/session_folder.h"
+#include "app/session/session_reader.h"
+#include "app/station/case_reach.h"
+#include "app/station/patient_list.h"
+#include "app/text/list.h"
+#include "app/text/message.h"
+#include "app/text/usage_error.h"
+#include "app/view/preparation.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/synthetic/practice_block.h"
+#include "assets/tooth.h"
+#include "calibration/record/utc.h"
+#include "haptics/device/device_catalogue.h"
+
+namespace app {
+namespace {
+
+constexpr double kForeignFaceWindow_mm = 24.0;
+
+/// The scripted hand performs the whole operation.
+constexpr const char* kShownOperation = "scripted:third-molar";
+constexpr const char* kShownFlap = "scripted:flap";  ///< incision, flap and the planned cut
+bool isShown(const RehearseOptions& options) { return options.plan.device == kShownOperation; }
+
+/// The block to practise on; none: a patient.
+std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options) {
+  return assets::practiceTaskOf(options.case_name);
+}
+
+/// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
+/// is the rig's, or else has the operated tooth at the origin of W.
+calibration::Rig rigFor(const RehearseOptions& options, const std::optional<ChosenRig>& chosen) {
+  calibration::Rig rig;
+  if (chosen) {
+    rig = chosen->record.rig;
+    if (!options.size.empty()) rig.screen.px = imageSize(options.size);
+  } else {
+    const glm::ivec2 default_px = options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800);
+    rig = calibration::desktopRig(options.size.empty() ? default_px : imageSize(options.size),
+                                  calibration::kDeskMonitorWidth_mm / options.loupes);
+  }
+  if (options.position && !hasNoPatientPose(rig))
+    throw UsageError("--position " + *options.position + ": the rig states the pose of the head (X_WP), leave it out");
+  return rig;
+}
+
+/// The device is opened first, as a rig belongs to one device and only the device knows its serial number.
+std::optional<ChosenRig> chooseRig(RehearsalPlan& plan, const RehearseOptions& options, DeviceIdentity& device) {
+  if (haptics::isDeviceAddress(options.plan.device) && !plan.opened)
+    plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
+  device = deviceIdentity(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
+  const bool turns = plan.opened ? plan.opened->device->capabilities().has_orientation : plan.device != "mouse";
+  if (plan.opened && !turns)
+    plan.remarks.push_back(device.model + ": it measures no orientation, the bur keeps a fixed one, without handpiece");
+  // A hand that cannot turn a handpiece out of the way holds the bur alone.
+  plan.command.tool.handpiece = turns;
+  // The shown operation goes on without handpiece: with an angled one, which is not modelled.
+  const bool is_angled = isShown(options);
+  for (haptics::Tool& tool : plan.other_tools) tool.handpiece = turns && !is_angled;
+  std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
+  plan.rig = rigFor(options, chosen);
+  plan.full_screen = chosen.has_value();
+  plan.view_can_turn = !chosen && !haptics::isDeviceAddress(options.plan.device);
+  if (!chosen) {
+    if (device.kind == DeviceIdentity::Kind::real)
+      plan.remarks.push_back("no calibration of " + device.model + " " + device.serial +
+                             " is in force: hand and eye may be a centimetre apart, see molar calibrate");
+    return chosen;
+  }
+  plan.calibration = chosen->calibration;
+  if (device.isCalibrated() && chosen->calibration.rig != "default")
+    plan.remarks.push_back(chosen->source + ": " + calibrationText(chosen->calibration));
+  plan.remarks.insert(plan.remarks.end(), chosen->remarks.begin(), chosen->remarks.end());
+  if (haptics::isDeviceAddress(options.plan.second_hand.device) && !plan.rig.second_X_WD)
+    throw UsageError("--second-hand " + options.plan.second_hand.device + ": " + chosen->source +
+                     " does not say where its base stands, add X_WD2");
+  return chosen;
+}
+
+/// As asked for, else as the rig is set up for, else seated. Throws UsageError for a position that is not known.
+std::string positionOf(const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
+                       std::vector<std::string>& remarks) {
+  const std::string kept = chosen ? chosen->record.patient_position : std::string();
+  if (!kept.empty() && std::ranges::find(kPatientPositions, kept) == kPatientPositions.end())
+    throw UsageError(chosen->source + ": patient.position '" + kept + "' is not known, give one of " +
+                     joined(kPatientPositions));
+  if (options.position && !kept.empty() && *options.position != kept)
+    remarks.push_back("position " + *options.position + ": hand rest and head of " + chosen->source +
+                      " are set up for " + kept);
+  return options.position.value_or(kept.empty() ? std::string(kPatientPositions.front()) : kept);
+}
+
+void placePatient(RehearsalPlan& plan, const std::string& position, const std::optional<ChosenRig>& chosen,
+                  const DeviceIdentity& device, const assets::FacePose& X_PF) {
+  // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
+  if (hasNoPatientPose(plan.rig)) {
+    plan.rig.X_WP = placePatientAtSite(plan.patient, X_PF, patientPositionNamed(position));
+    plan.down_P = downInRoom(plan.patient, X_PF, patientPositionNamed(position)).xyz;
+  }
+  if (plan.recording) plan.recording->setup.down_P = plan.gravity_P();
+  if (!chosen) return;
+  const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
+                                                   device.isCalibrated() ? device.model : std::string());
+  plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
+}
+
+struct PreparedCase {
+  assets::Patient patient;
+  assets::FacePose X_PF = assets::kFaceAxes_PF;
+  std::optional<CutPlan> cut;
+  assets::SoftTissueField soft_tissue;
+  assets::RiskStructures risks;
+  Prediction computed;  ///< difficulty and index alone
+};
+
+/// Nothing where they cannot be measured.
+Prediction computedDifficulty(const assets::Patient& patient) {
+  Prediction computed;
+  try {
+    const PlanItem index = itemOf(extractionPlan(patient, "PATIENT"), "difficulty");
+    if (const double* const sum = std::get_if<double>(&index.value)) {
+      computed.index = *sum;
+      computed.computed = kDifficulties[pedersonGrade(static_cast<int>(*sum))];
+    }
+  } catch (const UsageError&) {
+  }
+  return computed;
+}
+
+/// The patient, and what is computed from it: the cut and how a handpiece lies clear of soft tissue while it is made.
+PreparedCase prepared(const RehearseOptions& options, const assets::JawParameters& jaw, const haptics::Tool& tool,
+                      const assets::ReportProgress& report) {
+  PreparedCase one;
+  constexpr double kPatientShare = 0.75, kSoftTissueShare = 0.9;
+  const auto load = assets::sectionOf(report, 0.0, kPatientShare);
+  if (const auto task = practiceOf(options)) {
+    static const RehearseOptions kAsked;
+    one.patient = options.jaw.spacing_mm == kAsked.jaw.spacing_mm
+                      ? assets::practiceBlock(*task)
+                      : assets::practiceBlock(*task, options.jaw.spacing_mm);
+    one.cut = CutPlan{assets::practiceCut(*task, tool.head.radius_mm), CutKind::gutter};
+    one.cut->cut.shaft_P = one.cut->cut.outward_P;
+    return one;
+  }
+  one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
+  if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
+  if (options.flap == "closed") {
+    auto gum = closedGum(one.patient);
+    if (!gum)
+      throw UsageError("--flap " + options.flap +
+                       ": no gum is labelled over a planned cut in this patient, leave it out");
+    one.patient.gingiva = std::move(*gum);
+  }
+  auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
+  auto computed = std::async(std::launch::async, [&] {
+    const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
+    const bool compares = steps && (steps->asks || steps->prediction.isGiven());
+    return compares ? computedDifficulty(one.patient) : Prediction{};
+  });
+  auto risks = std::async(std::launch::async, [&] { return cachedRiskStructures(one.patient); });
+  const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
+  one.soft_tissue = softTissueAround(one.patient.gingiva, one.patient.face, region);
+  report(kSoftTissueShare);
+  one.computed = computed.get();
+  one.risks = risks.get();
+  one.cut = cut.get();
+  if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);
+  return one;
+}
+
+/// Prepared while the surgeon's windows show the progress. False: cancelled.
+bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
+                 assets::FacePose& X_PF) {
+  const SurgeonDisplay::Options shown = displayOf(plan);
+  Preparation preparation({.windows = shown.windows,
+                           .eyes_swapped = shown.eyes_swapped,
+                           .headless = plan.headless,
+                           .needs_window = shown.needs_window},
+                          plan.rig, "Preparing the patient", printMessage);
+  auto one = preparation.run<PreparedCase>(
+      [&](const assets::ReportProgress& report) { return prepared(options, jaw, plan.command.tool, report); });
+  if (!one) return false;
+  plan.patient = std::move(one->patient);
+  plan.soft_tissue = std::move(one->soft_tissue);
+  plan.risks = std::move(one->risks);
+  plan.windows = preparation.takeWindows();
+  if (plan.procedure_steps) {
+    plan.procedure_steps->prediction.computed = one->computed.computed;
+    plan.procedure_steps->prediction.index = one->computed.index;
+  }
+  X_PF = one->X_PF;
+  if (!one->cut) return true;
+  plan.cut = one->cut->cut;
+  const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
+  if (one->cut->kind == CutKind::nearest_bone && hand && hand->follows_plan)
+    printMessage((plan.patient.site ? "no gutter fits beside the " + assets::toothName(plan.patient.site->fdi)
+                                    : std::string("no operated tooth is labelled")) +
+                 ", the scripted cut is on the nearest bone");
+  return true;
+}
+
+/// What cuts and raises it lies on the tray; the assistant of a scripted hand holds from the beginning.
+void closeFlap(RehearsalPlan& plan) {
+  if (!plan.cut) throw UsageError("--flap closed: there is no planned cut in this patient, leave it out");
+  plan.flap_closed = true;
+  for (const haptics::HandInstrument kind : {haptics::HandInstrument::scalpel_15, haptics::HandInstrument::periosteal})
+    if (std::ranges::find(plan.other_tools, kind, &haptics::Tool::hand_instrument) == plan.other_tools.end())
+      plan.other_tools.push_back(haptics::handInstrumentTool(kind));
+  plan.command.assistant_holds = plan.device.starts_with("scripted:");
+}
+
+/// A procedure needs a lower third molar that is a body of its own, and bone to begin with.
+void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& procedure) {
+  const std::optional<assets::OperativeSite>& site = plan.patient.site;
+  if (!site || !assets::isThirdMolar(site->fdi) || assets::isUpper(site->fdi) ||
+      assets::voxelsOfTooth(plan.patient.ct, site->fdi).empty())
+    throw UsageError("--procedure " + procedure +
+                     ": no lower third molar is labelled and numbered in this patient, import teeth.nrrd with it");
+  if (!plan.cut)
+    throw UsageError("--procedure " + procedure + ": no bur reaches bone beside the " + assets::toothName(site->fdi));
+}
+
+/// Without windows, devices and pedals, which run in real time.
+void refuseUnlessSteppable(const RehearseOptions& options) {
+  if (!options.plan.headless) throw UsageError("--pace fast: a window needs real time, add --headless");
+  const PoseSourceKind* const hand = poseSourceKindOf(options.plan.device);
+  if (!hand || !hand->simulated)
+    throw UsageError("--pace fast: " + options.plan.device +
+                     " is not simulated, choose --device scripted, simulated, practice, replay or poses");
+  if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
+    throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
+                     " is not simulated, choose scripted or replay:SESSION");
+  if (options.plan.instructor_window) throw UsageError("--pace fast: a window needs real time, leave --instructor out");
+  if (options.pedal != "auto" && options.pedal != "none")
+    throw UsageError("--pace fast: a pedal needs real time, leave --pedal out");
+}
+
+/// Mesa's software renderer would use every core.
+void reserveCoreForServo() {
+  const unsigned cores = std::thread::hardware_concurrency();
+  const std::string threads = std::to_string(cores > 1 ? cores - 1 : 1);
+  setenv("LP_NUM_THREADS", threads.c_str(), 0);
+}
+
+/// A named case, or the built-in patient's single options; the voxels and the seed are asked for by themselves.
+assets::JawParameters jawOf(const RehearseOptions& options) {
+  assets::JawParameters jaw = options.jaw;
+  jaw.right_side = options.side == "right";
+  if (options.case_name.empty() || practiceOf(options)) return jaw;
+  jaw = caseNamed(options.case_name)->jaw;
+  jaw.spacing_mm = options.jaw.spacing_mm;
+  jaw.seed = options.jaw.seed;
+  return jaw;
+}
+
+/// What a block has none of.
+void refuseUnlessForBlock(const RehearseOptions& options) {
+  const std::string block =
+      options.continued.empty() ? "--case " + options.case_name : "--continue " + options.continued;
+  const std::string on = " needs a patient, leave it or " + block + " out";
+  if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + on);
+  if (options.flap == "closed") throw UsageError("--flap closed:" + on);
+  if (!options.face.empty()) throw UsageError("--face " + options.face + ":" + on);
+  if (options.opening_mm) throw UsageError("--opening:" + on);
+}
+
+/// Lines of another case lie anywhere.
+void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {
+  const StoredStart start = SessionReader(sessionNamed(options.drawn)).start();
+  if (!(start.grid == ct.grid) || start.label != ct.label)
+    throw UsageError("--drawn " + options.drawn + ": was drawn in another case, name a session of this one");
+}
+
+/// "replay:last" with the file.
+std::string withSessionNamed(const std::string& device) {
+  constexpr std::string_view kReplay = "replay:";
+  return device.starts_with(kReplay) ? std::string(kReplay) + sessionNamed(device.substr(kReplay.size())) : device;
+}
+
+/// A rehearsal is recorded, whatever its hand. Without a folder for it the rehearsal goes on, and says so.
+std::optional<Recording> defaultRecording(int fdi) {
+  try {
+    const std::filesystem::path folder = usualSessionFolder();
+    makeDataFolder(folder);
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    Recording recording{newSessionPath(folder, now.time_since_epoch().count(), fdi)};
+    recording.by_default = true;
+    return recording;
+  } catch (const SessionError& error) {
+    printMessage(std::string("not recording, the rehearsal goes on: ") + error.what());
+    return {};
+  }
+}
+
+/// What was chosen on the command line stays; the rest is as it was at the end of the former session.
+void goOn(RehearseOptions& options, const Continuation& former) {
+  RehearsalPlan& plan = options.plan;
+  static const RehearseOptions kUntouched;
+  const haptics::Command chosen = std::exchange(plan.command, former.command);
+  plan.command.safety = chosen.safety;
+  if (options.law != kUntouched.law) plan.command.law = chosen.law;
+  if (options.erosion != kUntouched.erosion) plan.command.erosion = chosen.erosion;
+  if (options.tools != kUntouched.tools || !options.shaft.empty()) {
+    plan.command.tool = chosen.tool;
+  } else if (!former.setup.tray.empty()) {
+    plan.other_tools = former.setup.tray;
+    std::erase(plan.other_tools, plan.command.tool);
+  }
+  applyTo(plan.command, options.settings);
+  plan.remarks.insert(plan.remarks.end(), former.remarks.begin(), former.remarks.end());
+}
+
+/// A rule of it is about the tooth or the gutter beside it.
+bool asksForThirdMolar(const StepPlan& plan) {
+  return std::ranges::any_of(plan.steps, [](const Step& step) {
+    const DoneWhen& when = step.done_when;
+    return when.asksForFlap() || when.gutter_removed || when.crown_bared || when.bridge_mm || when.torn ||
+           when.pieces || when.pieces_out || when.all_out;
+  });
+}
+
+/// What is followed, with what is said, and what is asked of the surgeon.
+void chooseProcedure(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
+  if (options.procedure.empty()) return;
+  ProcedureSteps steps;
+  steps.plan = stepPlanNamed(options.procedure);
+  if (plan.device == "scripted" && options.procedure == "third-molar") plan.device = kShownOperation;
+  const auto named = std::ranges::find(kGuidances, std::string_view(options.guidance));
+  steps.guidance = named != kGuidances.end() ? static_cast<Guidance>(named - kGuidances.begin())
+                   : options.assess          ? Guidance::assessed
+                   : isShown(options)        ? Guidance::free
+                                             : Guidance::guided;
+  if (!options.predict.empty()) {
+    const PredictionAnswer answer = predictionAnswerFrom(options.predict);
+    steps.prediction.difficulty = answer.difficulty;
+    steps.prediction.minutes = answer.minutes;
+  }
+  steps.asks = options.predict.empty() && !plan.headless && steps.guidance != Guidance::free && !isShown(options);
+  plan.procedure_steps = std::move(steps);
+}
+
+/// Whatever would help, or leave something unrecorded.
+void refuseUnlessAssessable(const RehearseOptions& options) {
+  const auto refuse = [](const std::string& what, const char* why) {
+    throw UsageError("--assess: " + what + " contradicts it (" + why + "), leave one of them out");
+  };
+  if (!options.coach.empty() && options.coach != "off") refuse("--coach " + options.coach, "nothing is said");
+  if (!options.clearance.empty() && options.clearance != "off")
+    refuse("--clearance " + options.clearance, "clearances are not told");
+  if (!options.guidance.empty() && options.guidance != "assessed")
+    refuse("--guidance " + options.guidance, "steps are recorded and not told");
+  if (options.no_record) refuse("--no-record", "everything is recorded");
+  if (!options.continued.empty()) refuse("--continue " + options.continued, "it begins with the untouched patient");
+  if (!options.plan.parameters.empty()) refuse("--parameters " + options.plan.parameters, "its conditions stay");
+  // A scripted hand with the gum closed shows incision and flap.
+  if (isShown(options) || (options.plan.device == "scripted" && options.flap == "closed"))
+    refuse("an operation that is shown", "somebody is to be assessed");
+  if (const std::string layer = options.picture.help(); !layer.empty())
+    refuse("--layers " + layer, "it shows what nobody sees");
+}
+
+/// Never in assessment.
+void chooseCoach(RehearseOptions& options) {
+  const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
+  const bool is_assessed = options.assess || (steps && steps->guidance == Guidance::assessed);
+  if (is_assessed && !options.coach.empty() && options.coach != "off")
+    throw UsageError("--coach " + options.coach + ": nothing is said in assessment, leave it out");
+  const bool is_guided = steps && steps->guidance == Guidance::guided;
+  if (options.coach == "off" || (options.coach.empty() && !is_guided)) return;
+  options.plan.coach = coachRulesOf(options.coach == "on" ? "" : options.coach);
+}
+
+}  // namespace
+
+std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
+  options.patient = patientNamed(options.patient);
+  plan.device = withSessionNamed(plan.device);
+  plan.second_hand.device = withSessionNamed(plan.second_hand.device);
+  if (plan.device.starts_with("scripted:"))
+    throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
+  if (const auto task = practiceOf(options)) {
+    refuseUnlessForBlock(options);
+    plan.instruction = assets::textOf(*task).instruction;
+    // The burs that it is made for, where nothing else was asked for.
+    static const RehearseOptions kAsked;
+    if (options.tools == kAsked.tools)
+      options.tools = *task == assets::PracticeTask::plate ? std::vector<std::string>{"round:3.0", "round:2.0"}
+                                                           : std::vector<std::string>{"round:2.0", "round:3.0"};
+  }
+  chooseProcedure(options);
+  if (options.assess) refuseUnlessAssessable(options);
+  plan.is_assessed = options.assess;
+  chooseCoach(options);
+  if (isShown(options)) {
+    // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
+    static const RehearseOptions kAsked;
+    if (options.tools == kAsked.tools)
+      options.tools = {
+          options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps", "suction", "curette", "bone-file"};
+  }
+  if (options.flap == "closed") {
+    if (!options.continued.empty())
+      throw UsageError("--flap closed: a rehearsal that goes on begins with the flap raised, leave it out");
+    if (plan.device == "scripted") plan.device = kShownFlap;
+  }
+  std::optional<Continuation> former;
+  const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
+  plan.command.tool = tool_of(options.tools.front());
+  if (!plan.command.tool.turns())
+    throw UsageError("--tool " + options.tools.front() + ": the first tool is a bur, name one before it");
+  for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
+    plan.other_tools.push_back(tool_of(*other));
+  if (isShown(options)) {
+    std::vector<haptics::Tool> tray = plan.other_tools;
+    tray.insert(tray.begin(), plan.command.tool);
+    operationTray(tray);
+  }
+  plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
+  plan.command.law.kind = lawNamed(options.law);
+  applyTo(plan.command, options.settings);
+  refuseBeyondServoLimits(plan.command);
+  refuseUnlessAdmitted(plan.command);
+  if (plan.headless && plan.instructor_window)
+    throw UsageError(
+        "--instructor: its window cannot open in a run without windows, leave out --instructor or --headless");
+  if (plan.headless && plan.device == "mouse")
+    throw UsageError("--headless: there is no mouse without a window, add --device scripted");
+  refuseUnlessPoseSource(plan.device);
+  options.rig.refuseUnlessReadable();
+  if (options.pace == "fast") {
+    refuseUnlessSteppable(options);
+    plan.ticking = Ticking::stepped;
+  } else {
+    plan.pedal = pedalFrom(options.pedal);
+    if (plan.pedal) refuseUnlessPlugged(*plan.pedal);
+  }
+  for (const assets::SecondInstrumentEntry& entry : assets::kSecondInstruments)
+    if (entry.name == options.second_tool) plan.second_hand.tool = entry.instrument;
+  refuseUnlessSecondHand(plan.second_hand, plan.device);
+  plan.device_options.falcon_program = options.falcon_firmware;
+  plan.device_options.falcon_scale = [] { return savedFalconScale(defaultFalconScaleFile()); };
+  plan.device_options.report = printMessage;
+  plan.display = options.display.mode();
+  plan.head_up_line = !options.no_line;
+  plan.sound = !options.no_sound;
+  const bool is_assessed =
+      plan.is_assessed || (plan.procedure_steps && plan.procedure_steps->guidance == Guidance::assessed);
+  plan.shows_clearance = options.clearance.empty() ? !is_assessed : options.clearance == "view";
+  plan.sounds_clearance = options.clearance == "sound";
+  if (plan.sounds_clearance && (options.no_sound || plan.headless))
+    throw UsageError("--clearance sound: there is no sound with --no-sound or --headless, leave one of them out");
+  plan.eyes_swapped = options.display.swapped();
+  plan.backend = options.picture.backend();
+  options.picture.apply(plan.first_frame);
+  if (options.monitor) plan.monitor = *options.monitor - 1;
+  plan.snapshot_px = imageSize(options.snapshot_size);
+  refuseUnlessPng("--snapshot", plan.snapshot, MissingEnding::allowed);
+  refuseUnlessPng("--first-snapshot", plan.first_snapshot, MissingEnding::allowed);
+  if (!plan.snapshot.empty() && plan.snapshot == plan.first_snapshot)
+    throw UsageError("--first-snapshot " + plan.snapshot + ": the same as --snapshot, give another name");
+  if (!options.record.empty())
+    refuseUnlessRecordable(options.record, plan.overwrite, {plan.device, plan.second_hand.device});
+  if (!options.record.empty()) plan.recording = Recording{options.record, plan.overwrite};
+  if (!options.continued.empty()) {
+    former = continuationOf(sessionNamed(options.continued));
+    goOn(options, *former);
+    if (!former->setup.practice.empty()) {
+      options.case_name = former->setup.practice;
+      refuseUnlessForBlock(options);
+      options.jaw.spacing_mm = former->grid.spacing_mm;
+      plan.instruction = assets::textOf(*practiceOf(options)).instruction;
+    }
+    plan.drawn = former->drawn;
+  }
+  if (!options.drawn.empty()) {
+    plan.drawn = drawnPlanOf(sessionNamed(options.drawn));
+    if (plan.drawn.isEmpty())
+      throw UsageError("--drawn " + options.drawn + ": no line was drawn in it, name another session");
+  }
+
+  assets::JawParameters jaw = jawOf(options);
+  if (former && former->setup.built_in) jaw = *former->setup.built_in;
+  if (options.opening_mm) jaw.opening_mm = *options.opening_mm;
+  if (former && former->setup.isImported() && options.patient.empty())
+    throw UsageError("--continue " + former->path +
+                     ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +
+                     options.continued);
+  DeviceIdentity device;
+  const std::optional<ChosenRig> chosen = chooseRig(plan, options, device);
+  const std::string position = positionOf(options, chosen, plan.remarks);
+  options.display.refuseUnlessFits(plan.rig);
+  reserveCoreForServo();
+  assets::FacePose X_PF;
+  if (!prepareCase(plan, options, jaw, X_PF)) {
+    printMessage("left before the patient was ready");
+    return {};
+  }
+  if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
+    refuseUnlessThirdMolar(plan, options.procedure);
+  // An assistant holds cheek and flap aside.
+  plan.shows_whole_operation = isShown(options);
+  if (options.flap == "closed") closeFlap(plan);
+  if (former) plan.scanned_solid = former->applyTo(plan.patient);
+  if (!options.drawn.empty()) refuseUnlessDrawnHere(options, plan.patient.ct);
+  // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.
+  static const RehearseOptions kUntouched;
+  if (!former && options.tools == kUntouched.tools && plan.patient.site) {
+    plan.other_tools.push_back(haptics::elevatorTool(haptics::ElevatorKind::straight_301));
+    plan.other_tools.push_back(haptics::forcepsTool());
+    for (const haptics::HandInstrument kind :
+         {haptics::HandInstrument::suction, haptics::HandInstrument::curette, haptics::HandInstrument::bone_file})
+      plan.other_tools.push_back(haptics::handInstrumentTool(kind));
+  }
+  if (!plan.recording && !options.no_record)
+    plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
+  if (plan.recording) {
+    SessionSetup& setup = plan.recording->setup;
+    setup.practice = practiceOf(options) ? options.case_name : "";
+    if (options.patient.empty() && setup.practice.empty()) setup.built_in = jaw;
+    setup.tray = plan.other_tools;
+    setup.tray.insert(setup.tray.begin(), plan.command.tool);
+    if (former) setup.former = former->setup.former;
+  }
+  plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
+  placePatient(plan, position, chosen, device, X_PF);
+  return std::move(plan);
+}
+
+}  // namespace app

@@ -1,0 +1,148 @@
+#include "app/evaluation/evaluation_desk.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/text/clock_text.h"
+#include "app/text/message.h"
+
+namespace app {
+
+EvaluationDesk::EvaluationDesk(Parts parts, bool begins_by_itself)
+    : parts_(std::move(parts)), begins_by_itself_(begins_by_itself), tray_(parts_.study.tools()) {}
+
+Moment EvaluationDesk::now() const {
+  constexpr double kSecond_ns = 1e9;
+  const auto ticks_ns = parts_.begun_ns + static_cast<std::int64_t>(now_s_ * kSecond_ns + 0.5);
+  const std::optional<std::uint64_t> newest = next_tick_ > 0 ? std::optional(next_tick_ - 1) : std::nullopt;
+  return {parts_.clock_ns ? parts_.clock_ns() : ticks_ns, newest};
+}
+
+/// The newest that this tick was made with.
+const haptics::Command& EvaluationDesk::commandOf(const haptics::Tick& tick) const {
+  std::size_t at = commands_.size() - 1;
+  while (at > 0 && commands_[at].serial > tick.command_serial) --at;
+  return commands_[at].command;
+}
+
+void EvaluationDesk::tellEnd() {
+  if (watched_ == nullptr) return;
+  const std::vector<TaskOutcome>& outcomes = parts_.course.outcomes();
+  const auto ended = std::find_if(outcomes.rbegin(), outcomes.rend(), [this](const TaskOutcome& one) {
+    return one.result && &parts_.study.tasks[one.task] == watched_;
+  });
+  if (ended == outcomes.rend()) return;
+  const std::string_view result = kTaskResults[static_cast<std::size_t>(*ended->result)];
+  marks_.push_back(fmt::format("task.stop {} {}", watched_->id, result));
+  printMessage(fmt::format("{}: {} after {}, by {}", watched_->id, result, clockText(ended->time_s), ended->by));
+}
+
+/// The next task, if it is time: with the tick that comes.
+void EvaluationDesk::begin() {
+  const TaskTemplate* const running = parts_.course.running();
+  if (running == watched_) return;
+  tellEnd();
+  watched_ = running;
+  watch_.reset();
+  if (running == nullptr) return;
+  watch_.emplace(*running, *structures_);
+  task_began_s_ = now_s_;
+  marks_.push_back("task.start " + running->id);
+  printMessage(fmt::format("task {} of {}, {}: {}", parts_.course.outcomes().size(), parts_.course.order().size(),
+                           running->id, running->say));
+  const auto tool = std::ranges::find(tray_, running->tool);
+  if (tool != tray_.end()) requests_.push_back({Control::tool, static_cast<int>(tool - tray_.begin())});
+}
+
+void EvaluationDesk::say(LogEvent event, const std::string& where) {
+  const Moment at = now();
+  if (event.t_ns == 0) event.t_ns = at.t_ns;
+  event.tick = at.tick;
+  // A task that is begun by hand begins with the next tick.
+  if (const std::string* const result = event.text("result"); result != nullptr && *result == "next")
+    event.tick = next_tick_;
+  const std::string type = event.type;
+  if (const auto refused = parts_.course.take(std::move(event))) {
+    parts_.course.log(at, "system", "refused", {{"what", type}, {"why", *refused}});
+    return printMessage((where.empty() ? type : where) + ": " + *refused);
+  }
+  marks_.push_back(fmt::format("{} {}", type, ++said_));
+}
+
+void EvaluationDesk::takeSaid() {
+  if (parts_.evaluator)
+    for (LogEvent& event : parts_.evaluator()) say(std::move(event), "");
+  if (watched_ == nullptr) return;
+  for (ScriptedEvent& one : parts_.script.takeDue(watched_->id, now_s_ - task_began_s_))
+    say(std::move(one.event), one.where);
+}
+
+void EvaluationDesk::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
+                            std::uint64_t serial) {
+  if (commands_.empty() || commands_.back().serial != serial) commands_.push_back({serial, command});
+  for (const haptics::Tick& tick : ticks) {
+    if (begins_by_itself_ && parts_.course.running() == nullptr) parts_.course.startTask({now().t_ns, tick.index});
+    begin();
+    next_tick_ = tick.index + 1;
+    now_s_ = tick.t_s + tick.dt_s;
+    if (watch_) {
+      if (const auto fired = watch_->add(tick, commandOf(tick))) {
+        marks_.push_back(fmt::format("rule {} {} {}", watched_->id,
+                                     kRuleVerdicts[static_cast<std::size_t>(fired->verdict)], fired->tick));
+        parts_.course.fired(*fired, now());
+      }
+    }
+    // A script says it at its tick.
+    if (!parts_.clock_ns) takeSaid();
+  }
+  if (parts_.clock_ns) takeSaid();
+  begin();
+  // Ticks of one command are enough of it.
+  constexpr std::size_t kMostCommands = 64;
+  if (commands_.size() > kMostCommands) commands_.erase(commands_.begin());
+}
+
+std::vector<ControlRequest> EvaluationDesk::takeRequests() { return std::exchange(requests_, {}); }
+
+std::vector<std::string> EvaluationDesk::takeMarks() { return std::exchange(marks_, {}); }
+
+bool EvaluationDesk::allows(const ControlRequest& request) {
+  const bool is_law = request.control == Control::law;
+  const bool is_layer = request.control == Control::layer || request.control == Control::face;
+  const bool is_picture = request.control == Control::snapshot;
+  if (!is_law && !is_layer && !is_picture) return true;
+  const bool may = is_law     ? parts_.study.law_may_change
+                   : is_layer ? parts_.study.layers_may_change
+                              : parts_.course.allows("picture");
+  const std::string what(meaningOf(request.control).name);
+  parts_.course.log(now(), "evaluator", may ? "change" : "change.refused",
+                    {{"what", what}, {"value", static_cast<std::int64_t>(request.value)}});
+  return may;
+}
+
+std::string EvaluationDesk::toSurgeon() const {
+  if (watched_ != nullptr) return watched_->say;
+  return parts_.course.areTasksDone() ? "all tasks are done" : "the next task will be told";
+}
+
+std::string EvaluationDesk::toEvaluator() const {
+  const std::size_t place = parts_.course.outcomes().size(), all = parts_.course.order().size();
+  if (watched_ == nullptr) return fmt::format("{} of {} tasks done: 5 5 begins the next", place, all);
+  const std::string measures = watch_ ? watch_->line() : "";
+  return fmt::format("{} ({}/{}) {} of {}{}{}{}", watched_->id, place, all, clockText(now_s_ - task_began_s_),
+                     clockText(watched_->time_box_s), parts_.course.isTimeBoxOver() ? ", time is over: decide" : "",
+                     measures.empty() ? "" : " · ", measures);
+}
+
+bool EvaluationDesk::isOver() const {
+  return parts_.course.areTasksDone() || (parts_.course.isConsentComplete() && !parts_.course.allows("log"));
+}
+
+void EvaluationDesk::finish() {
+  parts_.course.endOfRehearsal(now());
+  begin();
+}
+
+}  // namespace app

@@ -1,0 +1,85 @@
+// The tasks of an evaluation during a rehearsal: follows every tick with the command in force, lets the rules fire,
+// begins and ends tasks, takes what the evaluator or the script says, and tells the surgeon the task. It changes
+// nothing that is felt but the instrument that a task begins with. Main thread, once a frame; the cost of task_watch.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/controls/control.h"
+#include "app/evaluation/evaluation_course.h"
+#include "app/evaluation/script.h"
+#include "haptics/servo/command.h"
+#include "haptics/servo/tick.h"
+
+namespace app {
+
+/// Kind of the events of a recording with its marks.
+inline constexpr char kEvaluationEvent[] = "evaluation";
+
+class EvaluationDesk {
+ public:
+  /// What the evaluator says between two frames; empty: nothing.
+  using Evaluator = std::function<std::vector<LogEvent>()>;
+  struct Parts {
+    const StudyTemplate& study;
+    EvaluationCourse& course;
+    EvaluationScript& script;
+    Evaluator evaluator;
+    std::function<std::int64_t()> clock_ns;  ///< none where the ticks are the clock (fast)
+    std::int64_t begun_ns = 0;               ///< of the log, at the first tick: where the ticks are the clock
+  };
+  /// Borrows all. The next task begins by itself where a script leads, else when the evaluator says so.
+  EvaluationDesk(Parts parts, bool begins_by_itself);
+
+  /// Once the case is there, with the study's tools as the tray: the structures that the bur keeps off. Borrowed.
+  void open(const assets::RiskStructures& structures) { structures_ = &structures; }
+  /// All ticks, in order; `command` in force now, with the number that ticks tell of it.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::uint64_t serial);
+
+  /// Instruments to put into the hand since the last call.
+  std::vector<ControlRequest> takeRequests();
+  /// For the sealed recording since the last call: what happened, no words: "task.start trough", "note 12".
+  std::vector<std::string> takeMarks();
+  /// Whether the template lets this be changed now; the change, or the refusal, is logged.
+  bool allows(const ControlRequest& request);
+
+  std::string toSurgeon() const;
+  std::string toEvaluator() const;
+  bool isOver() const;
+  /// The rehearsal has ended.
+  void finish();
+  /// Of the newest tick.
+  Moment now() const;
+
+ private:
+  struct Numbered {
+    std::uint64_t serial = 0;
+    haptics::Command command;
+  };
+  const haptics::Command& commandOf(const haptics::Tick& tick) const;
+  void begin();
+  void tellEnd();
+  void say(LogEvent event, const std::string& where);
+  void takeSaid();
+
+  Parts parts_;
+  bool begins_by_itself_;
+  const assets::RiskStructures* structures_ = nullptr;
+  std::vector<std::string> tray_;
+  std::vector<Numbered> commands_;
+  std::optional<TaskWatch> watch_;
+  const TaskTemplate* watched_ = nullptr;
+  std::uint64_t next_tick_ = 0;
+  double now_s_ = 0.0, task_began_s_ = 0.0;
+  std::vector<ControlRequest> requests_;
+  std::vector<std::string> marks_;
+  std::size_t said_ = 0;
+};
+
+}  // namespace app

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <csignal>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/commands/program.h"
+
+namespace app {
+namespace {
+
+const std::string kExample = std::string(MOLAR_SOURCE_DIR) + "/app/evaluation/";
+
+class EvaluateCommand : public ProgramTest {
+ protected:
+  std::string session(const std::string& participant, const std::string& study_template = kExample + "example.toml",
+                      const std::string& script = kExample + "example_script.jsonl") const {
+    return "evaluate " + study_template + " --participant " + participant + " --out " + at("study") + " --script " +
+           script + " --device scripted --headless --pace fast";
+  }
+  std::vector<nlohmann::json> log(const std::string& folder) const {
+    std::vector<nlohmann::json> lines;
+    std::istringstream text(read("study/" + folder + "/events.jsonl"));
+    for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
+    return lines;
+  }
+  static std::vector<nlohmann::json> ofType(const std::vector<nlohmann::json>& lines, const std::string& type) {
+    std::vector<nlohmann::json> found;
+    std::ranges::copy_if(lines, std::back_inserter(found), [&](const auto& line) { return line["type"] == type; });
+    return found;
+  }
+};
+
+TEST_F(EvaluateCommand, GoesFromConsentToTheStudysTables) {
+  const ProgramOutput first = molar(session("P01"));
+  ASSERT_EQ(first.status, 0) << first.err;
+  const ProgramOutput second = molar(session("P02"));
+  ASSERT_EQ(second.status, 0) << second.err;
+
+  const auto lines = log("P01-1");
+  EXPECT_EQ(lines.front()["type"], "session.start");
+  EXPECT_EQ(lines.back()["type"], "session.stop");
+  EXPECT_EQ(ofType(lines, "consent").size(), 5u);
+  EXPECT_EQ(ofType(lines, "task.start").size(), 3u);
+  EXPECT_EQ(ofType(lines, "task.stop").size(), 3u);
+  for (std::size_t n = 0; n < lines.size(); ++n) EXPECT_EQ(lines[n]["seq"], n);
+  // Rules fired, and in the recording at the very same ticks.
+  const auto verified = ofType(lines, "verified").at(0)["data"];
+  EXPECT_EQ(verified["recording"], true);
+  EXPECT_GE(verified["rules"], 2);
+  EXPECT_EQ(verified["rules_deviate"], 0);
+  // Another order for the next participant.
+  EXPECT_NE(lines.front()["data"]["order"], log("P02-1").front()["data"]["order"]);
+
+  const auto study = nlohmann::json::parse(molar("study " + at("study") + " --questionnaire sus --json -").out);
+  EXPECT_EQ(study["participants"], 2);
+  EXPECT_EQ(study["tasks"].size(), 3u);
+  EXPECT_FALSE(study["problems"].empty());
+  EXPECT_EQ(study["scores"].size(), 1u);
+  // What is kept can be looked at with its moments; words lie beside the recording, not in it.
+  EXPECT_NE(read("study/P01-1/session.bookmarks.json").find("looks for the pedal"), std::string::npos);
+  EXPECT_EQ(read("study/P01-1/session.molar").find("looks for the pedal"), std::string::npos);
+  EXPECT_EQ(read("study/P01-1/template.toml"), read("study/P02-1/template.toml"));
+}
+
+TEST_F(EvaluateCommand, TheSameSessionTwiceIsTheSameLog) {
+  ASSERT_EQ(molar(session("P03")).status, 0);
+  const std::string first = read("study/P03-1/events.jsonl"), tasks = read("study/P03-1/tasks.csv");
+  std::filesystem::remove_all(at("study"));
+  ASSERT_EQ(molar(session("P03")).status, 0);
+  EXPECT_EQ(read("study/P03-1/events.jsonl"), first);
+  EXPECT_EQ(read("study/P03-1/tasks.csv"), tasks);
+}
+
+TEST_F(EvaluateCommand, WithoutTheLogNothingIsKept) {
+  std::string script;
+  for (const char* stream : {"log", "audio", "picture", "quotes", "reuse"})
+    script += R"({"during": "consent", "type": "consent", "data": {"stream": ")" + std::string(stream) +
+              R"(", "given": false}})" + "\n";
+  const ProgramOutput said = molar(session("P01", kExample + "example.toml", write("s.jsonl", script)));
+  EXPECT_EQ(said.status, 1);
+  EXPECT_NE(said.err.find("allows no log"), std::string::npos) << said.err;
+  EXPECT_FALSE(std::filesystem::exists(at("study")));
+}
+
+TEST_F(EvaluateCommand, ASessionThatIsKilledIsTold) {
+  const std::string line = "exec " + std::string(MOLAR_PROGRAM) + " " + session("P01") + " 2>/dev/null >/dev/null";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  // Once a task has begun.
+  for (int n = 0; n < 6000 && read("study/P01-1/events.jsonl").find("task.start") == std::string::npos; ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  ASSERT_NE(read("study/P01-1/events.jsonl").find("task.start"), std::string::npos);
+  EXPECT_NE(molar("study " + at("study")).err.find("P01-1 was interrupted"), std::string::npos);
+  ASSERT_EQ(molar(session("P01")).status, 0);
+  const ProgramOutput said = molar("study " + at("study"));
+  EXPECT_NE(said.err.find("was begun anew and does not count"), std::string::npos) << said.err;
+  EXPECT_TRUE(std::filesystem::exists(at("study/P01-1-2/tasks.csv")));
+}
+
+TEST_F(EvaluateCommand, RefusesInOneLine) {
+  const std::string example = kExample + "example.toml",
+                    rest = " --out " + at("study") + " --script " + kExample +
+                           "example_script.jsonl --device scripted --headless --pace fast";
+  expectRefusal("evaluate " + example + " --participant Anna" + rest, "give a code as P07");
+  expectRefusal("evaluate " + example + " --participant P01 --no-record" + rest, "--no-record");
+  expectRefusal("evaluate " + example + " --participant P01 --case deep" + rest, "names the case");
+  expectRefusal("evaluate " + example + " --participant P01 --tool round:2.0" + rest, "--tool");
+  expectRefusal("evaluate " + example + " --participant P01 --out " + at("study") + " --headless --device scripted",
+                "at a terminal");
+  expectRefusal("evaluate " + write("t.toml", "title = 3\n") + " --participant P01" + rest, "line 1: title");
+  expectRefusal(session("P01", example, write("s.jsonl", "{}\n")), "line 1, during");
+  EXPECT_FALSE(std::filesystem::exists(at("study")));
+}
+
+}  // namespace
+}  // namespace app
