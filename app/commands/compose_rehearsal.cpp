@@ -125,8 +125,8 @@ std::string positionOf(const RehearseOptions& options, const std::optional<Chose
   return options.position.value_or(kept.empty() ? std::string(kPatientPositions.front()) : kept);
 }
 
-void placePatient(RehearsalPlan& plan, const std::string& position, const std::optional<ChosenRig>& chosen,
-                  const DeviceIdentity& device, const assets::FacePose& X_PF) {
+void placeInRoom(RehearsalPlan& plan, const std::string& position, const std::optional<ChosenRig>& chosen,
+                 const DeviceIdentity& device, const assets::FacePose& X_PF) {
   // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
   if (hasNoPatientPose(plan.rig)) {
     plan.rig.X_WP = placePatientAtSite(plan.patient, X_PF, patientPositionNamed(position));
@@ -559,7 +559,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
     if (former) setup.former = former->setup.former;
   }
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
-  placePatient(plan, position, chosen, device, X_PF);
+  placeInRoom(plan, position, chosen, device, X_PF);
   return std::move(plan);
 }
 

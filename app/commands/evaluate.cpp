@@ -42,7 +42,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct EvaluateOptions {
-  std::string study_template, participant, group, out, script;
+  std::string study_template, participant, group, evaluator = "E1", out, script;
   RehearseOptions rehearsal;
 };
 
@@ -101,6 +101,8 @@ void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study
   static const RehearseOptions kUntouched;
   if (!isAnonymousId(options.participant))
     throw UsageError("--participant " + options.participant + ": give a code as P07, never a name");
+  if (!isAnonymousId(options.evaluator))
+    throw UsageError("--evaluator " + options.evaluator + ": give a code as E1, never a name");
   if (!rehearsal.record.empty() || rehearsal.no_record)
     throw UsageError("evaluate: a session is recorded into --out, leave --record and --no-record out");
   if (!rehearsal.continued.empty())
@@ -137,7 +139,7 @@ class EvaluationSession {
       place_ = nextSession(sessionsIn(options.out), options.participant);
     else
       place_ = nextSession({}, options.participant);
-    course_.emplace(study_, Participant{options.participant, options.group, place_.visit},
+    course_.emplace(study_, Participant{options.participant, options.group, place_.visit, options.evaluator},
                     [this](const LogEvent& event) { keep(event); });
   }
 
@@ -152,6 +154,10 @@ class EvaluationSession {
     if (!study_.warm_up_block.empty() && !warmUp(warm, *plan)) return interrupted();
     const int recorded = doTasks(std::move(*plan));
     if (wasInterrupted()) return interrupted();
+    if (!course_->allows("log")) {
+      printMessage("the log is not allowed any more: the session ends; what was kept until then lies in " + folder());
+      return 1;
+    }
     saveBookmarks();
     askAll(Phase::debrief);
     askAll(Phase::questionnaires);
@@ -406,6 +412,7 @@ void addEvaluate(CommandLine& molar) {
       .valueNamed("STUDY")
       .required();
   command.option("--group", options->group, "Of the participant, as surgeon or student");
+  command.option("--evaluator", options->evaluator, "Code of who writes notes and rates problems").showsDefault();
   command.option("--script", options->script, "What evaluator and participant say, JSON lines, instead of the terminal")
       .valueNamed("EVENTS.jsonl");
   addRehearseOptions(command, options->rehearsal);

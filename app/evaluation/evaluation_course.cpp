@@ -44,6 +44,7 @@ bool EvaluationCourse::prepare(const std::vector<Check>& checks, const Moment& a
   log(at, "system", "session.start",
       {{"participant", participant_.code},
        {"group", participant_.group},
+       {"evaluator", participant_.evaluator},
        {"visit", static_cast<std::int64_t>(participant_.visit)},
        {"seed", static_cast<std::int64_t>(study_.seed)},
        {"order", order}});

@@ -41,6 +41,7 @@ struct Check {
 struct Participant {
   std::string code, group;
   int visit = 1;
+  std::string evaluator;  ///< code, who rates the problems
 };
 
 /// How a task went.

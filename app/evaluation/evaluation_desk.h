@@ -46,6 +46,7 @@ class EvaluationDesk {
   std::vector<ControlRequest> takeRequests();
   /// For the sealed recording since the last call: what happened, no words: "task.start trough", "note 12".
   std::vector<std::string> takeMarks();
+  bool allowsPictures() const { return parts_.course.allows("picture"); }
   /// Whether the template lets this be changed now; the change, or the refusal, is logged.
   bool allows(const ControlRequest& request);
 

@@ -5,12 +5,34 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <utility>
 
 namespace app {
+namespace {
+
+/// A rehearsal takes them to end in order; a question is simply left.
+class SignalsThatEnd {
+ public:
+  SignalsThatEnd() {
+    for (std::size_t n = 0; n < kSignals.size(); ++n) former_[n] = std::signal(kSignals[n], SIG_DFL);
+  }
+  ~SignalsThatEnd() {
+    for (std::size_t n = 0; n < kSignals.size(); ++n) std::signal(kSignals[n], former_[n]);
+  }
+  SignalsThatEnd(const SignalsThatEnd&) = delete;
+  SignalsThatEnd& operator=(const SignalsThatEnd&) = delete;
+
+ private:
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<void (*)(int), kSignals.size()> former_{};
+};
+
+}  // namespace
 
 std::optional<std::string> askedAtTerminal(const std::string& question) {
+  const SignalsThatEnd ending;
   std::fprintf(stderr, "%s ", question.c_str());
   std::string line;
   for (int c = std::getchar(); c != '\n'; c = std::getchar()) {

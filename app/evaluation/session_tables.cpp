@@ -57,8 +57,8 @@ std::vector<SessionTable> sessionTables(const StudyTemplate& study, const std::v
     constexpr double kSecond_ns = 1e9;
     const std::string moment =
         tasks_began_ns ? folder + " " + clockText(static_cast<double>(event.t_ns - *tasks_began_ns) / kSecond_ns) : "";
-    problems += csvLine({event.textOr("problem"), event.textOr("title"), participant, event.textOr("task"), "E1",
-                         numberOr(event.number("severity")), moment});
+    problems += csvLine({event.textOr("problem"), event.textOr("title"), participant, event.textOr("task"),
+                         start.textOr("evaluator"), numberOr(event.number("severity")), moment});
   }
   std::vector<SessionTable> tables;
   if (!runs.empty()) {

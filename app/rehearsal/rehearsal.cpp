@@ -516,7 +516,7 @@ class Rehearsal {
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
     readServo();
-    if (last_)
+    if (last_ && (!plan_.evaluation || plan_.evaluation->allowsPictures()))
       view_.takeSnapshot(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
                          station().bodies().solidInGridOrder());
     RehearsalFigures figures = status_reporter_->figures(state());

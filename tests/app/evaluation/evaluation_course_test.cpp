@@ -40,7 +40,7 @@ class EvaluationCourseTest : public testing::Test {
  protected:
   EvaluationCourseTest()
       : study_(studyTemplateFrom(kTemplate, "t.toml")),
-        course_(study_, {"P07", "surgeon", 1}, [this](const LogEvent& event) { events_.push_back(event); }) {}
+        course_(study_, {"P07", "surgeon", 1, "E2"}, [this](const LogEvent& event) { events_.push_back(event); }) {}
 
   Moment at(std::int64_t s) const { return {s * kSecond_ns, static_cast<std::uint64_t>(1000 * s)}; }
   std::string say(const std::string& type, std::vector<std::pair<std::string, LogValue>> data, std::int64_t s = 0) {
@@ -73,7 +73,7 @@ TEST_F(EvaluationCourseTest, ARedCheckIsNoStart) {
 
 TEST_F(EvaluationCourseTest, EveryStreamIsAllowedOrRefusedByItselfAndTheNewestWordRules) {
   for (int subset = 0; subset < 32; ++subset) {
-    EvaluationCourse course(study_, {"P07", "", 1}, [](const LogEvent&) {});
+    EvaluationCourse course(study_, {"P07", "", 1, ""}, [](const LogEvent&) {});
     course.prepare({}, at(0));
     course.enter(Phase::consent, at(0));
     for (std::size_t n = 0; n < kConsentStreams.size(); ++n) {
@@ -188,6 +188,7 @@ TEST_F(EvaluationCourseTest, ItsTablesAreThoseThatAStudyReads) {
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].task, "one");
   EXPECT_EQ(problems[0].moment, "P07-1 0:03");
+  EXPECT_EQ(problems[0].rater, "E2");
   EXPECT_EQ(problems[0].severity, 3);
   EXPECT_EQ(tables[2].name, "answers-sus.csv");
   const auto answers = answersFrom(csvTableFrom(tables[2].text, tables[2].name), questionnaireNamed("sus"));
