@@ -47,7 +47,12 @@ class Rule::Parser {
     const char first = text_[end_++];
     if (isWordLetter(first) || first == '-') {
       // Also a number like 1e-3 and a unit like N/mm or 1/s.
-      while (end_ < text_.size() && (isWordLetter(text_[end_]) || text_[end_] == '/')) ++end_;
+      const bool is_number = first == '-' || (first >= '0' && first <= '9');
+      const auto goes_on = [&](char c) {
+        const bool is_exponent = is_number && c == '-' && text_[end_ - 1] == 'e';
+        return isWordLetter(c) || c == '/' || is_exponent;
+      };
+      while (end_ < text_.size() && goes_on(text_[end_])) ++end_;
     } else if (std::string_view("<>=").find(first) != std::string_view::npos) {
       if (end_ < text_.size() && text_[end_] == '=') ++end_;
     } else if (first != '(' && first != ')') {

@@ -1,6 +1,7 @@
 #include "app/evaluation/session_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "app/study/csv.h"
@@ -9,6 +10,12 @@
 
 namespace app {
 namespace {
+
+/// To the millisecond, which is a tick.
+std::string secondsOr(const std::optional<double>& value) {
+  constexpr double kTicks_per_s = 1000.0;
+  return value ? assets::exactText(std::round(*value * kTicks_per_s) / kTicks_per_s) : "";
+}
 
 std::string numberOr(const std::optional<double>& value) { return value ? assets::exactText(*value) : ""; }
 
@@ -44,7 +51,7 @@ std::vector<SessionTable> sessionTables(const StudyTemplate& study, const std::v
   for (const LogEvent& event : events) {
     if (event.type == "phase" && event.textOr("phase") == "tasks") tasks_began_ns = event.t_ns;
     if (event.type == "task.stop")
-      runs.push_back({event.textOr("task"), event.textOr("result"), numberOr(event.number("time_s")),
+      runs.push_back({event.textOr("task"), event.textOr("result"), secondsOr(event.number("time_s")),
                       numberOr(event.number("helps"))});
     if (event.type == "task.override") {
       const auto found = std::ranges::find(runs, event.textOr("task"), &Run::task);

@@ -108,7 +108,7 @@ TEST_F(EvaluationCourseTest, NoWordOfWhoMayNotBeQuotedIsKept) {
       if (const auto* text = std::get_if<std::string>(&value)) {
         EXPECT_NE(*text, "canary") << event.type;
       }
-  EXPECT_EQ(*events_[events_.size() - 3].text("text"), "looks up");
+  EXPECT_EQ(*last("note")->text("text"), "looks up");
 }
 
 TEST_F(EvaluationCourseTest, RulesEndTasksAndAPersonsDecisionStandsBesideTheirs) {
