@@ -58,8 +58,13 @@ void EvaluationDesk::begin() {
 
 void EvaluationDesk::say(LogEvent event, const std::string& where) {
   const Moment at = now();
-  if (event.t_ns == 0) event.t_ns = at.t_ns;
+  // A decision counts when it is made, a note from its first letter on.
+  if (event.t_ns == 0 || event.type == "task") event.t_ns = at.t_ns;
   event.tick = at.tick;
+  if (constexpr double kSecond_ns = 1e9; event.tick && dt_s_ > 0.0 && event.t_ns < at.t_ns) {
+    const double ago = static_cast<double>(at.t_ns - event.t_ns) / kSecond_ns / dt_s_;
+    event.tick = ago < static_cast<double>(*event.tick) ? *event.tick - static_cast<std::uint64_t>(ago) : 0;
+  }
   // A task that is begun by hand begins with the next tick.
   if (const std::string* const result = event.text("result"); result != nullptr && *result == "next")
     event.tick = next_tick_;
@@ -87,6 +92,7 @@ void EvaluationDesk::follow(std::span<const haptics::Tick> ticks, const haptics:
     begin();
     next_tick_ = tick.index + 1;
     now_s_ = tick.t_s + tick.dt_s;
+    dt_s_ = tick.dt_s;
     if (watch_) {
       if (const auto fired = watch_->add(tick, commandOf(tick))) {
         marks_.push_back(fmt::format("rule {} {} {}", watched_->id,

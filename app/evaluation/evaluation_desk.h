@@ -77,7 +77,7 @@ class EvaluationDesk {
   std::optional<TaskWatch> watch_;
   const TaskTemplate* watched_ = nullptr;
   std::uint64_t next_tick_ = 0;
-  double now_s_ = 0.0, task_began_s_ = 0.0;
+  double now_s_ = 0.0, dt_s_ = 0.0, task_began_s_ = 0.0;
   std::vector<ControlRequest> requests_;
   std::vector<std::string> marks_;
   std::size_t said_ = 0;

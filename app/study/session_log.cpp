@@ -92,7 +92,6 @@ std::optional<bool> LogEvent::flag(std::string_view key) const {
 struct SessionLogWriter::Impl {
   int file = -1;
   std::uint64_t number = 0;
-  std::int64_t last_ns = 0;
   std::string digest;
   std::optional<std::string> trouble;
   std::mutex mutex;
@@ -131,10 +130,9 @@ SessionLogWriter::~SessionLogWriter() {
   close(impl_->file);
 }
 
-void SessionLogWriter::add(LogEvent event) {
+void SessionLogWriter::add(const LogEvent& event) {
   Impl& log = *impl_;
   if (log.trouble) return;
-  log.last_ns = event.t_ns = std::max(event.t_ns, log.last_ns);
   ordered_json line = jsonOf(event, log.number);
   const std::string digest = digestOf(log.digest, textOf(line));
   line["digest"] = digest;

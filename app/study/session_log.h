@@ -40,9 +40,9 @@ class SessionLogWriter {
   explicit SessionLogWriter(const std::string& path);
   ~SessionLogWriter();
 
-  /// A time before the last line's is set to that: the log never goes back. Once the disk refuses, nothing more is
-  /// written, and trouble() has one line.
-  void add(LogEvent event);
+  /// In the order of the calls: a note that was begun before a rule fired and ended after it stands after it, with its
+  /// own time. Once the disk refuses, nothing more is written, and trouble() has one line.
+  void add(const LogEvent& event);
   std::optional<std::string> trouble() const;
 
  private:

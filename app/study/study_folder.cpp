@@ -55,6 +55,14 @@ std::vector<StudySession> thoseThatCount(const std::vector<StudySession>& sessio
   return last;
 }
 
+/// Numbers before words; of shipped questionnaires, as others are known by their files alone.
+std::string firstWithScores(const std::vector<std::string>& ids) {
+  const std::vector<std::string> shipped = shippedQuestionnaires();
+  for (const std::string& id : ids)
+    if (std::ranges::find(shipped, id) != shipped.end() && !questionnaireNamed(id).isOfWords()) return id;
+  return ids.front();
+}
+
 }  // namespace
 
 std::vector<StudySession> sessionsIn(const std::string& study) {
@@ -125,7 +133,7 @@ StudyFolder readStudyFolder(const std::string& study, const std::string& questio
   std::vector<std::string> ids;
   for (const auto& [id, tables] : answers) ids.push_back(id);
   if (questionnaire.empty() && ids.empty()) return folder;
-  input.questionnaire = questionnaireNamed(questionnaire.empty() ? ids.front() : questionnaire);
+  input.questionnaire = questionnaireNamed(questionnaire.empty() ? firstWithScores(ids) : questionnaire);
   const auto found = answers.find(input.questionnaire->id);
   if (found == answers.end())
     throw UsageError("--questionnaire " + questionnaire + ": nobody has answered it in " + study +

@@ -30,8 +30,8 @@ struct StudyFolder {
   std::vector<std::string> remarks;  ///< one line each: interrupted, changed, other questionnaires
 };
 
-/// `questionnaire`: whose answers are read; empty: the first that was answered. Throws LoadError with file, line and
-/// column; UsageError where nobody answered it.
+/// `questionnaire`: whose answers are read; empty: the first with scores that was answered. Throws LoadError with file,
+/// line and column; UsageError where nobody answered it.
 StudyFolder readStudyFolder(const std::string& study, const std::string& questionnaire);
 
 }  // namespace app

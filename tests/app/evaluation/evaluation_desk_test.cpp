@@ -1,0 +1,140 @@
+#include "app/evaluation/evaluation_desk.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+constexpr double kDt_s = 0.001;
+constexpr std::int64_t kTick_ns = 1'000'000, kLogBegun_ns = 7'000'000'000;
+
+const std::string kTemplate = R"(title = "T"
+language = "en"
+consent = "c.md"
+[may_change]
+law = false
+layers = true
+[[task]]
+id = "one"
+say = "First"
+tool = "round:2.0"
+time_box_s = 60
+success = "time > 0.0495 s"
+[[task]]
+id = "two"
+say = "Second"
+tool = "round:3.0"
+time_box_s = 60
+success = "O1.removed >= 1 mm3"
+)";
+
+class EvaluationDeskTest : public testing::Test {
+ protected:
+  EvaluationDeskTest()
+      : study_(studyTemplateFrom(kTemplate, "t.toml")),
+        course_(study_, {"P07", "", 1, "E1"}, [this](const LogEvent& event) { events_.push_back(event); }) {
+    course_.prepare({}, {});
+    course_.enter(Phase::consent, {});
+    for (const std::string_view stream : kConsentStreams)
+      course_.take({0, {}, "", "consent", {{"stream", std::string(stream)}, {"given", stream != "picture"}}});
+    course_.enter(Phase::tasks, {});
+    events_.clear();
+  }
+
+  /// Ticks up to this one, in frames of 16; each removes 0.1 mm3.
+  void goTo(EvaluationDesk& desk, std::uint64_t end) {
+    while (next_ < end) {
+      std::vector<haptics::Tick> ticks;
+      for (int n = 0; n < 16 && next_ < end; ++n, ++next_) {
+        haptics::Tick& tick = ticks.emplace_back();
+        tick.index = next_;
+        tick.t_s = kDt_s * static_cast<double>(next_), tick.dt_s = kDt_s;
+        tick.removed_mm3 = 0.1;
+      }
+      clock_ns_ = kLogBegun_ns + kTick_ns * static_cast<std::int64_t>(next_);
+      desk.follow(ticks, {}, 0);
+    }
+  }
+  const LogEvent& only(const std::string& type, std::size_t place = 0) const {
+    for (const LogEvent& event : events_)
+      if (event.type == type && place-- == 0) return event;
+    ADD_FAILURE() << "no " << type;
+    return events_.front();
+  }
+
+  StudyTemplate study_;
+  std::vector<LogEvent> events_;
+  EvaluationCourse course_;
+  EvaluationScript script_;
+  assets::RiskStructures none_;
+  std::uint64_t next_ = 0;
+  std::int64_t clock_ns_ = 0;
+};
+
+TEST_F(EvaluationDeskTest, AScriptedSessionFiresAndBeginsTheNextAtTheVeryTick) {
+  EvaluationDesk desk({study_, course_, script_, {}, {}, kLogBegun_ns}, true);
+  desk.open(none_);
+  goTo(desk, 200);
+  EXPECT_EQ(only("task.start").tick, 0u);
+  EXPECT_EQ(only("rule").tick, 49u);
+  EXPECT_EQ(only("rule").t_ns, kLogBegun_ns + 50 * kTick_ns);
+  EXPECT_EQ(only("task.start", 1).tick, 50u);
+  // Ten ticks of 0.1 mm3, the rounding of their sum aside.
+  EXPECT_NEAR(static_cast<double>(only("rule", 1).tick.value()), 59.5, 0.6);
+  EXPECT_TRUE(desk.isOver());
+  const std::vector<ControlRequest> tools = desk.takeRequests();
+  ASSERT_EQ(tools.size(), 2u);
+  EXPECT_EQ(tools[1], (ControlRequest{Control::tool, 1}));
+  const std::vector<std::string> marks = desk.takeMarks();
+  EXPECT_NE(std::ranges::find(marks, "task.stop one success"), marks.end());
+}
+
+TEST_F(EvaluationDeskTest, ByHandATaskWaitsAndANoteIsOfItsFirstLetter) {
+  std::vector<LogEvent> said;
+  EvaluationDesk desk({study_, course_, script_, [&] { return std::exchange(said, {}); }, [&] { return clock_ns_; }, 0},
+                      false);
+  desk.open(none_);
+  goTo(desk, 160);
+  EXPECT_TRUE(events_.empty());
+  said.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
+  goTo(desk, 176);
+  EXPECT_EQ(only("task.start").tick, 176u);
+  goTo(desk, 216);
+  said.push_back({clock_ns_ - 30 * kTick_ns, {}, "evaluator", "note", {{"kind", std::string("behaviour")}}});
+  goTo(desk, 217);
+  EXPECT_NEAR(static_cast<double>(only("note").tick.value()), 216.0 - 31.0, 1.0);
+  goTo(desk, 300);
+  EXPECT_EQ(only("rule").tick, 176u + 49u);
+  EXPECT_EQ(course_.running(), nullptr);
+  EXPECT_FALSE(desk.isOver());
+}
+
+TEST_F(EvaluationDeskTest, WhatMayNotChangeIsRefusedAndBothAreLogged) {
+  EvaluationDesk desk({study_, course_, script_, {}, {}, 0}, true);
+  desk.open(none_);
+  EXPECT_FALSE(desk.allows({Control::law, 1}));
+  EXPECT_TRUE(desk.allows({Control::layer, 0}));
+  EXPECT_FALSE(desk.allows({Control::snapshot}));
+  EXPECT_FALSE(desk.allowsPictures());
+  EXPECT_TRUE(desk.allows({Control::irrigation}));
+  ASSERT_EQ(events_.size(), 3u);
+  EXPECT_EQ(*only("change.refused").text("what"), "law");
+  EXPECT_EQ(*only("change").text("what"), "layer");
+}
+
+TEST_F(EvaluationDeskTest, AWithdrawnLogEndsTheTasks) {
+  EvaluationDesk desk({study_, course_, script_, {}, {}, 0}, true);
+  desk.open(none_);
+  goTo(desk, 20);
+  EXPECT_FALSE(desk.isOver());
+  course_.take({1, {}, "", "consent", {{"stream", std::string("log")}, {"given", false}}});
+  EXPECT_TRUE(desk.isOver());
+  desk.finish();
+  EXPECT_EQ(*only("task.stop").text("by"), "end");
+}
+
+}  // namespace
+}  // namespace app
