@@ -149,6 +149,8 @@ class EvaluationSession {
     if (!study_.tools().empty()) options_.rehearsal.tools = study_.tools();
     std::optional<RehearsalPlan> plan = composeRehearsal(options_.rehearsal);
     if (!plan) return 0;
+    // Nobody looks into them while questions are asked; each rehearsal opens its own.
+    plan->windows.reset();
     if (!prepare(*plan)) return 1;
     if (!askConsent()) return 1;
     if (!study_.warm_up_block.empty() && !warmUp(warm, *plan)) return interrupted();
@@ -254,7 +256,7 @@ class EvaluationSession {
   bool warmUp(RehearseOptions& warm, RehearsalPlan& plan) {
     enter(Phase::warm_up);
     takeScripted("warm-up");
-    // One device, one window: lent to the block, and opened again after it.
+    // One device: lent to the block, and opened again after it.
     warm.plan.opened = std::move(plan.opened);
     plan.opened.reset();
     std::optional<RehearsalPlan> block = composeRehearsal(warm);

@@ -8,10 +8,10 @@
 namespace app {
 namespace {
 
-constexpr double kDt_s = 0.001;
+constexpr double kDeskDt_s = 0.001;
 constexpr std::int64_t kTick_ns = 1'000'000, kLogBegun_ns = 7'000'000'000;
 
-const std::string kTemplate = R"(title = "T"
+const std::string kDeskTemplate = R"(title = "T"
 language = "en"
 consent = "c.md"
 [may_change]
@@ -34,7 +34,7 @@ success = "O1.removed >= 1 mm3"
 class EvaluationDeskTest : public testing::Test {
  protected:
   EvaluationDeskTest()
-      : study_(studyTemplateFrom(kTemplate, "t.toml")),
+      : study_(studyTemplateFrom(kDeskTemplate, "t.toml")),
         course_(study_, {"P07", "", 1, "E1"}, [this](const LogEvent& event) { events_.push_back(event); }) {
     course_.prepare({}, {});
     course_.enter(Phase::consent, {});
@@ -51,7 +51,7 @@ class EvaluationDeskTest : public testing::Test {
       for (int n = 0; n < 16 && next_ < end; ++n, ++next_) {
         haptics::Tick& tick = ticks.emplace_back();
         tick.index = next_;
-        tick.t_s = kDt_s * static_cast<double>(next_), tick.dt_s = kDt_s;
+        tick.t_s = kDeskDt_s * static_cast<double>(next_), tick.dt_s = kDeskDt_s;
         tick.removed_mm3 = 0.1;
       }
       clock_ns_ = kLogBegun_ns + kTick_ns * static_cast<std::int64_t>(next_);
