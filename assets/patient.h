@@ -18,9 +18,14 @@ struct Classification {
   double sigma_hu = 75.0;
 };
 
+/// What a person has confirmed of what the program found in a scan without labels.
+struct Confirmation {
+  bool tooth = false, canal = false;
+};
+
 struct Patient {
-  std::string title;         ///< one line, e.g. "built-in patient, right, mesio-angular 45°"
-  bool is_proposed = false;  ///< tooth and canal were found by the program, and no person has confirmed them
+  std::string title;                  ///< one line, e.g. "built-in patient, right, mesio-angular 45°"
+  std::optional<Confirmation> found;  ///< none: tooth and canal came with the scan
   CtVolume ct;
   Classification classification;
   std::optional<OperativeSite> site;              ///< none: no suitable tooth is labelled
@@ -29,9 +34,15 @@ struct Patient {
   double mandibular_canal_radius_mm = 1.4;
   MeshModel gingiva;  ///< surface with the flap raised around the site; may be empty
   MeshModel face;     ///< may be empty
+  /// It is the built-in one, placed by the teeth: what a face is like, not the patient's.
+  bool has_built_in_face = false;
 
+  /// Tooth or canal were found by the program, and no person has confirmed them.
+  bool isProposed() const {
+    return found && ((site && !found->tooth) || (!mandibular_canal_P_mm.empty() && !found->canal));
+  }
   /// For people: the title, and what it is to be taken with.
-  std::string shownTitle() const { return title + (is_proposed ? ", not confirmed" : ""); }
+  std::string shownTitle() const { return title + (isProposed() ? ", not confirmed" : ""); }
   /// Centre of the view.
   glm::dvec3 focus_P_mm() const { return site ? site->centre_P_mm : jaw_P_mm; }
   /// Decides the patient's position; the default site where none is known.

@@ -138,6 +138,11 @@ bool TomlReader::has(const std::string& table, const std::string& key) const {
   return document_->find(table, key) != nullptr;
 }
 
+bool TomlReader::isList(const std::string& table, const std::string& key) const {
+  const toml::node* const node = document_->find(table, key);
+  return node != nullptr && node->is_array();
+}
+
 std::vector<std::string> TomlReader::keysOf(const std::string& table) const {
   std::vector<std::string> keys;
   if (const toml::table* at = document_->tableOf(table))

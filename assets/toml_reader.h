@@ -33,6 +33,7 @@ class TomlReader {
   /// The empty name is the top level of the file.
   bool has(const std::string& table) const;
   bool has(const std::string& table, const std::string& key) const;
+  bool isList(const std::string& table, const std::string& key) const;
   std::vector<std::string> keysOf(const std::string& table) const;
   int lineOf(const std::string& table, const std::string& key) const;
 

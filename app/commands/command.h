@@ -12,6 +12,7 @@ void addRehearse(CommandLine& molar);
 void addStart(CommandLine& molar);
 void addImport(CommandLine& molar);
 void addInspect(CommandLine& molar);
+void addCheck(CommandLine& molar);
 void addPlan(CommandLine& molar);
 void addFeel(CommandLine& molar);
 void addCarve(CommandLine& molar);
@@ -41,9 +42,9 @@ void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
 inline constexpr auto kCommands = {
-    addRehearse, addStart,   addImport,        addInspect,   addPlan,     addClearance, addFeel,     addCarve,
-    addSee,      addDisplay, addCalibrate,     addDevices,   addDoctor,   addDebrief,   addReplay,   addMetrics,
-    addReport,   addCompare, addTrend,         addReference, addEvaluate, addStudy,     addSessions, addExport,
-    addPieces,   addLaws,    addPsychophysics, addHelp,      addManual,   addCompletion};
+    addRehearse, addStart,  addImport,  addInspect,       addCheck,     addPlan,     addClearance, addFeel,
+    addCarve,    addSee,    addDisplay, addCalibrate,     addDevices,   addDoctor,   addDebrief,   addReplay,
+    addMetrics,  addReport, addCompare, addTrend,         addReference, addEvaluate, addStudy,     addSessions,
+    addExport,   addPieces, addLaws,    addPsychophysics, addHelp,      addManual,   addCompletion};
 
 }  // namespace app

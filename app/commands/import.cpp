@@ -12,7 +12,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/case/built_in_face.h"
 #include "app/case/gutter_plan.h"
+#include "app/check_page/check_run.h"
 #include "app/commands/command.h"
 #include "app/commands/dicom_options.h"
 #include "app/commands/dicom_report.h"
@@ -40,7 +42,7 @@ struct ImportOptions {
   std::string source, out, window, scale, report, label_set, segment_with, clicks;
   DicomOptions dicom;
   assets::ScanImportOptions choices;
-  bool force = false;
+  bool no_face = false, force = false;
 };
 
 struct InspectOptions {
@@ -81,7 +83,7 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
   const Volumes_mm3 volumes = tissueVolumes(patient.ct);
   for (std::size_t l = 1; l < volumes.size(); ++l) tissues[std::string(assets::kTissues[l].key)] = volumes[l];
   json out{{"title", patient.title},
-           {"confirmed", !patient.is_proposed},
+           {"confirmed", !patient.isProposed()},
            {"size", list(grid.size)},
            {"spacing_mm", grid.spacing_mm},
            {"origin_P_mm", list(grid.origin_P_mm)},
@@ -93,7 +95,10 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
              {"length_mm", mandibularCanalLength_mm(patient)},
              {"radius_mm", patient.mandibular_canal_radius_mm}}},
            {"gum_triangles", triangles(patient.gingiva)},
-           {"face_triangles", triangles(patient.face)}};
+           {"face_triangles", triangles(patient.face)},
+           {"face", patient.has_built_in_face    ? "built-in"
+                    : patient.face.parts.empty() ? "none"
+                                                 : "own"}};
   json teeth = json::array();
   for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
     teeth.push_back({{"fdi", fdi}, {"name", assets::toothName(fdi)}, {"volume_mm3", volume_mm3}});
@@ -129,6 +134,9 @@ std::string wordsOn(const assets::Patient& patient) {
   if (!patient.mandibular_canal_P_mm.empty())
     text += fmt::format("canal        {:.1f} mm long, radius {:.1f} mm\n", mandibularCanalLength_mm(patient),
                         patient.mandibular_canal_radius_mm);
+  text += patient.has_built_in_face    ? "face         built-in, placed by the lower teeth: not the patient's\n"
+          : patient.face.parts.empty() ? "face         none\n"
+                                       : "face         the patient's\n";
   return text;
 }
 
@@ -253,6 +261,12 @@ assets::ImportedScan importAny(ImportOptions& options) {
   }
 }
 
+/// As `molar check` finds it, without the folders above: they can be named after a person.
+std::string nameOf(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 int import(ImportOptions options) {
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
     throw UsageError("--tooth " + std::to_string(*fdi) + ": not an FDI number, give 11 to 48 or 51 to 85");
@@ -279,8 +293,16 @@ int import(ImportOptions options) {
   assets::ImportedScan imported = importAny(options);
   assets::Patient& patient = imported.patient;
   patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
-  assets::savePatient(patient, options.out, options.force, imported.origin ? &*imported.origin : nullptr);
+  if (!options.no_face && patient.site)
+    if (const std::string why_not = placeBuiltInFace(patient); !why_not.empty())
+      printMessage("without a face: " + why_not);
+  assets::savePatient(patient, options.out, options.force, imported.origin ? &*imported.origin : nullptr,
+                      options.choices.clicks.isEmpty() ? "" : jawClicksText(options.choices.clicks));
+  // Edits of another import of this folder.
+  std::error_code ignored;
+  std::filesystem::remove(checkLogPath(options.out), ignored);
   std::fputs(wordsOn(patient).c_str(), stderr);
+  if (patient.isProposed()) printMessage("look at what was found: molar check " + nameOf(options.out));
   if (has_no_place)
     printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +
                  usualPatientFolder().string() + ": rename the folder as you like; molar start offers it");
@@ -345,6 +367,7 @@ void addImport(CommandLine& molar) {
       .option("--scale", options->scale,
               "Grey values: hu, hu+1000, hu+1024 or AIR,MUSCLE,DENTINE [judged by their histogram]")
       .excludes(window);
+  command.flag("--no-face", options->no_face, "Without the built-in face, which stands for lips, cheek and tongue");
   command.flag("--keep-face", options->choices.keep_face, "Keep the skin, by which the patient can be recognised");
   command.flag("--keep-age-band", options->choices.keep_age_band, "Keep the patient's age in decades, and sex");
   command.does([options] { return import(*options); });

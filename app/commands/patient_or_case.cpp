@@ -25,10 +25,10 @@ std::string PatientOrCase::name() const { return case_name_.empty() ? patient_ :
 assets::Patient PatientOrCase::load() const {
   if (!case_name_.empty()) return builtInPatient(caseNamed(case_name_)->jaw);
   assets::Patient patient = assets::loadPatient(patientNamed(patient_));
-  if (patient.is_proposed)
+  if (patient.isProposed())
     printMessage(
-        "tooth and canal of this patient were found by the program and nobody has confirmed them: look at them, then "
-        "set confirmed = true in its patient.toml");
+        "tooth and canal of this patient were found by the program and nobody has confirmed them: molar "
+        "check shows, corrects and confirms them");
   return patient;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -112,7 +113,26 @@ class ClicksReader {
   std::size_t number_ = 0;
 };
 
+json pointsText(std::span<const glm::dvec3> points_P_mm) {
+  json list = json::array();
+  for (const glm::dvec3& p : points_P_mm) list.push_back({p.x, p.y, p.z});
+  return list;
+}
+
 }  // namespace
+
+std::string jawClicksText(const assets::JawClicks& clicks) {
+  json list = json::array();
+  for (const assets::ToothClick& click : clicks.teeth) {
+    const std::span<const glm::dvec3> points(click.at_P_mm.data(), assets::pointsOf(click.edit));
+    list.push_back({{"edit", std::string(assets::kToothEdits[static_cast<std::size_t>(click.edit)])},
+                    {"at_P_mm", pointsText(points)}});
+    if (click.edit == assets::ToothEdit::number) list.back()["fdi"] = click.fdi;
+  }
+  for (const std::vector<glm::dvec3>& canal : clicks.canals)
+    list.push_back({{"edit", std::string(kCanal)}, {"at_P_mm", pointsText(canal)}});
+  return json{{"clicks", list}}.dump(1) + "\n";
+}
 
 assets::JawClicks jawClicksFrom(const std::string& text, const std::string& name) {
   return ClicksReader(name).read(text);

@@ -12,6 +12,8 @@ namespace app {
 
 /// Throws LoadError: it cannot be read; UsageError of one line: file, number of the click, what is wrong.
 assets::JawClicks readJawClicks(const std::string& path);
+/// The text of such a file.
+std::string jawClicksText(const assets::JawClicks& clicks);
 /// The same of a text; `name` stands for it in messages.
 assets::JawClicks jawClicksFrom(const std::string& text, const std::string& name);
 

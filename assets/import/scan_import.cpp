@@ -10,6 +10,7 @@
 #include "assets/import/dicom/dicom_volume.h"
 #include "assets/import/dicom/stored_frame.h"
 #include "assets/import/foreign_labels.h"
+#include "assets/import/found_jaw.h"
 #include "assets/import/grey_scale.h"
 #include "assets/import/lower_jaw.h"
 #include "assets/import/mandibular_canal_line.h"
@@ -179,31 +180,9 @@ bool isToSegment(const Volume& volume, const ScanImportOptions& options) {
 /// Jaw and teeth of a scan without labels; hard tissue elsewhere by grey value.
 FoundJaw findJaw(const std::string& name, const ScanImportOptions& options, CtVolume& ct) {
   if (options.stage) options.stage("shading");
-  std::vector<std::int16_t> flat = ct.hounsfield;
-  flattenShading(ct.grid, flat);
-  JawSegmentation found = segmentJaw(ct.grid, flat, options.stage, options.clicks);
+  JawSegmentation found = segmentJaw(ct.grid, greyToSearch(ct), options.stage, options.clicks);
   if (found.refusal) throw JawRefused(name, *found.refusal);
-  ct.label = labelsFromGrey(ct.grid, ct.hounsfield);
-  for (std::size_t v = 0; v < ct.label.size(); ++v) {
-    if (found.label[v] != 0)
-      ct.label[v] = found.label[v];
-    else if (isToothPart(ct.label[v]))
-      ct.label[v] = static_cast<std::uint8_t>(Tissue::other_teeth);
-  }
-  ct.tooth = std::move(found.tooth);
-  return {found.levels, std::move(found.teeth), std::move(found.canals)};
-}
-
-/// On the site's side; without a site the first.
-const CanalProposal* proposalFor(const FoundJaw& jaw, const std::optional<OperativeSite>& site) {
-  for (const CanalProposal& canal : jaw.canals)
-    if (!site || canal.is_right == isRight(site->fdi)) return &canal;
-  return nullptr;
-}
-
-/// Whether a person gave the tooth its number.
-bool isTold(const FoundJaw& jaw, int fdi) {
-  return std::ranges::any_of(jaw.teeth, [fdi](const FoundTooth& tooth) { return tooth.told_fdi == fdi; });
+  return takeLabels(std::move(found), ct);
 }
 
 /// What a person must see before it counts.
@@ -215,8 +194,8 @@ void remarkProposals(const Patient& patient, const FoundJaw& jaw, const CanalPro
   const std::string what = tooth + (tooth.empty() || canal.empty() ? "" : " and ") + canal;
   if (!what.empty())
     remarks.push_back(what + " " + (tooth.empty() || canal.empty() ? "was" : "were") +
-                      " found by the program and not confirmed: look at them before a figure counts, then set "
-                      "confirmed = true in its patient.toml");
+                      " found by the program and not confirmed: molar check PATIENT shows, corrects and confirms "
+                      "them");
   if (proposed == nullptr) remarks.push_back("no mandibular canal was found on the side of the site");
   const auto spare = std::ranges::count(jaw.teeth, 0, &FoundTooth::fdi);
   if (spare > 0)
@@ -260,31 +239,23 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
   if (tissues == Tissues::labelled) labelPartialVoxels(patient.ct);
   patient.site = siteOf(patient.ct, options.tooth_fdi, volume.name, imported.remarks);
   const auto near_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
-  const CanalProposal* const proposed = imported.jaw ? proposalFor(*imported.jaw, patient.site) : nullptr;
-  if (proposed != nullptr) {
-    patient.mandibular_canal_P_mm = proposed->line_P_mm;
-    patient.mandibular_canal_radius_mm = proposed->radius_mm;
-  } else if (imported.jaw) {
-    // What is labelled is the other side's proposal.
+  if (imported.jaw) {
+    // Where it has none on the site's side, what is labelled is the other side's proposal.
+    takeCanal(*imported.jaw, patient);
+    remarkProposals(patient, *imported.jaw, canalBeside(imported.jaw->canals, patient.site), imported.remarks);
   } else if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
     patient.mandibular_canal_radius_mm = canal->radius_mm;
   }
-  if (imported.jaw) {
-    patient.is_proposed =
-        (patient.site && !isTold(*imported.jaw, patient.site->fdi)) || (proposed != nullptr && !proposed->is_confirmed);
-    remarkProposals(patient, *imported.jaw, proposed, imported.remarks);
-  }
+  patient.title = titleOf(patient.site);
   if (patient.site) {
     patient.jaw_P_mm = patient.site->centre_P_mm;
-    patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")";
     return imported;
   }
   const auto jaw_P_mm = lowerJawCentre_P_mm(patient.ct, patient.mandibular_canal_P_mm);
   imported.remarks.push_back(jaw_P_mm ? "the view is centred on the lower jaw"
                                       : "no lower jaw found, the view is centred on all solid");
   patient.jaw_P_mm = jaw_P_mm.value_or(centroid_P_mm);
-  patient.title = "imported scan, site unknown";
   return imported;
 }
 

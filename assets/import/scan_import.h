@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "assets/import/dicom/dicom_survey.h"
+#include "assets/import/found_jaw.h"
 #include "assets/import/grey_scale.h"
 #include "assets/import/label_table.h"
 #include "assets/load_error.h"
@@ -38,13 +39,6 @@ struct ScanImportOptions {
   bool grey_only = false;  ///< without labels: tissues by grey value alone, no jaw and no teeth are looked for
   JawClicks clicks{};      ///< a person's edits of what is found in a scan without labels
   ReportStage stage{};     ///< called when a stage of the segmentation begins
-};
-
-/// What was found in a scan without labels.
-struct FoundJaw {
-  GreyLevels levels;
-  std::vector<FoundTooth> teeth;
-  std::vector<CanalProposal> canals;
 };
 
 /// No teeth can be found in the scan.

@@ -26,6 +26,9 @@ constexpr const char* kToml = "patient.toml";
 constexpr const char* kVolume = "volume.vdb";
 constexpr const char* kMeshes = "face.glb";
 constexpr const char* kStatement = "deidentified.toml";
+constexpr const char* kClicks = "clicks.json";
+constexpr const char* kScanTable = "\n[scan]\n";
+constexpr const char* kDigestKey = "volume_sha256 = ";
 constexpr const char* kGingivaPrefix = "Gum";
 constexpr std::size_t kMaxToml_bytes = 4 << 20;
 
@@ -69,19 +72,58 @@ bool isInside(const glm::dvec3& p_P_mm, const VolumeGrid& grid) {
 
 }  // namespace
 
-void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin) {
-  calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement});
+namespace {
+
+/// What a folder tells of its scan beside the patient, as text; empty: nothing.
+struct ScanWords {
+  std::string table;
+  /// deidentified.toml for a volume of that digest.
+  std::function<std::string(const std::string& volume_sha256)> statement;
+};
+
+void write(const Patient& patient, const std::string& folder, bool overwrite, const ScanWords& scan,
+           const std::string& clicks) {
+  calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement, kClicks});
   const fs::path written = output.temporaryPath();
-  calibration::OutputFile(written / kToml, false)
-      .commit(patientToml(patient) + (origin != nullptr ? scanTable(*origin) : std::string()));
+  calibration::OutputFile(written / kToml, false).commit(patientToml(patient) + scan.table);
+  if (!clicks.empty()) calibration::OutputFile(written / kClicks, false).commit(clicks);
   writeVdb(patient.ct, (written / kVolume).string());
   const MeshModel meshes_P = joined(patient.gingiva, patient.face);
   if (!meshes_P.parts.empty()) writeGltf(modelInFaceFrame(meshes_P), (written / kMeshes).string());
-  if (origin != nullptr)
-    calibration::OutputFile(written / kStatement, false)
-        .commit(deidentificationStatement(*origin, digestOf(written / kVolume)));
+  if (scan.statement)
+    calibration::OutputFile(written / kStatement, false).commit(scan.statement(digestOf(written / kVolume)));
   output.commit();
 }
+
+}  // namespace
+
+void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin,
+                 const std::string& clicks) {
+  ScanWords scan;
+  if (origin != nullptr) {
+    scan.table = scanTable(*origin);
+    scan.statement = [origin](const std::string& digest) { return deidentificationStatement(*origin, digest); };
+  }
+  write(patient, folder, overwrite, scan, clicks);
+}
+
+void savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks) {
+  const fs::path path = folder;
+  ScanWords scan;
+  const std::string toml = readSmallFile((path / kToml).string(), kMaxToml_bytes);
+  if (const auto at = toml.find(kScanTable); at != std::string::npos) scan.table = toml.substr(at);
+  std::error_code error;
+  if (fs::exists(path / kStatement, error))
+    scan.statement = [text = readSmallFile((path / kStatement).string())](const std::string& digest) {
+      std::string renewed = text;
+      if (const auto at = renewed.find(kDigestKey); at != std::string::npos)
+        renewed.replace(at, renewed.find('\n', at) - at, kDigestKey + quotedToml(digest));
+      return renewed;
+    };
+  write(patient, folder, true, scan, clicks);
+}
+
+std::string clicksPath(const std::string& folder) { return (fs::path(folder) / kClicks).string(); }
 
 Patient describedPatient(const std::string& folder) {
   std::error_code error;

@@ -1,8 +1,9 @@
 // A patient on disk: a folder with patient.toml (patient_toml.h), volume.vdb (vdb_file.h) and face.glb: gingiva and
 // face in metres, frame F with P's origin; gingiva parts are those whose names begin with "Gum"; left out if both are
-// empty; and of an imported DICOM scan deidentified.toml (scan_origin_toml.h). Written whole or not at all. Contains no
-// name, date or identifier of a person; the folder's name names the case. What is stable: README.md. Any thread; about
-// 1 s per 10^7 voxels.
+// empty; of an imported DICOM scan deidentified.toml (scan_origin_toml.h); and where the
+// program found the jaw clicks.json, a person's clicks as they were given to `molar import --clicks`. Written whole or
+// not at all. Contains no name, date or identifier of a person; the folder's name names the case. What is stable:
+// README.md. Any thread; about 1 s per 10^7 voxels.
 #pragma once
 
 #include <functional>
@@ -15,8 +16,16 @@
 namespace assets {
 
 /// Throws as OutputFolder: no parent folder, not writable, already present without `overwrite`, or present with other
-/// content, which would be lost. `origin`: of a DICOM scan; it is written, and not read back.
-void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin = nullptr);
+/// content, which would be lost. `origin`: of a DICOM scan; it is written, and not read back. `clicks`: of
+/// clicks.json; empty: none is written.
+void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin = nullptr,
+                 const std::string& clicks = {});
+
+/// Replaces a patient folder by the patient after edits; what is told of its scan stays. Throws as savePatient().
+void savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks);
+
+/// Of a patient folder, for clicks.json.
+std::string clicksPath(const std::string& folder);
 
 /// The volume is read beside the meshes. Throws LoadError: no such folder, a file missing, damaged or foreign, a value
 /// out of range.

@@ -34,6 +34,27 @@ int toothNumber(TomlReader& keys, const char* key) {
   return fdi;
 }
 
+std::string confirmedLine(const Patient& patient) {
+  if (!patient.found) return {};
+  const std::string tooth = patient.found->tooth ? "\"tooth\"" : "", canal = patient.found->canal ? "\"canal\"" : "";
+  return "confirmed = [" + tooth + (tooth.empty() || canal.empty() ? "" : ", ") + canal + "]\n";
+}
+
+/// A list, or of both at once true or false.
+std::optional<Confirmation> confirmationIn(TomlReader& keys) {
+  if (!keys.has("", "confirmed")) return std::nullopt;
+  if (!keys.isList("", "confirmed")) {
+    const bool both = keys.boolean("", "confirmed");
+    return Confirmation{both, both};
+  }
+  Confirmation confirmed;
+  for (const std::string& what : keys.texts("", "confirmed", 2)) {
+    if (what != "tooth" && what != "canal") keys.refuse("", "confirmed", "give \"tooth\", \"canal\" or both");
+    (what == "tooth" ? confirmed.tooth : confirmed.canal) = true;
+  }
+  return confirmed;
+}
+
 /// Schema 1 has a position and a direction even where no tooth is known.
 void readOldSite(TomlReader& keys, Patient& patient) {
   const OperativeSite site{toothNumber(keys, "tooth_fdi"), keys.vector("site", "third_molar_P_mm", kMaxCoordinate_mm),
@@ -54,8 +75,8 @@ void readSite(TomlReader& keys, Patient& patient) {
 std::string patientToml(const Patient& patient) {
   std::ostringstream text;
   text << "schema = " << kSchema << "\ntitle = " << quotedToml(patient.title) << "\nframe = \"P: LPS, mm\"\n"
-       << (patient.is_proposed ? "confirmed = false\n" : "") << "\n[jaw]\nplace_P_mm = " << exact(patient.jaw_P_mm)
-       << '\n';
+       << confirmedLine(patient) << (patient.has_built_in_face ? "face = \"built-in\"\n" : "")
+       << "\n[jaw]\nplace_P_mm = " << exact(patient.jaw_P_mm) << '\n';
   if (patient.site)
     text << "\n[site]\nfdi = " << patient.site->fdi << "\ncentre_P_mm = " << exact(patient.site->centre_P_mm)
          << "\naxis_P = " << exact(patient.site->axis_P) << '\n';
@@ -78,7 +99,8 @@ Patient patientFromToml(const std::string& text, const std::string& where) {
 
   Patient patient;
   patient.title = keys.text("", "title");
-  patient.is_proposed = !keys.boolean("", "confirmed", true);
+  patient.found = confirmationIn(keys);
+  patient.has_built_in_face = keys.has("", "face") && keys.choice("", "face", {"built-in"}) == 0;
   if (schema == kOldSchema)
     readOldSite(keys, patient);
   else

@@ -334,24 +334,21 @@ CanalProposal clickedCanal(const CanalScene& scene, const Line& clicks, bool is_
 
 }  // namespace
 
-std::vector<CanalProposal> canalsOf(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
-                                    std::span<const std::vector<glm::dvec3>> clicks) {
-  std::vector<CanalProposal> canals;
-  for (const bool is_right : {true, false}) {
-    const Line* clicked = nullptr;
-    for (const Line& line : clicks) {
-      double x_P_mm = 0.0;
-      for (const glm::dvec3& p : line) x_P_mm += p.x / static_cast<double>(line.size());
-      if ((x_P_mm < scene.arch.centre_P_mm.x) != is_right) continue;
-      if (clicked != nullptr) refuseClicks(is_right, "it is clicked twice");
-      clicked = &line;
-    }
-    if (clicked != nullptr)
-      canals.push_back(clickedCanal(scene, *clicked, is_right));
-    else if (auto canal = proposedCanal(scene, teeth, is_right))
-      canals.push_back(std::move(*canal));
+Line canalClicksOn(const JawArch& arch, std::span<const Line> clicks, bool is_right) {
+  const Line* clicked = nullptr;
+  for (const Line& line : clicks) {
+    double x_P_mm = 0.0;
+    for (const glm::dvec3& p : line) x_P_mm += p.x / static_cast<double>(line.size());
+    if ((x_P_mm < arch.centre_P_mm.x) != is_right) continue;
+    if (clicked != nullptr) refuseClicks(is_right, "it is clicked twice");
+    clicked = &line;
   }
-  return canals;
+  return clicked != nullptr ? *clicked : Line{};
+}
+
+std::optional<CanalProposal> canalOn(const CanalScene& scene, const std::vector<FoundTooth>& teeth, const Line& clicks,
+                                     bool is_right) {
+  return clicks.empty() ? proposedCanal(scene, teeth, is_right) : clickedCanal(scene, clicks, is_right);
 }
 
 }  // namespace assets

@@ -6,6 +6,7 @@
 // the way leads through those places instead: then only its course is computed.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,10 +32,13 @@ struct CanalScene {
   const BiteSheet& sheet;
 };
 
-/// Right, then left; a side without a way from end to end has none. `clicks`: of each canal that a person has clicked,
-/// from one end to the other. Throws LoadError for clicks off the bone, on a side that was clicked before, or nearer
-/// than 15 mm.
-std::vector<CanalProposal> canalsOf(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
-                                    std::span<const std::vector<glm::dvec3>> clicks);
+/// Of the canals that a person has clicked that of one side; empty: none. Throws LoadError for a second one.
+std::vector<glm::dvec3> canalClicksOn(const JawArch& arch, std::span<const std::vector<glm::dvec3>> clicks,
+                                      bool is_right);
+
+/// The canal of one side; none without a way from end to end. `clicks`: where a person has clicked it, from one end to
+/// the other, or none. Throws LoadError for clicks off the bone or nearer than 15 mm.
+std::optional<CanalProposal> canalOn(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
+                                     const std::vector<glm::dvec3>& clicks, bool is_right);
 
 }  // namespace assets

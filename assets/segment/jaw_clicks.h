@@ -28,6 +28,8 @@ struct ToothClick {
   ToothEdit edit = ToothEdit::number;
   std::array<glm::dvec3, 2> at_P_mm{};  ///< pointsOf() of them
   int fdi = 0;                          ///< of `number`
+
+  friend bool operator==(const ToothClick&, const ToothClick&) = default;
 };
 
 inline constexpr std::size_t kLeastCanalClicks = 2, kMostCanalClicks = 6;

@@ -1,7 +1,9 @@
 #include "assets/segment/jaw_segmentation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "assets/segment/cell_filters.h"
 #include "assets/segment/edited_teeth.h"
@@ -24,6 +26,10 @@ JawSegmentation refused(JawRefusal refusal) {
 
 double volume_mm3(const VolumeGrid& grid, const CellMask& mask) {
   return static_cast<double>(std::ranges::count(mask, std::uint8_t{1})) * grid.voxelVolume_mm3();
+}
+
+void beginStage(const ReportStage& report, std::string_view stage) {
+  if (report) report(stage);
 }
 
 /// Bone and tissues of teeth, into the scan.
@@ -73,57 +79,117 @@ bool canHoldJaw(const VolumeGrid& grid) {
   return std::min({grid.size.x, grid.size.y, grid.size.z}) * grid.spacing_mm >= kLeastJaw_mm;
 }
 
-JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                           const ReportStage& report, const JawClicks& clicks) {
-  const auto begin = [&](std::string_view stage) {
-    if (report) report(stage);
+struct JawFinder::Jaw {
+  JawArch arch;
+  BiteSheet sheet;
+  Mandible mandible;
+  GreyLevels levels;
+  ToothRegions regions;
+};
+
+struct JawFinder::Teeth {
+  std::vector<ToothClick> clicks;
+  ToothRegions regions;
+  std::vector<FoundTooth> teeth;
+  std::vector<std::uint8_t> tissue;
+  std::optional<JawRefusal> refusal;
+};
+
+struct JawFinder::Canal {
+  struct OfSide {
+    std::vector<ToothClick> tooth_clicks;
+    std::vector<glm::dvec3> clicks;
+    std::optional<CanalProposal> found;
   };
-  begin("row of teeth");
+  std::array<std::optional<OfSide>, 2> of_side;  ///< right, left
+};
+
+JawFinder::~JawFinder() = default;
+
+JawFinder::JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, const ReportStage& report)
+    : scan_(grid), canals_(std::make_unique<Canal>()) {
+  beginStage(report, "row of teeth");
   const int edge = std::max(1, static_cast<int>(std::lround(kCell_mm / grid.spacing_mm)));
   const VolumeGrid cells = meanGrid(grid, edge);
   std::vector<float> smooth_hu = meansOfCubes(grid, hounsfield, edge);
   smoothCells(cells.size, kCellSmooth_mm / cells.spacing_mm, smooth_hu);
-  const std::optional<JawArch> found = findJawArch(cells, smooth_hu);
-  if (!found) return refused(toothlessJaw());
-  const JawArch& arch = *found;
-  const BiteSheet sheet = findBiteSheet(cells, smooth_hu, arch);
-
-  if (sheet.lower_dense_mm3 < kLeastLower_mm3)
-    return refused(sheet.upper_dense_mm3 > kLeastUpperRow_mm3 ? upperArch() : toothlessJaw());
-
-  begin("lower jaw");
-  const CellMask jaw_cells = mandibleCells(cells, smooth_hu, arch, sheet);
-  if (volume_mm3(cells, jaw_cells) < kLeastJaw_mm3) return refused(toothlessJaw());
-  const Mandible jaw = mandibleIn(grid, hounsfield, cells, jaw_cells, edge);
+  std::optional<JawArch> arch = findJawArch(cells, smooth_hu);
+  if (!arch) {
+    refusal_ = toothlessJaw();
+    return;
+  }
+  const BiteSheet sheet = findBiteSheet(cells, smooth_hu, *arch);
+  if (sheet.lower_dense_mm3 < kLeastLower_mm3) {
+    refusal_ = sheet.upper_dense_mm3 > kLeastUpperRow_mm3 ? upperArch() : toothlessJaw();
+    return;
+  }
+  beginStage(report, "lower jaw");
+  const CellMask jaw_cells = mandibleCells(cells, smooth_hu, *arch, sheet);
+  if (volume_mm3(cells, jaw_cells) < kLeastJaw_mm3) {
+    refusal_ = toothlessJaw();
+    return;
+  }
+  Mandible mandible = mandibleIn(grid, hounsfield, cells, jaw_cells, edge);
   smooth_hu = {};
+  const GreyLevels levels = greyLevelsOf(mandible, sheet);
+  beginStage(report, "teeth");
+  ToothRegions regions = findToothRegions(mandible, levels);
+  jaw_ = std::make_unique<Jaw>(Jaw{std::move(*arch), sheet, std::move(mandible), levels, std::move(regions)});
+}
+
+JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage& report) {
+  if (refusal_) return refused(*refusal_);
+  const Mandible& mandible = jaw_->mandible;
+  if (!teeth_ || teeth_->clicks != clicks.teeth) {
+    Teeth found{clicks.teeth, jaw_->regions, {}, {}, {}};
+    const ToldParts told = editTeeth(mandible, jaw_->levels, clicks.teeth, found.regions);
+    beginStage(report, "tooth surfaces");
+    moveToEdges(mandible, found.regions);
+    const auto measure = [&] {
+      found.teeth = measuredTeeth(mandible, found.regions, jaw_->levels);
+      told.tell(found.teeth);
+    };
+    measure();
+    found.refusal = judgeJaw(mandible.grid, found.teeth);
+    if (!found.refusal) {
+      numberTeeth(jaw_->arch, found.teeth);
+      if (joinSpareParts(mandible, found.teeth, found.regions)) {
+        measure();
+        numberTeeth(jaw_->arch, found.teeth);
+      }
+      found.refusal = judgeCount(found.teeth);
+    }
+    if (!found.refusal) {
+      beginStage(report, "tissues");
+      found.tissue = tissuesOfTeeth(mandible, found.regions, jaw_->levels);
+    }
+    teeth_ = std::make_unique<Teeth>(std::move(found));
+  }
+  if (teeth_->refusal) return refused(*teeth_->refusal);
 
   JawSegmentation out;
-  out.levels = greyLevelsOf(jaw, sheet);
-  begin("teeth");
-  ToothRegions teeth = findToothRegions(jaw, out.levels);
-  const ToldParts told = editTeeth(jaw, out.levels, clicks.teeth, teeth);
-  begin("tooth surfaces");
-  moveToEdges(jaw, teeth);
-  const auto measure = [&] {
-    out.teeth = measuredTeeth(jaw, teeth, out.levels);
-    told.tell(out.teeth);
-  };
-  measure();
-  if (auto refusal = judgeJaw(jaw.grid, out.teeth)) return refused(std::move(*refusal));
-  numberTeeth(arch, out.teeth);
-  if (joinSpareParts(jaw, out.teeth, teeth)) {
-    measure();
-    numberTeeth(arch, out.teeth);
+  out.levels = jaw_->levels;
+  out.teeth = teeth_->teeth;
+  const CanalScene scene{mandible, teeth_->regions, jaw_->arch, jaw_->sheet};
+  for (const bool is_right : {true, false}) {
+    std::vector<glm::dvec3> clicked = canalClicksOn(jaw_->arch, clicks.canals, is_right);
+    std::optional<Canal::OfSide>& known = canals_->of_side[is_right ? 0 : 1];
+    if (!known || known->tooth_clicks != clicks.teeth || known->clicks != clicked) {
+      beginStage(report, is_right ? "right canal" : "left canal");
+      std::optional<CanalProposal> found = canalOn(scene, teeth_->teeth, clicked, is_right);
+      known = Canal::OfSide{clicks.teeth, std::move(clicked), std::move(found)};
+    }
+    if (known->found) out.canals.push_back(*known->found);
   }
-  if (auto refusal = judgeCount(out.teeth)) return refused(std::move(*refusal));
-  begin("tissues");
-  const std::vector<std::uint8_t> tissue = tissuesOfTeeth(jaw, teeth, out.levels);
-  begin("canals");
-  out.canals = canalsOf({jaw, teeth, arch, sheet}, out.teeth, clicks.canals);
-  begin("labels");
-  labelJaw(grid, jaw, teeth, tissue, out);
-  for (const CanalProposal& canal : out.canals) labelCanal(grid, canal, out.label);
+  beginStage(report, "labels");
+  labelJaw(scan_, mandible, teeth_->regions, teeth_->tissue, out);
+  for (const CanalProposal& canal : out.canals) labelCanal(scan_, canal, out.label);
   return out;
+}
+
+JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
+                           const ReportStage& report, const JawClicks& clicks) {
+  return JawFinder(grid, hounsfield, report).withClicks(clicks, report);
 }
 
 }  // namespace assets

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,32 @@ struct JawSegmentation {
 
 /// Called when a stage begins, with its name.
 using ReportStage = std::function<void(std::string_view stage)>;
+
+/// A jaw found once, to be looked at and clicked in again and again: clicks change what was found, and only what they
+/// change is computed anew. 1 to 4 s for clicks on teeth at 0.35 mm on two cores, and 5 s for a canal's proposal that
+/// they change; 2 s for a clicked canal. One thread at a time.
+class JawFinder {
+ public:
+  /// Everything that does not depend on clicks.
+  JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, const ReportStage& report = {});
+  ~JawFinder();
+  JawFinder(const JawFinder&) = delete;
+  JawFinder& operator=(const JawFinder&) = delete;
+
+  /// The same as segmentJaw() with these clicks, whatever was clicked before. Throws LoadError as that, and whatever
+  /// `report` throws; the finder can be used again afterwards.
+  JawSegmentation withClicks(const JawClicks& clicks, const ReportStage& report = {});
+
+ private:
+  struct Jaw;
+  struct Teeth;
+  struct Canal;
+  VolumeGrid scan_;
+  std::optional<JawRefusal> refusal_;
+  std::unique_ptr<Jaw> jaw_;       ///< none: refused
+  std::unique_ptr<Teeth> teeth_;   ///< of the last clicks
+  std::unique_ptr<Canal> canals_;  ///< of the last clicks, by side
+};
 
 /// Smaller scans are parts of a jaw in which no row of teeth can be told.
 inline constexpr double kLeastJaw_mm = 35.0;

@@ -4,7 +4,7 @@
 #   assets: root words < { mesh | scan | scenery } < { patient | instrument | segment | synthetic }, segment < import.
 #   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
 #     < { procedure | study < evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
-#     | start_screen | review }; before commands, after rehearsal and review: debrief.
+#     | start_screen | review | check_page }; before commands, after rehearsal and review: debrief.
 #   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -52,7 +52,7 @@ endforeach()
 set(app/procedure ${seen} app/procedure/)
 set(app/evaluation ${seen} app/study/ app/evaluation/)
 set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
-foreach(room pattern doctor calibrate psychophysics start_screen study review)
+foreach(room pattern doctor calibrate psychophysics start_screen study review check_page)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
 set(app/debrief ${seen} app/procedure/ app/rehearsal/ app/review/ app/debrief/)
@@ -94,7 +94,7 @@ set(third_parties
   "toml\\+\\+/" "assets|app"
   "cairo|pango/" "render|app"
   "nlohmann/" "assets|app"
-  "tbb/|oneapi/" "assets|haptics|render"
+  "tbb/|oneapi/" "assets|haptics|render|app/check_page"
   "libevdev/" "haptics"
   "boost/math/" "app/study"
   "libusb" "haptics"

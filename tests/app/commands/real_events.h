@@ -90,6 +90,13 @@ class ScreenHand {
     moveTo(from_px + by_px);
     press(button, false);
   }
+  void controlKey(KeySym symbol) {
+    const KeyCode control = XKeysymToKeycode(display_, XK_Control_L);
+    XTestFakeKeyEvent(display_, control, True, CurrentTime);
+    key(symbol);
+    XTestFakeKeyEvent(display_, control, False, CurrentTime);
+    XSync(display_, False);
+  }
   void key(KeySym symbol) {
     const KeyCode code = XKeysymToKeycode(display_, symbol);
     XTestFakeKeyEvent(display_, code, True, CurrentTime);

@@ -83,7 +83,7 @@ TEST_F(ScanImportRealData, WithoutLabelsJawAndTeethAreFound) {
                                                                    centroid[2].get<double>())),
       1.0);
   EXPECT_GT(patient.mandibular_canal_P_mm.size(), 30u) << "proposed";
-  EXPECT_TRUE(patient.is_proposed);
+  EXPECT_TRUE(patient.isProposed());
   EXPECT_THAT(patient.shownTitle(), HasSubstr("not confirmed"));
   EXPECT_THAT(imported.remarks, testing::Contains(HasSubstr("tooth 48 and the mandibular canal were found")));
 }

@@ -31,7 +31,7 @@ assets::MeshPart triangle(const std::string& name) {
 Patient somebody() {
   Patient patient;
   patient.title = "test, \"quoted\" \xc3\xa9";
-  patient.is_proposed = true;
+  patient.found = assets::Confirmation{true, false};
   patient.ct.grid = {{20, 21, 22}, 0.4, {41.95, 39.95, 19.95}};
   for (std::size_t v = 0; v < patient.ct.grid.voxelCount(); ++v) {
     patient.ct.hounsfield.push_back(static_cast<std::int16_t>(v % 3000));
@@ -54,7 +54,9 @@ TEST(PatientFolder, RoundTrips) {
   assets::savePatient(saved, folder.at("p"), false);
   const Patient loaded = assets::loadPatient(folder.at("p"));
   EXPECT_EQ(loaded.title, saved.title);
-  EXPECT_EQ(loaded.is_proposed, saved.is_proposed);
+  ASSERT_TRUE(loaded.found);
+  EXPECT_TRUE(loaded.found->tooth);
+  EXPECT_FALSE(loaded.found->canal);
   EXPECT_EQ(loaded.ct.grid, saved.ct.grid);
   EXPECT_EQ(loaded.ct.hounsfield, saved.ct.hounsfield);
   EXPECT_EQ(loaded.ct.label, saved.ct.label);

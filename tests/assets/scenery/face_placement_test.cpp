@@ -12,6 +12,7 @@
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/scan/image_file.h"
+#include "assets/synthetic/face_teeth.h"
 #include "tests/shared_data.h"
 
 namespace assets {
@@ -28,6 +29,9 @@ struct Phantom {
   std::optional<OperativeSite> site;
 };
 
+/// Balls at the face's teeth, by its pose.
+void voxelise(Phantom& out);
+
 Phantom phantom() {
   Phantom out;
   for (int n = 1; n <= 8; ++n) {
@@ -38,7 +42,18 @@ Phantom phantom() {
   }
   const glm::dquat tilt = glm::angleAxis(0.3, glm::normalize(glm::dvec3(1.0, 0.2, -0.1)));
   out.X_PF = {glm::normalize(kFaceAxes_PF.rotation * tilt), glm::dvec3(60.0, 140.0, 80.0)};
-  out.ct.grid = {{160, 160, 120}, 0.6, {20.0, 0.0, -20.0}};
+  voxelise(out);
+  return out;
+}
+
+void voxelise(Phantom& out) {
+  // Around them all.
+  glm::dvec3 low(1e9), high(-1e9);
+  for (const FaceTooth& tooth : out.teeth) {
+    const glm::dvec3 at = (out.X_PF * calibration::Point<calibration::Face>{tooth.open_F_mm}).mm;
+    low = glm::min(low, at - 10.0), high = glm::max(high, at + 10.0);
+  }
+  out.ct.grid = {glm::ivec3(glm::ceil((high - low) / 0.6)), 0.6, low};
   out.ct.label.assign(out.ct.grid.voxelCount(), 0);
   for (const FaceTooth& tooth : out.teeth) {
     const bool third_molar = tooth.fdi == 48;
@@ -57,7 +72,6 @@ Phantom phantom() {
     }
     if (third_molar) out.site = {48, centre, {0, 0, 1}};
   }
-  return out;
 }
 
 TEST(FacePlacement, FindsTheKnownPoseOfAPhantom) {
@@ -78,6 +92,43 @@ TEST(FacePlacement, FindsThePoseWithoutASite) {
   const FacePlacement placement = fitFace(p.ct, p.site, p.teeth);
   EXPECT_LT(placement.rms_mm, 0.3);
   EXPECT_GT(std::abs(glm::dot(placement.X_PF.rotation, p.X_PF.rotation)), std::cos(0.5 * 0.02));
+}
+
+// The built-in face finds its own teeth: a jaw of them in any pose.
+TEST(FacePlacement, TheBuiltInFaceIsPlacedByItsTeeth) {
+  Phantom p = phantom();
+  p.teeth = builtInFaceTeeth();
+  ASSERT_EQ(p.teeth.size(), 16u);
+  voxelise(p);
+  const FacePlacement placement = fitFace(p.ct, p.site, p.teeth);
+  EXPECT_LT(placement.rms_mm, 0.4);
+  for (const FaceTooth& tooth : p.teeth) {
+    const calibration::Point<calibration::Face> at{tooth.open_F_mm};
+    EXPECT_LT(glm::distance((placement.X_PF * at).mm, (p.X_PF * at).mm), 0.8) << tooth.fdi;
+  }
+}
+
+TEST(FacePlacement, FaceTeethGoWhereTheScanHasItsOwn) {
+  const std::vector<FaceTooth> teeth = builtInFaceTeeth();
+  const FacePlacement placed{kFaceAxes_PF, 0.0, 0.0, 16};
+  MeshModel face;
+  face.parts.resize(2);
+  face.parts[0].name = "LowerTeeth", face.parts[1].name = "UpperTeeth";
+  std::vector<glm::dvec3> own_P_mm;
+  for (const FaceTooth& tooth : teeth) {
+    const glm::dvec3 at = (kFaceAxes_PF * calibration::Point<calibration::Face>{tooth.open_F_mm}).mm;
+    if (tooth.fdi > 40) own_P_mm.push_back(at + glm::dvec3(1.0, 1.0, -3.0));
+    for (MeshPart& part : face.parts)
+      for (int corner = 0; corner < 3; ++corner) {
+        part.triangles.push_back(static_cast<std::uint32_t>(part.position_mm.size()));
+        part.position_mm.emplace_back(at);
+      }
+  }
+  dropTeeth(face, placed, teeth, own_P_mm);
+  ASSERT_EQ(face.parts.size(), 2u);
+  EXPECT_EQ(face.parts[1].triangles.size(), 48u);
+  EXPECT_GE(face.parts[0].triangles.size(), 21u);
+  for (const std::uint32_t corner : face.parts[0].triangles) EXPECT_GT(face.parts[0].position_mm[corner].x, 0.0F);
 }
 
 TEST(FacePlacement, ReportsWhatIsMissing) {

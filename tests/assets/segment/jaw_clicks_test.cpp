@@ -146,6 +146,35 @@ TEST(JawClicks, ACanalLeadsThroughItsEndsInEitherOrder) {
   EXPECT_LT(meanMiss_mm(canal->line_P_mm, back->line_P_mm), 0.3);
 }
 
+TEST(JawFinder, FindsWhatASearchFromTheBeginningFinds) {
+  tests::ArchPhantom phantom = tests::archPhantom({.spacing_mm = kSpacing_mm});
+  const std::vector<glm::dvec3> canal = addCanal(phantom);
+  assets::JawFinder finder(phantom.grid, phantom.hounsfield);
+  const assets::ToothClick join{ToothEdit::same_tooth, {centreOf(phantom, 46), centreOf(phantom, 47)}, 0};
+  const assets::ToothClick drop{ToothEdit::no_tooth, {centreOf(phantom, 38)}, 0};
+  const std::vector<glm::dvec3> ends{canal.front(), canal.back()};
+  const assets::JawClicks rounds[] = {{},       {{join}, {}},    {{join, drop}, {ends}}, {{join}, {ends}},
+                                      {{}, {}}, {{drop}, {ends}}};
+  for (const assets::JawClicks& clicks : rounds) {
+    const assets::JawSegmentation found = finder.withClicks(clicks), anew = edited(phantom, clicks);
+    EXPECT_TRUE(found.label == anew.label);
+    EXPECT_TRUE(found.tooth == anew.tooth);
+    ASSERT_EQ(found.canals.size(), anew.canals.size());
+    for (std::size_t n = 0; n < found.canals.size(); ++n)
+      EXPECT_EQ(found.canals[n].line_P_mm, anew.canals[n].line_P_mm);
+    // One that does not fit, or is stopped, changes nothing.
+    EXPECT_THROW(finder.withClicks({{{ToothEdit::no_tooth, {glm::dvec3(0.0, -60.0, 20.0)}, 0}}, {}}),
+                 assets::LoadError);
+  }
+  struct Stopped {};
+  EXPECT_THROW(finder.withClicks({{join}, {}},
+                                 [](std::string_view stage) {
+                                   if (stage == "tissues") throw Stopped{};
+                                 }),
+               Stopped);
+  EXPECT_TRUE(finder.withClicks({{join}, {}}).tooth == edited(phantom, {{join}, {}}).tooth);
+}
+
 TEST(JawClicks, WhatDoesNotFitIsRefusedInOneLine) {
   const tests::ArchPhantom phantom = tests::archPhantom({.spacing_mm = kSpacing_mm});
   const glm::dvec3 a = centreOf(phantom, 46), b = centreOf(phantom, 36), air(0.0, -60.0, 20.0);

@@ -1,0 +1,264 @@
+#include "app/check_page/check_menu.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "assets/tooth.h"
+
+namespace app {
+
+double lineLength_mm(const std::vector<glm::dvec3>& line) {
+  double length = 0.0;
+  for (std::size_t n = 1; n < line.size(); ++n) length += glm::distance(line[n - 1], line[n]);
+  return length;
+}
+
+std::vector<CheckRow> checkRows(const assets::JawSegmentation& jaw, const CheckEdits& edits, int operated_fdi) {
+  std::vector<CheckRow> rows;
+  const auto add_teeth = [&](bool numbered) {
+    for (const assets::FoundTooth& tooth : jaw.teeth) {
+      if ((tooth.fdi != 0) != numbered) continue;
+      CheckRow row;
+      row.fdi = tooth.fdi;
+      row.words = numbered ? fmt::format("{} {}", tooth.fdi, assets::toothName(tooth.fdi)) : "a piece without a number";
+      row.beside = fmt::format("{:.0f} mm³", tooth.volume_mm3);
+      if (tooth.fdi == operated_fdi && numbered) row.words += ", operated";
+      if (tooth.told_fdi != 0) row.light = Light::confirmed;
+      row.at_P_mm = tooth.centre_P_mm;
+      rows.push_back(std::move(row));
+    }
+  };
+  add_teeth(true);
+  add_teeth(false);
+  for (std::size_t n = 0; n < edits.done(); ++n)
+    if (const auto* const click = std::get_if<assets::ToothClick>(&edits.all()[n]);
+        click != nullptr && click->edit == assets::ToothEdit::no_tooth) {
+      CheckRow row;
+      row.words = "no tooth", row.light = Light::refused, row.is_there = false, row.at_P_mm = click->at_P_mm[0];
+      rows.push_back(std::move(row));
+    }
+  for (const bool is_right : {true, false}) {
+    const auto found = std::ranges::find(jaw.canals, is_right, &assets::CanalProposal::is_right);
+    CheckRow row;
+    row.kind = CheckRow::Kind::canal, row.is_right = is_right;
+    row.words = is_right ? "canal on the right" : "canal on the left";
+    row.is_there = found != jaw.canals.end();
+    if (row.is_there) {
+      row.length_mm = lineLength_mm(found->line_P_mm);
+      const std::optional<bool> word = edits.wordOn(is_right, row.length_mm);
+      if (word.value_or(found->is_confirmed)) row.light = Light::confirmed;
+      if (word && !*word) row.light = Light::refused;
+      row.beside = fmt::format("{} {:.0f} mm", found->is_confirmed ? "clicked," : "proposed,", row.length_mm);
+      row.at_P_mm = found->line_P_mm[found->line_P_mm.size() / 2];
+    } else {
+      row.beside = "not found", row.light = Light::refused;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+CheckMenu::CheckMenu(CheckEdits edits, bool may_edit, const CheckEdits& saved)
+    : edits_(std::move(edits)), may_edit_(may_edit), saved_text_(saved.inForce().text()) {}
+
+void CheckMenu::saved() { saved_text_ = edits_.inForce().text(); }
+
+bool CheckMenu::add(CheckEdit edit) {
+  if (!may_edit_) {
+    say("teeth and canal came with this scan: there is nothing of the program's to correct", true);
+    return false;
+  }
+  if (!edits_.add(std::move(edit))) {
+    say(fmt::format("{} edits are the most; save, or undo some", CheckEdits::kMost), true);
+    return false;
+  }
+  say("", false);
+  return true;
+}
+
+void CheckMenu::choose(CheckTool tool) {
+  tool_ = tool;
+  pending_.clear();
+  begins_canal_ = true;
+  number_ = 0;
+  asks_ = false;
+  say("", false);
+}
+
+void CheckMenu::select(std::size_t row) {
+  if (row >= rows_.size()) return;
+  selected_ = row;
+  if (rows_[row].is_there || rows_[row].kind == CheckRow::Kind::tooth) cursor_P_mm_ = rows_[row].at_P_mm;
+}
+
+void CheckMenu::moveSelection(int by) {
+  if (rows_.empty()) return;
+  const auto count = static_cast<int>(rows_.size());
+  select(static_cast<std::size_t>(std::clamp(static_cast<int>(selected_) + by, 0, count - 1)));
+}
+
+void CheckMenu::showRows(std::vector<CheckRow> rows) {
+  const CheckRow before = selected_ < rows_.size() ? rows_[selected_] : CheckRow{};
+  const bool is_first = rows_.empty();
+  rows_ = std::move(rows);
+  const auto same = std::ranges::find_if(rows_, [&before](const CheckRow& row) {
+    return row.kind == before.kind && row.fdi == before.fdi && row.is_right == before.is_right &&
+           row.is_there == before.is_there;
+  });
+  selected_ = same != rows_.end() ? static_cast<std::size_t>(same - rows_.begin()) : 0;
+  if (!is_first) return;
+  const auto operated =
+      std::ranges::find_if(rows_, [](const CheckRow& row) { return row.words.ends_with("operated"); });
+  if (operated != rows_.end()) select(static_cast<std::size_t>(operated - rows_.begin()));
+}
+
+void CheckMenu::refuseLast(const std::string& why) {
+  edits_.drop();
+  say(why + "; taken back", true);
+}
+
+void CheckMenu::confirm(const CheckRow& row) {
+  if (row.light == Light::confirmed) return say("it is confirmed already", false);
+  if (!row.is_there) return say("it is not there: click it, or undo", true);
+  if (row.kind == CheckRow::Kind::canal) {
+    add(CanalWord{row.is_right, true, row.length_mm});
+    return;
+  }
+  if (row.fdi == 0) return say("it has no number: choose Number, type it, click the piece", true);
+  add(assets::ToothClick{assets::ToothEdit::number, {row.at_P_mm, {}}, row.fdi});
+}
+
+void CheckMenu::refuse(const CheckRow& row) {
+  if (!row.is_there || row.light == Light::refused) return say("it is refused already", false);
+  if (row.kind == CheckRow::Kind::canal)
+    add(CanalWord{row.is_right, false, row.length_mm});
+  else
+    add(assets::ToothClick{assets::ToothEdit::no_tooth, {row.at_P_mm, {}}, 0});
+}
+
+CheckMenu::Answer CheckMenu::act(CheckAction action) {
+  asks_ = false;
+  pending_.clear();
+  begins_canal_ = true;
+  switch (action) {
+    case CheckAction::confirm:
+    case CheckAction::refuse:
+      if (selected_ < rows_.size())
+        action == CheckAction::confirm ? confirm(rows_[selected_]) : refuse(rows_[selected_]);
+      return Answer::none;
+    case CheckAction::undo:
+      say(edits_.undo() ? "" : "nothing to undo", false);
+      return Answer::none;
+    case CheckAction::redo:
+      say(edits_.redo() ? "" : "nothing to redo", false);
+      return Answer::none;
+    case CheckAction::save:
+      if (!may_edit_ || !isChanged()) {
+        say("nothing has changed", false);
+        return Answer::none;
+      }
+      if (is_busy_) {
+        say("it is still being computed: save when it is shown", true);
+        return Answer::none;
+      }
+      return Answer::save;
+  }
+  return Answer::none;
+}
+
+CheckMenu::Answer CheckMenu::take(const render::KeyPressed& key) {
+  if (!key.down) return Answer::none;
+  if (key.control && key.key == render::keyOf('Z')) return act(key.shift ? CheckAction::redo : CheckAction::undo);
+  if (key.control && key.key == render::keyOf('Y')) return act(CheckAction::redo);
+  if (key.control && key.key == render::keyOf('S')) return act(CheckAction::save);
+  if (key.key == render::Key::up) moveSelection(-1);
+  if (key.key == render::Key::down) moveSelection(1);
+  if (key.key == render::Key::enter) return act(CheckAction::confirm);
+  if (key.key == render::Key::erase) return act(CheckAction::refuse);
+  if (key.key == render::Key::backspace) number_ = 0;
+  if (key.key != render::Key::escape) return Answer::none;
+  if (asks_) return Answer::leave;
+  if (!pending_.empty() || tool_ != CheckTool::look) {
+    choose(CheckTool::look);
+    return Answer::none;
+  }
+  if (!isChanged()) return Answer::leave;
+  asks_ = true;
+  say("Not saved: Ctrl+S saves · Esc leaves, the edits are kept for the next time · any other key goes on", true);
+  return Answer::none;
+}
+
+void CheckMenu::type(char32_t letter) {
+  if (letter > 126) return;
+  const char small = static_cast<char>(std::tolower(static_cast<int>(letter)));
+  asks_ = false;
+  if (tool_ == CheckTool::number && std::isdigit(static_cast<unsigned char>(small)) != 0) {
+    number_ = number_ >= 10 ? small - '0' : 10 * number_ + (small - '0');
+    return;
+  }
+  for (const CheckToolName& tool : kCheckTools)
+    if (tool.key == small) return choose(tool.tool);
+  if (letter == U'u') act(CheckAction::undo);
+  if (letter == U'U') act(CheckAction::redo);
+}
+
+void CheckMenu::clickCanal(const glm::dvec3& p_P_mm, bool is_right) {
+  const auto* const last = edits_.last() != nullptr ? std::get_if<CanalClicks>(edits_.last()) : nullptr;
+  if (!begins_canal_ && last != nullptr) {
+    if (last->at_P_mm.size() >= assets::kMostCanalClicks)
+      return say(fmt::format("a canal has at most {} points; press C to begin it anew", assets::kMostCanalClicks),
+                 true);
+    add(CanalClicks{last->is_right, withPoint(last->at_P_mm, p_P_mm)});
+    return;
+  }
+  pending_.push_back(p_P_mm);
+  if (pending_.size() < assets::kLeastCanalClicks) return;
+  begins_canal_ = !add(CanalClicks{is_right, std::exchange(pending_, {})});
+}
+
+void CheckMenu::clickAt(const glm::dvec3& p_P_mm, bool is_right) {
+  asks_ = false;
+  cursor_P_mm_ = p_P_mm;
+  if (tool_ == CheckTool::look) return say("", false);
+  if (tool_ == CheckTool::canal) return clickCanal(p_P_mm, is_right);
+  assets::ToothClick click;
+  click.at_P_mm[0] = p_P_mm;
+  switch (tool_) {
+    case CheckTool::third_molar:
+      click.edit = assets::ToothEdit::number, click.fdi = is_right ? 48 : 38;
+      break;
+    case CheckTool::number:
+      if (number_ < 31 || number_ > 48 || !assets::isToothNumber(number_))
+        return say("type the tooth's number first, 31 to 38 or 41 to 48", true);
+      click.edit = assets::ToothEdit::number, click.fdi = std::exchange(number_, 0);
+      break;
+    case CheckTool::same_tooth:
+    case CheckTool::two_teeth:
+      pending_.push_back(p_P_mm);
+      if (pending_.size() < 2) return say("", false);
+      click.edit = tool_ == CheckTool::same_tooth ? assets::ToothEdit::same_tooth : assets::ToothEdit::two_teeth;
+      click.at_P_mm = {pending_[0], pending_[1]};
+      pending_.clear();
+      break;
+    case CheckTool::no_tooth:
+      click.edit = assets::ToothEdit::no_tooth;
+      break;
+    default:
+      click.edit = assets::ToothEdit::root_tip;
+      break;
+  }
+  add(click);
+}
+
+std::string CheckMenu::hint() const {
+  const auto tool = std::ranges::find(kCheckTools, tool_, &CheckToolName::tool);
+  std::string words = std::string(tool->name) + ": " + tool->about;
+  if (tool_ == CheckTool::number && number_ != 0) words += fmt::format(" · {}", number_);
+  if (!pending_.empty()) words += " · one place clicked, Esc forgets it";
+  return words;
+}
+
+}  // namespace app

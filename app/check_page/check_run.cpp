@@ -1,0 +1,369 @@
+#include "app/check_page/check_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/case/gutter_plan.h"
+#include "app/options/jaw_clicks_file.h"
+#include "assets/import/found_jaw.h"
+#include "assets/import/tooth_site.h"
+#include "assets/load_error.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/scenery/gingiva_surface.h"
+#include "assets/segment/cell_masks.h"
+#include "assets/toml_reader.h"
+#include "assets/tooth.h"
+#include "calibration/output_file.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostLog_bytes = 1u << 20;
+constexpr double kClick_px = 4.0, kTurn_rad_per_px = 0.01, kMostTilt_rad = 1.4, kHuPerPx = 6.0;
+
+/// What a folder holds, as if it had just been found.
+assets::JawSegmentation stored(const assets::Patient& patient) {
+  assets::JawSegmentation jaw;
+  const assets::CtVolume& ct = patient.ct;
+  if (!ct.tooth.empty())
+    for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(ct)) {
+      if (assets::isUpper(fdi)) continue;
+      const auto number = static_cast<std::uint8_t>(fdi);
+      const assets::VoxelSum sum = assets::voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] == number; });
+      assets::FoundTooth tooth;
+      tooth.fdi = fdi, tooth.volume_mm3 = volume_mm3;
+      tooth.centre_P_mm = ct.grid.origin_P_mm + ct.grid.spacing_mm * sum.sum / sum.count;
+      if (!patient.found || (patient.found->tooth && patient.operatedTooth() == fdi)) tooth.told_fdi = fdi;
+      jaw.teeth.push_back(tooth);
+    }
+  if (patient.mandibular_canal_P_mm.size() >= 2) {
+    assets::CanalProposal canal;
+    canal.line_P_mm = patient.mandibular_canal_P_mm;
+    canal.radius_mm = patient.mandibular_canal_radius_mm;
+    canal.is_confirmed = !patient.found || patient.found->canal;
+    canal.is_right = assets::isRight(patient.operatedTooth());
+    jaw.canals.push_back(std::move(canal));
+  }
+  // From the right to the left along the arch.
+  std::ranges::sort(jaw.teeth, {}, [](const assets::FoundTooth& tooth) {
+    const int place = assets::positionOf(tooth.fdi);
+    return assets::isRight(tooth.fdi) ? -place : place;
+  });
+  return jaw;
+}
+
+bool exists(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/// What the folder was made with.
+CheckEdits savedEdits(const std::string& folder, const assets::Patient& patient, double midline_x_P_mm) {
+  CheckEdits edits;
+  const std::string path = assets::clicksPath(folder);
+  if (exists(path)) edits = CheckEdits(readJawClicks(path), midline_x_P_mm);
+  const bool is_right = assets::isRight(patient.operatedTooth());
+  const assets::JawClicks clicks = edits.clicks();
+  const bool was_clicked = std::ranges::any_of(clicks.canals, [&](const std::vector<glm::dvec3>& canal) {
+    return (canal.front().x + canal.back().x < 2.0 * midline_x_P_mm) == is_right;
+  });
+  if (patient.found && patient.found->canal && !was_clicked && patient.mandibular_canal_P_mm.size() >= 2)
+    edits.add(CanalWord{is_right, true, lineLength_mm(patient.mandibular_canal_P_mm)});
+  return edits;
+}
+
+struct Edits {
+  CheckEdits now, saved;
+};
+
+/// With those of last time, unless they are of another import of this folder.
+Edits editsOf(const std::string& folder, const assets::Patient& patient, double midline_x_P_mm) {
+  Edits edits;
+  if (!patient.found) return edits;
+  edits.now = edits.saved = savedEdits(folder, patient, midline_x_P_mm);
+  const std::string log = checkLogPath(folder);
+  if (!exists(log)) return edits;
+  CheckEdits kept = CheckEdits::fromText(assets::readSmallFile(log, kMostLog_bytes), log);
+  const bool is_same = jawClicksText(kept.clicks()) == jawClicksText(edits.saved.clicks());
+  if (kept.wasSaved() && !is_same) return edits;
+  if (kept.wasSaved()) edits.saved = kept;
+  edits.now = std::move(kept);
+  return edits;
+}
+
+/// A canal that was refused leaves no label.
+void takeAway(const assets::CanalProposal& canal, const assets::VolumeGrid& grid, std::vector<std::uint8_t>& label) {
+  for (const glm::dvec3& p : canal.line_P_mm)
+    assets::forCellsNear(grid.indexFromPoint(p), canal.radius_mm + grid.spacing_mm, grid.spacing_mm, grid.size,
+                         [&](glm::ivec3 ijk, double) {
+                           std::uint8_t& here = label[grid.index(ijk)];
+                           if (assets::Tissue{here} == assets::Tissue::mandibular_canal)
+                             here = static_cast<std::uint8_t>(assets::Tissue::trabecular);
+                         });
+}
+
+/// The patient of what is shown.
+assets::Patient checkedPatient(assets::Patient patient, assets::JawSegmentation jaw, const CheckEdits& edits) {
+  std::erase_if(jaw.canals, [&](assets::CanalProposal& canal) {
+    const std::optional<bool> word = edits.wordOn(canal.is_right, lineLength_mm(canal.line_P_mm));
+    if (word) canal.is_confirmed = *word;
+    if (!word || *word) return false;
+    takeAway(canal, patient.ct.grid, jaw.label);
+    return true;
+  });
+  assets::takeFoundJaw(std::move(jaw), patient);
+  patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
+  return patient;
+}
+
+}  // namespace
+
+std::string checkLogPath(const std::string& folder) {
+  const fs::path path = fs::path(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).string() + ".check.json";
+}
+
+CheckRun::CheckRun(std::string folder, ReportLine report)
+    : folder_(std::move(folder)),
+      report_(std::move(report)),
+      patient_(assets::loadPatient(folder_)),
+      may_edit_(patient_.found && assets::canHoldJaw(patient_.ct.grid)),
+      views_(patient_, whatOf(patient_.ct)),
+      menu_([this] {
+        Edits edits = editsOf(folder_, patient_, views_.midline_x_P_mm());
+        return CheckMenu(std::move(edits.now), may_edit_, edits.saved);
+      }()),
+      page_(views_),
+      found_(stored(patient_)),
+      logged_(menu_.edits().text()) {
+  menu_.moveCursor(patient_.focus_P_mm());
+  showFound();
+  if (!may_edit_) {
+    menu_.say("teeth and canal came with this scan: they can be looked at", false);
+    return;
+  }
+  if (menu_.isChanged()) menu_.say("with the edits of last time, which were not saved", false);
+  search_ = std::make_unique<JawSearch>(patient_.ct);
+  askIfChanged();
+}
+
+CheckRun::~CheckRun() {
+  if (saving_.valid()) saving_.wait();
+}
+
+void CheckRun::showFound() {
+  std::vector<CheckRow> rows = checkRows(found_, menu_.edits(), patient_.site ? patient_.site->fdi : 0);
+  for (CheckRow& row : rows)
+    if (row.kind == CheckRow::Kind::tooth && row.is_there)
+      row.at_P_mm = views_.nearestOf(row.fdi != 0 ? static_cast<std::uint8_t>(row.fdi) : kPieceVoxel, row.at_P_mm);
+  menu_.showRows(std::move(rows));
+  is_changed_ = true;
+}
+
+void CheckRun::keepLog(bool is_saved) {
+  const std::string text = menu_.edits().text(is_saved);
+  if (text == logged_) return;
+  logged_ = text;
+  try {
+    calibration::OutputFile(checkLogPath(folder_), true).commit(text);
+  } catch (const calibration::CalibrationError& error) {
+    if (!is_log_lost_) report_(error.what());
+    if (!is_log_lost_) menu_.say("edits cannot be kept beside the patient: save before you leave", true);
+    is_log_lost_ = true;
+  }
+}
+
+void CheckRun::askIfChanged() {
+  if (!search_) return;
+  keepLog(!menu_.isChanged());
+  const std::string clicks = jawClicksText(menu_.edits().clicks());
+  if (clicks != asked_) {
+    asked_ = clicks;
+    search_->ask(menu_.edits().clicks());
+  }
+  menu_.setBusy(isBusy());
+}
+
+void CheckRun::step() {
+  if (search_)
+    if (auto answer = search_->take()) {
+      is_changed_ = true;
+      if (answer->refusal.empty()) {
+        found_ = std::move(answer->jaw);
+        views_.take(whatOf(found_.label, found_.tooth));
+        page_.forget();
+        showFound();
+        report_(fmt::format("shown: {} teeth, {} canals", found_.teeth.size(), found_.canals.size()));
+      } else if (menu_.edits().done() > 0) {
+        report_(answer->refusal);
+        menu_.refuseLast(answer->refusal);
+        askIfChanged();
+      } else {
+        report_(answer->refusal);
+        menu_.say(answer->refusal, true);
+      }
+    }
+  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    const std::string trouble = saving_.get();
+    is_changed_ = true;
+    if (trouble.empty()) {
+      menu_.saved();
+      keepLog(true);
+    }
+    menu_.say(trouble.empty() ? "saved" : trouble, !trouble.empty());
+    report_(trouble.empty() ? "saved" : trouble);
+  }
+  menu_.setBusy(isBusy());
+}
+
+bool CheckRun::isBusy() const { return isSaving() || (search_ && search_->isBusy()); }
+
+void CheckRun::finish() {
+  while (isBusy()) {
+    step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  step();
+}
+
+void CheckRun::save() {
+  saving_ = std::async(std::launch::async, [this, patient = patient_, jaw = found_, edits = menu_.edits()]() mutable {
+    try {
+      const assets::Patient checked = checkedPatient(std::move(patient), std::move(jaw), edits);
+      assets::savePatientAgain(checked, folder_, jawClicksText(edits.clicks()));
+      return std::string();
+    } catch (const std::exception& error) {
+      return calibration::withoutTemporaryNames(error.what());
+    }
+  });
+  menu_.say("saving", false);
+}
+
+bool CheckRun::answer(CheckMenu::Answer answer) {
+  is_changed_ = true;
+  if (answer == CheckMenu::Answer::leave) return false;
+  if (answer == CheckMenu::Answer::save && !isBusy()) save();
+  // Words on a canal change the lights alone.
+  askIfChanged();
+  showFound();
+  return true;
+}
+
+bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
+  if (std::holds_alternative<render::CloseRequested>(event))
+    return answer(menu_.take({.key = render::Key::escape, .down = true}));
+  if (isSaving()) return true;
+  if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) {
+    pointer_px_ = moved->to_px;
+    drag(*moved);
+  }
+  if (const auto* const wheel = std::get_if<render::WheelTurned>(&event)) turnWheel(wheel->notches, window_px);
+  if (const auto* const letter = std::get_if<render::LetterTyped>(&event)) {
+    menu_.type(letter->letter);
+    return answer(CheckMenu::Answer::none);
+  }
+  if (const auto* const key = std::get_if<render::KeyPressed>(&event)) {
+    // Work that is not wanted any more ends with the edit that asked for it.
+    if (key->down && key->key == render::Key::escape && search_ && search_->isBusy() && menu_.edits().done() > 0 &&
+        !menu_.asks() && menu_.pending().empty() && !found_.label.empty()) {
+      search_->leaveIt();
+      menu_.refuseLast("stopped");
+      return answer(CheckMenu::Answer::none);
+    }
+    return answer(menu_.take(*key));
+  }
+  if (const auto* const button = std::get_if<render::ButtonPressed>(&event);
+      button != nullptr && button->button == render::MouseButton::left)
+    button->down ? press(pointer_px_, window_px) : release(pointer_px_, window_px);
+  return true;
+}
+
+void CheckRun::clickIn(const ViewPlace& place, glm::ivec2 window_px) {
+  const auto p =
+      views_.pointAt(place.view, menu_.cursor_P_mm(), page_.look, page_.sizeOf(place.view, window_px), place.at_px);
+  if (p) menu_.clickAt(*p, views_.isRight(*p));
+  answer(CheckMenu::Answer::none);
+}
+
+void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
+  const auto place = page_.placeAt(menu_, at_px, window_px);
+  if (!place) return;
+  if (const auto* const view = std::get_if<ViewPlace>(&*place)) {
+    if (view->view == JawView::solid)
+      pressed_px_ = at_px, is_dragged_ = false;
+    else
+      clickIn(*view, window_px);
+    return;
+  }
+  if (const auto* const row = std::get_if<RowPlace>(&*place)) menu_.select(row->row);
+  if (const auto* const tool = std::get_if<CheckTool>(&*place)) menu_.choose(*tool);
+  const auto* const action = std::get_if<CheckAction>(&*place);
+  answer(action != nullptr ? menu_.act(*action) : CheckMenu::Answer::none);
+}
+
+void CheckRun::release(const glm::dvec2& at_px, glm::ivec2 window_px) {
+  const bool was_pressed = std::exchange(pressed_px_, std::nullopt).has_value();
+  if (!was_pressed || is_dragged_) return;
+  const auto place = page_.placeAt(menu_, at_px, window_px);
+  if (place)
+    if (const auto* const view = std::get_if<ViewPlace>(&*place)) clickIn(*view, window_px);
+}
+
+void CheckRun::drag(const render::PointerMoved& moved) {
+  if (moved.button == render::MouseButton::right) {
+    page_.range.low_hu += kHuPerPx * moved.by_px.y;
+    page_.range.high_hu =
+        std::max(page_.range.low_hu + 100.0, page_.range.high_hu + kHuPerPx * (moved.by_px.x + moved.by_px.y));
+    is_changed_ = true;
+  }
+  if (!pressed_px_) return;
+  if (glm::distance(*pressed_px_, moved.to_px) > kClick_px) is_dragged_ = true;
+  if (!is_dragged_) return;
+  page_.look.turn_rad -= kTurn_rad_per_px * moved.by_px.x;
+  page_.look.tilt_rad =
+      std::clamp(page_.look.tilt_rad + kTurn_rad_per_px * moved.by_px.y, -kMostTilt_rad, kMostTilt_rad);
+  is_changed_ = true;
+}
+
+void CheckRun::turnWheel(double notches, glm::ivec2 window_px) {
+  const auto place = page_.placeAt(menu_, pointer_px_, window_px);
+  if (!place) return;
+  is_changed_ = true;
+  const auto* const view = std::get_if<ViewPlace>(&*place);
+  if (view == nullptr) {
+    if (std::holds_alternative<RowPlace>(*place))
+      menu_.take({.key = notches > 0.0 ? render::Key::up : render::Key::down, .down = true});
+    return;
+  }
+  if (view->view == JawView::solid) {
+    page_.look.zoom = std::clamp(page_.look.zoom * std::pow(1.15, notches), 1.0, 6.0);
+    return;
+  }
+  if (view->view == JawView::panoramic) return;
+  const glm::ivec2 px = page_.sizeOf(view->view, window_px);
+  const glm::dvec3 normal = views_.planeOf(view->view, menu_.cursor_P_mm(), page_.look, px).normal_P();
+  menu_.moveCursor(menu_.cursor_P_mm() + notches * views_.grid().spacing_mm * normal);
+}
+
+glm::dvec2 CheckRun::placeOf(JawView view, const glm::dvec3& p_P_mm, glm::ivec2 window_px) const {
+  return page_.cornerOf(view, window_px) +
+         glm::dvec2(views_.planeOf(view, menu_.cursor_P_mm(), page_.look, page_.sizeOf(view, window_px)).of(p_P_mm));
+}
+
+render::Image CheckRun::picture(glm::ivec2 window_px) {
+  CheckProgress progress;
+  if (search_ && search_->isBusy()) progress = {search_->stage(), search_->seconds()};
+  if (isSaving()) progress = {"saving", 0.0};
+  return page_.picture(menu_, found_.canals, patient_.shownTitle(), progress, window_px);
+}
+
+}  // namespace app

@@ -1,0 +1,195 @@
+#include "app/check_page/check_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/app/check_page/phantom_patient.h"
+
+namespace app {
+namespace {
+
+using render::Key;
+
+constexpr glm::ivec2 kWindow_px{1280, 800};
+
+/// A page and a hand on it.
+class CheckRunTest : public testing::Test {
+ protected:
+  static const tests::ArchPhantom& phantom() {
+    static const tests::ArchPhantom one = tests::archPhantom({.spacing_mm = 0.8});
+    return one;
+  }
+  static const assets::Patient& patient() {
+    static const assets::Patient one = tests::phantomPatient(phantom());
+    return one;
+  }
+  static std::unique_ptr<CheckRun> open(const std::string& folder) {
+    auto run = std::make_unique<CheckRun>(folder, [](const std::string&) {});
+    run->finish();
+    return run;
+  }
+  static void type(CheckRun& run, char32_t letter) { run.handle(render::LetterTyped{letter}, kWindow_px); }
+  static bool press(CheckRun& run, Key key, bool control = false) {
+    return run.handle(render::KeyPressed{.key = key, .down = true, .control = control}, kWindow_px);
+  }
+  static void clickOn(CheckRun& run, const glm::dvec2& px) {
+    run.handle(render::PointerMoved{px, {}, render::MouseButton::none}, kWindow_px);
+    run.handle(render::ButtonPressed{render::MouseButton::left, true}, kWindow_px);
+    run.handle(render::ButtonPressed{render::MouseButton::left, false}, kWindow_px);
+  }
+  /// Looks at the place, then clicks it in the slice with the tool in hand.
+  static void clickTooth(CheckRun& run, int fdi) {
+    const auto row = std::ranges::find(run.menu().rows(), fdi, &CheckRow::fdi);
+    ASSERT_NE(row, run.menu().rows().end());
+    const glm::dvec3 p = row->at_P_mm;
+    for (int n = 0; n < 30; ++n) press(run, Key::up);
+    for (auto n = row - run.menu().rows().begin(); n > 0; --n) press(run, Key::down);
+    clickOn(run, run.placeOf(JawView::axial, p, kWindow_px));
+  }
+
+  tests::PhantomFolder folder_{"molar_check_page_", patient()};
+};
+
+TEST_F(CheckRunTest, ShowsWhatTheImportFound) {
+  const auto run = open(folder_.path());
+  EXPECT_EQ(run->found().teeth.size(), 16u);
+  EXPECT_FALSE(run->menu().isChanged());
+  EXPECT_EQ(run->menu().rows()[run->menu().selected()].fdi, 48);
+  const render::Image picture = run->picture(kWindow_px);
+  EXPECT_EQ(picture.w, kWindow_px.x);
+  EXPECT_EQ(picture.h, kWindow_px.y);
+}
+
+TEST_F(CheckRunTest, ClicksMakeThePatientThatTheSameClicksMakeAtImport) {
+  const auto run = open(folder_.path());
+  press(*run, Key::enter);
+  type(*run, U'-');
+  clickTooth(*run, 37);
+  ASSERT_EQ(run->menu().edits().done(), 2u) << run->menu().message();
+  run->finish();
+  EXPECT_EQ(run->found().teeth.size(), 15u);
+  const assets::JawClicks clicks = run->menu().edits().clicks();
+  press(*run, render::keyOf('S'), true);
+  run->finish();
+  EXPECT_EQ(run->menu().message(), "saved");
+  const assets::Patient saved = assets::loadPatient(folder_.path());
+  const assets::Patient imported = tests::phantomPatient(phantom(), clicks);
+  EXPECT_TRUE(saved.ct.label == imported.ct.label);
+  EXPECT_TRUE(saved.ct.tooth == imported.ct.tooth);
+  EXPECT_TRUE(saved.ct.hounsfield == imported.ct.hounsfield);
+  ASSERT_TRUE(saved.found);
+  EXPECT_TRUE(saved.found->tooth);
+  EXPECT_FALSE(saved.found->canal);
+  // It opens as it was saved, and can be undone then.
+  const auto again = open(folder_.path());
+  EXPECT_FALSE(again->menu().isChanged());
+  EXPECT_EQ(again->found().teeth.size(), 15u);
+  press(*again, render::keyOf('Z'), true);
+  again->finish();
+  EXPECT_EQ(again->found().teeth.size(), 16u);
+}
+
+TEST_F(CheckRunTest, AConfirmedCanalIsSaved) {
+  const auto run = open(folder_.path());
+  const auto canal = std::ranges::find_if(run->menu().rows(), [](const CheckRow& row) {
+    return row.kind == CheckRow::Kind::canal && row.is_right && row.is_there;
+  });
+  ASSERT_NE(canal, run->menu().rows().end());
+  for (auto n = canal - run->menu().rows().begin() - static_cast<long>(run->menu().selected()); n > 0; --n)
+    press(*run, Key::down);
+  press(*run, Key::enter);
+  press(*run, render::keyOf('S'), true);
+  run->finish();
+  const assets::Patient saved = assets::loadPatient(folder_.path());
+  EXPECT_TRUE(saved.found->canal);
+  EXPECT_EQ(saved.mandibular_canal_P_mm, patient().mandibular_canal_P_mm);
+  EXPECT_FALSE(open(folder_.path())->menu().isChanged());
+}
+
+TEST_F(CheckRunTest, ARefusedCanalLeavesNothingBehind) {
+  const auto run = open(folder_.path());
+  while (run->menu().rows()[run->menu().selected()].kind != CheckRow::Kind::canal) press(*run, Key::down);
+  press(*run, Key::erase);
+  press(*run, render::keyOf('S'), true);
+  run->finish();
+  const assets::Patient saved = assets::loadPatient(folder_.path());
+  EXPECT_TRUE(saved.mandibular_canal_P_mm.empty());
+  EXPECT_FALSE(saved.isProposed() && saved.found->tooth);
+}
+
+// As a kill leaves it: the page is gone without a word.
+TEST_F(CheckRunTest, NothingIsLostByAKill) {
+  {
+    const auto run = open(folder_.path());
+    type(*run, U'-');
+    clickTooth(*run, 37);
+    type(*run, U'8');
+    clickTooth(*run, 48);
+  }
+  const auto run = open(folder_.path());
+  EXPECT_TRUE(run->menu().isChanged());
+  EXPECT_EQ(run->menu().edits().done(), 2u);
+  EXPECT_EQ(run->found().teeth.size(), 15u);
+  EXPECT_TRUE(press(*run, Key::escape)) << "asks first";
+  EXPECT_TRUE(run->menu().asks());
+  EXPECT_FALSE(press(*run, Key::escape));
+}
+
+TEST_F(CheckRunTest, AClickThatDoesNotFitIsTakenBackAndSaid) {
+  const auto run = open(folder_.path());
+  type(*run, U'-');
+  clickOn(*run, run->placeOf(JawView::axial, run->views().middle_P_mm() + glm::dvec3(0, 12, 0), kWindow_px));
+  ASSERT_EQ(run->menu().edits().done(), 1u);
+  run->finish();
+  EXPECT_EQ(run->menu().edits().done(), 0u);
+  EXPECT_THAT(run->menu().message(), testing::HasSubstr("no tooth was found within 1.5 mm of it"));
+  EXPECT_EQ(run->found().teeth.size(), 16u);
+}
+
+TEST_F(CheckRunTest, EscStopsWhatIsBeingComputed) {
+  const auto run = open(folder_.path());
+  type(*run, U'-');
+  clickTooth(*run, 37);
+  if (!run->isBusy()) GTEST_SKIP() << "it was faster than the key";
+  press(*run, Key::escape);
+  EXPECT_FALSE(run->isBusy());
+  EXPECT_EQ(run->menu().edits().done(), 0u);
+  EXPECT_EQ(run->found().teeth.size(), 16u);
+}
+
+TEST_F(CheckRunTest, AFolderThatCannotBeReplacedStaysAsItWas) {
+  const auto run = open(folder_.path());
+  press(*run, Key::enter);
+  run->finish();
+  std::ofstream(folder_.path() + "/notes.txt") << "mine";
+  press(*run, render::keyOf('S'), true);
+  run->finish();
+  EXPECT_TRUE(run->menu().isTrouble()) << run->menu().message();
+  EXPECT_TRUE(run->menu().isChanged());
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() + "/notes.txt"));
+  EXPECT_FALSE(assets::loadPatient(folder_.path()).found->tooth);
+}
+
+TEST_F(CheckRunTest, TheScansStatementFollowsItsVolume) {
+  const std::string statement = folder_.path() + "/deidentified.toml";
+  std::ofstream(statement) << "schema = 1\nvolume_sha256 = \"old\"\n\n[face]\nkept = false\n";
+  std::ofstream(folder_.path() + "/patient.toml", std::ios::app) << "\n[scan]\nmodality = \"CT\"\n";
+  const auto run = open(folder_.path());
+  press(*run, Key::enter);
+  run->finish();
+  press(*run, render::keyOf('S'), true);
+  run->finish();
+  const auto read = [](const std::string& path) {
+    std::ifstream file(path);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_THAT(read(statement), testing::ContainsRegex("volume_sha256 = .[0-9a-f]+.\n\n.face."));
+  EXPECT_THAT(read(folder_.path() + "/patient.toml"), testing::HasSubstr("[scan]\nmodality = \"CT\""));
+}
+
+}  // namespace
+}  // namespace app
