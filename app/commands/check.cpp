@@ -18,12 +18,12 @@ namespace {
 
 constexpr glm::ivec2 kSnapshot_px{1280, 800};
 
-struct CheckOptions {
+struct CheckPageOptions {
   std::string patient, snapshot;
   bool force = false;
 };
 
-int check(const CheckOptions& options) {
+int checkPage(const CheckPageOptions& options) {
   const std::string folder = patientNamed(options.patient);
   if (options.snapshot.empty()) {
     showCheckPage(folder, printMessage);
@@ -41,12 +41,12 @@ int check(const CheckOptions& options) {
 }  // namespace
 
 void addCheck(CommandLine& molar) {
-  auto options = std::make_shared<CheckOptions>();
+  auto options = std::make_shared<CheckPageOptions>();
   CommandLine& command = molar.command("check", "Looks at what was found in a scan, corrects and confirms it");
   command.option("PATIENT", options->patient, kPatientHelp).required();
   command.option("--snapshot", options->snapshot, "The page as a picture, PNG, without a window");
   command.flag("--force", options->force, "Replace the picture if it exists");
-  command.does([options] { return check(*options); });
+  command.does([options] { return checkPage(*options); });
 }
 
 }  // namespace app
