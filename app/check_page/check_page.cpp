@@ -98,8 +98,8 @@ void button(const Drawing& page, const Box& box, const std::string& words, bool 
 /// At the picture's edges.
 void directions(const Drawing& page, const Box& box, const std::array<std::string, 4>& left_right_top_bottom) {
   const glm::dvec2 middle = box.corner + 0.5 * box.size, low = box.corner + 12.0, high = box.corner + box.size - 12.0;
-  label(page, left_right_top_bottom[0], {low.x, middle.y});
-  label(page, left_right_top_bottom[1], {high.x, middle.y});
+  label(page, left_right_top_bottom[0], {box.corner.x + 8.0, middle.y}, Align::left);
+  label(page, left_right_top_bottom[1], {box.corner.x + box.size.x - 8.0, middle.y}, Align::right);
   label(page, left_right_top_bottom[2], {middle.x, low.y});
   label(page, left_right_top_bottom[3], {middle.x, high.y});
 }
@@ -189,12 +189,12 @@ render::Image CheckPage::picture(const CheckMenu& menu, const std::vector<assets
           }
         }
       }
-      for (const glm::dvec3& p : menu.pending())
-        if (const glm::dvec2 at = placed(p); std::isfinite(at.x)) page.cross(at, 7.0, 2.0, kClick);
       if (const glm::dvec2 at = placed(cursor_P_mm); std::isfinite(at.x)) {
         page.cross(at, 11.0, 3.0, kRim);
         page.cross(at, 10.0, 1.0, kAccent);
       }
+      for (const glm::dvec3& p : menu.pending())
+        if (const glm::dvec2 at = placed(p); std::isfinite(at.x)) page.cross(at, 7.0, 2.0, kClick);
     });
     const bool is_right = views_.isRight(cursor_P_mm);
     if (view == JawView::axial) directions(page, box, {"R", "L", "A", "P"});

@@ -144,7 +144,7 @@ CheckRun::CheckRun(std::string folder, ReportLine report)
       }()),
       page_(views_),
       found_(stored(patient_)),
-      logged_(menu_.edits().text()) {
+      logged_(menu_.edits().text(!menu_.isChanged())) {
   menu_.moveCursor(patient_.focus_P_mm());
   showFound();
   if (!may_edit_) {

@@ -13,13 +13,13 @@ using namespace std::chrono_literals;
 
 constexpr glm::ivec2 kWindow_px{1280, 800};
 /// Longer than a busy machine needs between two lines; ends a test that hangs.
-constexpr auto kPatience = 60s;
+constexpr auto kLongestWait = 60s;
 
 class CheckByMouse : public ProgramTest {};
 
 /// The program's next line with these words.
 bool hears(RunningProgram& program, const std::string& words) {
-  while (const auto line = program.nextLine(kPatience))
+  while (const auto line = program.nextLine(kLongestWait))
     if (line->find(words) != std::string::npos) return true;
   return false;
 }
@@ -56,11 +56,12 @@ TEST_F(CheckByMouse, AToothIsDroppedAnotherConfirmedAndBothAreSaved) {
   ASSERT_TRUE(hears(program, "shown: 16 teeth"));
   hand.controlKey(XK_s);
   ASSERT_TRUE(hears(program, "saved"));
-  hand.key(XK_Escape);
-  hand.key(XK_Escape);
-  while (program.nextLine(kPatience)) {
+  // The first puts the tool away. A key that had no answer is pressed again.
+  for (int n = 0; n < 20 && !program.hasEnded(); ++n) {
+    hand.key(XK_Escape);
+    program.nextLine(2s);
   }
-  EXPECT_TRUE(program.hasEnded());
+  ASSERT_TRUE(program.hasEnded());
   EXPECT_EQ(program.exitStatus(), 0);
   const assets::Patient saved = assets::loadPatient(at("patient"));
   ASSERT_TRUE(saved.found);
