@@ -48,7 +48,9 @@ TEST(CheckEdits, AreThoseOfAPlainListAfterAnyUndoAndRedo) {
     for (const CheckEdit& edit : twin) plain.add(edit);
     ASSERT_EQ(edits.inForce().text(), plain.text());
     ASSERT_EQ(edits.undone(), ahead.size());
-    if (n % 25 == 0) ASSERT_EQ(CheckEdits::fromText(edits.text(), "log").text(), edits.text());
+    if (n % 25 == 0) {
+      ASSERT_EQ(CheckEdits::fromText(edits.text(), "log").text(), edits.text());
+    }
   }
 }
 
