@@ -188,7 +188,7 @@ void CheckRun::askIfChanged() {
   const std::string clicks = jawClicksText(menu_.edits().clicks());
   if (clicks != asked_) {
     asked_ = clicks;
-    search_->ask(menu_.edits().clicks());
+    clicks == shown_ ? search_->leaveIt() : search_->ask(menu_.edits().clicks());
   }
   menu_.setBusy(isBusy());
 }
@@ -199,6 +199,7 @@ void CheckRun::step() {
       is_changed_ = true;
       if (answer->refusal.empty()) {
         found_ = std::move(answer->jaw);
+        shown_ = jawClicksText(answer->clicks);
         views_.take(whatOf(found_.label, found_.tooth));
         page_.forget();
         showFound();

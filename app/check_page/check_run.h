@@ -71,7 +71,7 @@ class CheckRun {
   CheckMenu menu_;
   CheckPage page_;
   assets::JawSegmentation found_;
-  std::string asked_, logged_;
+  std::string asked_, shown_, logged_;    ///< clicks that were asked for, those that are shown; the log
   std::optional<glm::dvec2> pressed_px_;  ///< in the view in three dimensions
   bool is_dragged_ = false, is_changed_ = true, is_log_lost_ = false;
   glm::dvec2 pointer_px_{-1.0};
