@@ -20,6 +20,9 @@ struct PlannedCut {
   glm::dvec3 shaft_P{0.0};                            ///< from the bur to a handpiece that lies clear, unit; zero: any
   double bur_radius_mm = 1.5;
   double over_mm = 2.0;  ///< above the highest stroke: where the bur goes from one stroke to the next
+  /// By stroke: how far above the higher of the two ends that it joins the bur goes from the stroke before, clear of
+  /// bone and teeth; empty: over_mm above the highest stroke, always.
+  std::vector<double> hop_mm;
 };
 
 /// Middle of the box around all strokes.

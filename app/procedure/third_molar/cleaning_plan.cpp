@@ -20,9 +20,9 @@ constexpr std::array kFiledLeans{0.0, 0.6, -0.6};  ///< to either side of an edg
 constexpr std::size_t kFiledPoints = 8;            ///< of an edge, filed at once
 constexpr double kFileSinks_mm = 0.35;             ///< beside an edge the file may touch as deep
 /// What may be loose after each is taken at last; what a file leaves is filed once more.
-constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction, Cleaning::curette,
-                            Cleaning::suction, Cleaning::file,    Cleaning::file,    Cleaning::file,
-                            Cleaning::suction, Cleaning::stitch};
+constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction,
+                            Cleaning::curette, Cleaning::suction, Cleaning::file,
+                            Cleaning::file,    Cleaning::suction, Cleaning::stitch};
 
 /// Order along an edge, from one of its ends.
 std::vector<glm::dvec3> inOrder(std::vector<glm::dvec3> points) {

@@ -6,8 +6,10 @@
 
 #include <fmt/core.h>
 
+#include "app/case/risk_structures.h"
 #include "app/procedure/third_molar/clearing_plan.h"
 #include "app/procedure/third_molar/section_plan.h"
+#include "assets/tissue.h"
 #include "assets/tooth.h"
 #include "haptics/body/components.h"
 
@@ -18,9 +20,11 @@ namespace {
 constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
 constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
 constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
+constexpr double kOffCanal_mm = 2.1;  ///< nearer is an error of the shipped steps: only after some tries
+constexpr std::size_t kCarefulTries = 2;
 constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
-constexpr double kTried_mm3 = 6.0;     ///< with no more in its way than this, a piece is pulled at before more is cut
+constexpr double kTried_mm3 = 10.0;    ///< with no more in its way than this, a piece is pulled at before more is cut
 constexpr double kSamePiece_mm = 2.0;  ///< that its middle may have moved
 constexpr double kGripped_mm = 2.0;    ///< radius between the beaks
 constexpr int kGripStep = 2;           ///< voxels from place to place that is looked at
@@ -76,10 +80,31 @@ glm::dvec3 gripOf(const assets::CtVolume& now, const assets::VolumeGrid& grid, c
   return most > -1e9 ? best_P_mm : highest_P_mm;
 }
 
+/// Where what lies beyond the jaw's outer surface towards the tongue begins, as scanned.
+std::vector<glm::dvec3> tongueSide_P_mm(const assets::Patient& patient) {
+  const std::vector<std::uint8_t> beyond = voxelsOf(assets::RiskStructure::lingual, patient);
+  const assets::VolumeGrid& grid = patient.ct.grid;
+  std::vector<glm::dvec3> surface_P_mm;
+  if (beyond.empty()) return surface_P_mm;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (beyond[v] == 0) return;
+    const auto is_bone = [&](glm::ivec3 off) {
+      return grid.contains(ijk + off) && assets::isHard(patient.ct.label[grid.index(ijk + off)]);
+    };
+    if (is_bone({1, 0, 0}) || is_bone({-1, 0, 0}) || is_bone({0, 1, 0}) || is_bone({0, -1, 0}) || is_bone({0, 0, 1}) ||
+        is_bone({0, 0, -1}))
+      surface_P_mm.push_back(grid.centre_P_mm(ijk));
+  });
+  return surface_P_mm;
+}
+
 }  // namespace
 
 OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_radius_mm, bool with_elevator)
-    : bur_radius_mm_(bur_radius_mm), with_elevator_(with_elevator), up_(wayUp(patient)) {
+    : tongue_P_mm_(tongueSide_P_mm(patient)),
+      bur_radius_mm_(bur_radius_mm),
+      with_elevator_(with_elevator),
+      up_(wayUp(patient)) {
   up_.is_roomy = true;
   now_.ct = patient.ct;
   now_.site = patient.site;
@@ -147,22 +172,24 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   }
   pieces_left_ = pieces;
 
-  const SiteSolid site(now_);
   // A corner that broke off does not make it parted.
   if (whole_mm3_ == 0.0) whole_mm3_ = tooth.pieces()[0].volume_mm3;
   const bool is_parted = tooth.pieces()[0].volume_mm3 < kParted * whole_mm3_;
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
-  if (!is_parted && is_whole && sections_ >= kOvershoot_mm.size()) {
+  const bool is_careful = is_parted ? static_cast<std::size_t>(tries_) < kCarefulTries : sections_ < kCarefulTries;
+  const SiteSolid site(now_, tongue_P_mm_, is_careful ? kOffCanal_mm : SiteSolid::kOffCanal_mm);
+  if (!is_parted) {
+    std::optional<assets::PlannedCut> cut;
+    if (sections_ < kOvershoot_mm.size()) cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
+    if (cut) {
+      if (with_elevator_) slot_ = slotOf(*cut);
+      return cutStep(std::move(*cut), "part the tooth");
+    }
     // Where no bur may go. A break before leaves pieces that are harder to deliver than those of the planned slot.
     if (const auto slot = std::exchange(slot_, std::nullopt))
       return {*slot, "break what holds it with an elevator in the slot"};
-    return {EndStep{"it did not come apart"}, "the tooth stays whole"};
-  }
-  if (!is_parted && sections_ < kOvershoot_mm.size()) {
-    auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
-    if (!cut) return {EndStep{"no bur reaches through it"}, "the tooth stays whole"};
-    if (with_elevator_) slot_ = slotOf(*cut);
-    return cutStep(std::move(*cut), "part the tooth");
+    if (is_whole)
+      return {EndStep{sections_ > 1 ? "it did not come apart" : "no bur reaches through it"}, "the tooth stays whole"};
   }
 
   const int tries = tries_++;

@@ -88,7 +88,8 @@ class OperationPlanner {
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 
-  assets::Patient now_;  ///< its solid is what is left
+  assets::Patient now_;                  ///< its solid is what is left
+  std::vector<glm::dvec3> tongue_P_mm_;  ///< outer surface of the jaw where it faces the tongue
   double bur_radius_mm_;
   bool with_elevator_;
   std::optional<SplitStep> slot_;  ///< of the last section, not twisted in yet

@@ -12,15 +12,28 @@ namespace {
 
 constexpr double kClear_mm = 1.0;   ///< of the bur from what it passes over
 constexpr double kReach_mm = 22.0;  ///< of the solid that is looked at
-constexpr double kOffNeighbour_mm = 0.9, kOffCanal_mm = 1.5;
+constexpr double kOffNeighbour_mm = 0.9, kOffTongue_mm = 0.36;
 constexpr double kToCheek[] = {0.0, 0.3, 0.6, 1.0, 1.6}, kToFront[] = {-0.2, 0.0, 0.2, 0.4, 0.6, 0.9};
+
+/// The highest that a ball rests on the straight way between two places.
+double highestBetween_mm(const HeightMap& bone, const glm::dvec3& a, const glm::dvec3& b) {
+  const int steps = 1 + static_cast<int>(std::ceil(glm::distance(a, b) / HeightMap::kColumn_mm));
+  double highest_mm = kNoHeight_mm;
+  for (int n = 0; n <= steps; ++n) {
+    const glm::dvec3 q = glm::mix(a, b, static_cast<double>(n) / steps);
+    HeightMap::near(q, 2.0 * HeightMap::kColumn_mm,
+                    [&](int i, int j, double) { highest_mm = std::max(highest_mm, bone.at(i, j)); });
+  }
+  return highest_mm;
+}
 
 /// It cuts along its whole head.
 constexpr StrokePlan kLongBur{1.0, 2};
 
 }  // namespace
 
-SiteSolid::SiteSolid(const assets::Patient& now) : now_(now) {
+SiteSolid::SiteSolid(const assets::Patient& now, std::span<const glm::dvec3> tongue_P_mm, double off_canal_mm)
+    : now_(now), tongue_P_mm_(tongue_P_mm), off_canal_mm_(off_canal_mm) {
   const assets::CtVolume& ct = now.ct;
   const int fdi = now.site->fdi;
   const auto crown = operatedCrown(ct, *now.site);
@@ -60,8 +73,12 @@ Heights SiteSolid::heightsAlong(const WayIn& way, double bur_radius_mm, double o
     if (point.is_tooth) h.tooth.rest(q, bur_radius_mm + off_tooth_mm);
     if (point.is_other_tooth) h.lowest.rest(q, bur_radius_mm + kOffNeighbour_mm);
   }
+  for (const glm::dvec3& p : tongue_P_mm_) {
+    const glm::dvec3 q = way.local(p);
+    if (std::abs(q.y) <= within_mm) h.lowest.rest(q, bur_radius_mm + kOffTongue_mm);
+  }
   for (const glm::dvec3& p : now_.mandibular_canal_P_mm)
-    h.lowest.rest(way.local(p), bur_radius_mm + now_.mandibular_canal_radius_mm + kOffCanal_mm);
+    h.lowest.rest(way.local(p), bur_radius_mm + now_.mandibular_canal_radius_mm + off_canal_mm_);
   return h;
 }
 
@@ -91,6 +108,11 @@ assets::PlannedCut cutAlong(const WayIn& way, const Heights& heights, const std:
   });
   for_columns(low, high, [&](int i, int j) { over_mm = std::max(over_mm, heights.bone.at(i, j)); });
   cut.over_mm = std::max(cut.over_mm, over_mm - top_mm + kClear_mm);
+  cut.hop_mm.push_back(cut.over_mm);
+  for (std::size_t n = 1; n < cut.strokes_P_mm.size(); ++n) {
+    const glm::dvec3 from = way.local(cut.strokes_P_mm[n - 1].back()), to = way.local(cut.strokes_P_mm[n].front());
+    cut.hop_mm.push_back(std::max(0.0, highestBetween_mm(heights.bone, from, to) + kClear_mm - std::max(from.z, to.z)));
+  }
   return cut;
 }
 

@@ -2,6 +2,7 @@
 // planned while the operation goes on. Frame P, mm. Any thread; some 50 ms to make, some ms a direction; allocates.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "app/case/height_map.h"
@@ -12,8 +13,11 @@ namespace app {
 
 class SiteSolid {
  public:
-  /// `now`: a patient with a site, whose solid is what is left. Borrowed.
-  explicit SiteSolid(const assets::Patient& now);
+  /// `now`: a patient with a site, whose solid is what is left. `tongue_P_mm`: the jaw's outer surface where it faces
+  /// the tongue, as scanned. Borrows both.
+  explicit SiteSolid(const assets::Patient& now, std::span<const glm::dvec3> tongue_P_mm = {},
+                     double off_canal_mm = kOffCanal_mm);
+  static constexpr double kOffCanal_mm = 1.5;  ///< of the bur's surface, where it has to be
 
   /// Middles of the voxels that are left of the tooth.
   const std::vector<glm::dvec3>& tooth_P_mm() const { return tooth_P_mm_; }
@@ -22,7 +26,8 @@ class SiteSolid {
   const std::vector<WayIn>& waysIn() const { return ways_; }
 
   /// Of a ball: `bone` where it touches what is solid first, `tooth` where it rests on the operated tooth with a radius
-  /// greater by `off_tooth_mm`, `lowest` where it is off other teeth and the canal. Solid farther than `within_mm` from
+  /// greater by `off_tooth_mm`, `lowest` where it is off other teeth, the canal and the tongue's
+  /// side of the jaw. Solid farther than `within_mm` from
   /// the middle row of the map does not count.
   Heights heightsAlong(const WayIn& way, double bur_radius_mm, double off_tooth_mm, double within_mm = 1e9) const;
 
@@ -32,6 +37,8 @@ class SiteSolid {
     bool is_tooth, is_other_tooth;
   };
   const assets::Patient& now_;
+  std::span<const glm::dvec3> tongue_P_mm_;
+  double off_canal_mm_;
   std::vector<Point> surface_;
   std::vector<glm::dvec3> tooth_P_mm_;
   std::vector<WayIn> ways_;

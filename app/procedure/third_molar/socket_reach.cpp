@@ -37,7 +37,7 @@ std::vector<glm::dvec3> shaftsAround(const glm::dvec3& out_P) {
       glm::normalize(glm::cross(out_P, std::abs(out_P.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
   const glm::dvec3 across = glm::cross(out_P, side);
   std::vector<glm::dvec3> shafts{out_P};
-  for (const double lean_rad : {0.2, 0.4})
+  for (const double lean_rad : {0.2, 0.4, 0.6, 0.8})
     for (int n = 0; n < kAround; ++n) {
       const double turn = 2.0 * std::numbers::pi * n / kAround;
       shafts.push_back(std::cos(lean_rad) * out_P +

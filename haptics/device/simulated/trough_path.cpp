@@ -24,10 +24,13 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   const glm::dvec3 outward_D = X_DP.rotation * cut.outward_P;
   const glm::dvec3 across = glm::cross(outward_D, X_DP.rotation * cut.lateral_P);
   std::vector<std::vector<glm::dvec3>> strokes_mm;
+  std::vector<double> hops_mm;
   double sum = 0.0;
-  for (const auto& stroke : cut.strokes_P_mm) {
+  for (std::size_t n = 0; n < cut.strokes_P_mm.size(); ++n) {
+    const std::vector<glm::dvec3>& stroke = cut.strokes_P_mm[n];
     if (stroke.empty()) continue;
     strokes_mm.emplace_back();
+    if (!cut.hop_mm.empty()) sum += hops_mm.emplace_back(n < cut.hop_mm.size() ? cut.hop_mm[n] : cut.over_mm);
     for (const glm::dvec3& p : stroke) {
       strokes_mm.back().push_back((X_DP * calibration::Point<calibration::Patient>{p}).mm);
       sum += glm::length(strokes_mm.back().back());
@@ -61,8 +64,8 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
 
   // From stroke to stroke half that way: along the shaft the bur would pass over the neighbour's crown.
   const glm::dvec3 half_way = glm::normalize(outward + away);
-  const auto lifted = [&](const glm::dvec3& p) {
-    return p + std::max(over_mm - glm::dot(p, outward), 0.0) / glm::dot(half_way, outward) * half_way;
+  const auto lifted = [&](const glm::dvec3& p, double to_mm) {
+    return p + std::max(to_mm - glm::dot(p, outward), 0.0) / glm::dot(half_way, outward) * half_way;
   };
   begins_s_.push_back(0.0);
   corner_mm_.push_back(strokes_mm.front().front() + motion.clearance_mm * away);
@@ -70,10 +73,14 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   first_.push_back(1);
   go(strokes_mm.front().front(), motion.approach_mm_per_s);
   pedal_from_s_ = (1.0 - kPedalBefore) * begins_s_.back();
-  for (const auto& stroke : strokes_mm) {
-    if (glm::distance(corner_mm_.back(), stroke.front()) > kMeets_mm) {
-      go(lifted(corner_mm_.back()), motion.travel_mm_per_s);
-      go(lifted(stroke.front()), motion.travel_mm_per_s);
+  for (std::size_t n = 0; n < strokes_mm.size(); ++n) {
+    const std::vector<glm::dvec3>& stroke = strokes_mm[n];
+    const glm::dvec3 from_mm = corner_mm_.back();
+    if (glm::distance(from_mm, stroke.front()) > kMeets_mm) {
+      const double higher_mm = std::max(glm::dot(from_mm, outward), glm::dot(stroke.front(), outward));
+      const double hop_mm = hops_mm.empty() ? over_mm : std::min(over_mm, higher_mm + hops_mm[n]);
+      go(lifted(from_mm, hop_mm), motion.travel_mm_per_s);
+      go(lifted(stroke.front(), hop_mm), motion.travel_mm_per_s);
       go(stroke.front(), motion.travel_mm_per_s);
     } else if (corner_mm_.back() != stroke.front()) {
       go(stroke.front(), motion.speed_mm_per_s);
@@ -83,7 +90,7 @@ TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motio
   pedal_to_s_ = begins_s_.back();
   // Out of the gutter as between strokes, then to where the shaft leads.
   const glm::dvec3 end_mm = corner_mm_.back();
-  go(lifted(end_mm), motion.approach_mm_per_s);
+  go(lifted(end_mm, over_mm), motion.approach_mm_per_s);
   const double above_mm = glm::dot(strokes_mm.front().front() - end_mm, outward) + motion.clearance_mm;
   go(end_mm + std::max(above_mm, motion.clearance_mm) * way_per_height * away, motion.approach_mm_per_s);
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +15,7 @@
 #include "app/procedure/third_molar/section_plan.h"
 #include "app/text/usage_error.h"
 #include "haptics/body/components.h"
+#include "haptics/device/simulated/trough_path.h"
 
 namespace app {
 namespace {
@@ -171,6 +174,56 @@ TEST(ClearingPlan, KeepsOffTheCanal) {
   const auto cut = planClearing(SiteSolid(patient), deep, kBur_mm, 0.1);
   ASSERT_TRUE(cut);
   EXPECT_GT(nearestCanal_mm(patient, *cut), 1.4);
+}
+
+TEST(ClearingPlan, LeavesTheWallTowardsTheTongue) {
+  const assets::Patient patient = phantom(3.0);
+  // The jaw ends at x = 6.4; bone up to there is in the way.
+  constexpr double kEnd_mm = 6.4;
+  std::vector<glm::dvec3> surface, beside;
+  for (double y = -16.0; y < 12.0; y += 0.4)
+    for (double z = -14.0; z < 3.0; z += 0.4) surface.push_back({kEnd_mm, y, z});
+  for (double x = 4.0; x < kEnd_mm; x += 0.4)
+    for (double y = -3.0; y < 3.1; y += 0.4)
+      for (double z : {-1.0, 0.0, 1.0, 2.0}) beside.push_back({x, y, z});
+  const auto nearest_mm = [&](std::span<const glm::dvec3> tongue_P_mm) {
+    const auto cut = planClearing(SiteSolid(patient, tongue_P_mm), beside, kBur_mm, 0.1);
+    double least_mm = 1e9;
+    for (const auto& stroke : cut.value().strokes_P_mm)
+      for (const glm::dvec3& p : stroke)
+        for (const glm::dvec3& q : surface) least_mm = std::min(least_mm, glm::distance(p, q));
+    return least_mm - kBur_mm;
+  };
+  EXPECT_LT(nearest_mm({}), 0.0);
+  EXPECT_GT(nearest_mm(surface), 0.3);
+}
+
+TEST(ClearingPlan, GoesFromStrokeToStrokeNoHigherThanItHasTo) {
+  assets::Patient patient = phantom(3.0);
+  // Low bone to the cheek, the neighbour between its two ends.
+  std::vector<glm::dvec3> low;
+  for (double x = -6.0; x < 6.1; x += 0.4)
+    for (double y = -9.0; y < -4.0; y += 0.4)
+      for (double z : {1.0, 2.0})
+        if (std::abs(x) > 4.4) low.push_back({x, y, z});
+  auto cut = planClearing(SiteSolid(patient), low, kBur_mm, 0.1);
+  ASSERT_TRUE(cut);
+  ASSERT_EQ(cut->hop_mm.size(), cut->strokes_P_mm.size());
+  cut->shaft_P = cut->outward_P;
+  const auto path_of = [&](const assets::PlannedCut& plan) {
+    return haptics::TroughPath(plan, {.shaft_P = plan.shaft_P});
+  };
+  const haptics::TroughPath path = path_of(*cut);
+  assets::PlannedCut way = *cut, high = *cut;
+  high.hop_mm.clear();
+  EXPECT_LT(path.duration_s(), 0.98 * path_of(high).duration_s());
+  // Wherever it goes it meets no neighbour.
+  way.strokes_P_mm = {{}};
+  for (double t_s = 0.0; t_s < path.duration_s(); t_s += 0.005)
+    way.strokes_P_mm.front().push_back(path.at(t_s).position_mm);
+  const std::size_t neighbour = solidOf(patient.ct, kNeighbour);
+  sweep(patient.ct, way);
+  EXPECT_EQ(solidOf(patient.ct, kNeighbour), neighbour);
 }
 
 TEST(ClearingPlan, LeavesWhatNoBurReaches) {
