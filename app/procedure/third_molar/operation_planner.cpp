@@ -149,6 +149,15 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
   return {step, fmt::format("take out the piece of {:.0f} mm³", volume_mm3)};
 }
 
+std::optional<assets::PlannedCut> OperationPlanner::nextSection(double off_canal_mm) {
+  if (sections_ >= kOvershoot_mm.size()) return {};
+  const SiteSolid site(now_, tongue_P_mm_, off_canal_mm);
+  auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
+  if (!cut || !with_elevator_) return cut;
+  if (const auto slot = slotOf(*cut)) slots_.push_back(*slot);
+  return cut;
+}
+
 OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                                      glm::ivec3 first_voxel) {
   // All that is left, as one volume; the tooth apart.
@@ -177,20 +186,23 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   const bool is_parted = tooth.pieces()[0].volume_mm3 < kParted * whole_mm3_;
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
   const bool is_careful = is_parted ? static_cast<std::size_t>(tries_) < kCarefulTries : sections_ < kCarefulTries;
-  const SiteSolid site(now_, tongue_P_mm_, is_careful ? kOffCanal_mm : SiteSolid::kOffCanal_mm);
+  const double off_canal_mm = is_careful ? kOffCanal_mm : SiteSolid::kOffCanal_mm;
   if (!is_parted) {
-    std::optional<assets::PlannedCut> cut;
-    if (sections_ < kOvershoot_mm.size()) cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
-    if (cut) {
-      if (with_elevator_) slot_ = slotOf(*cut);
-      return cutStep(std::move(*cut), "part the tooth");
-    }
+    if (auto cut = nextSection(off_canal_mm)) return cutStep(std::move(*cut), "part the tooth");
     // Where no bur may go. A break before leaves pieces that are harder to deliver than those of the planned slot.
-    if (const auto slot = std::exchange(slot_, std::nullopt))
-      return {*slot, "break what holds it with an elevator in the slot"};
+    if (!slots_.empty()) {
+      const SplitStep slot = slots_.back();
+      slots_.pop_back();
+      return {slot, "break what holds it with an elevator in the slot"};
+    }
+    if (is_whole && !std::exchange(tongue_P_mm_, {}).empty()) {
+      sections_ = 1;
+      if (auto cut = nextSection(off_canal_mm)) return cutStep(std::move(*cut), "part the tooth, to the tongue's side");
+    }
     if (is_whole)
       return {EndStep{sections_ > 1 ? "it did not come apart" : "no bur reaches through it"}, "the tooth stays whole"};
   }
+  const SiteSolid site(now_, tongue_P_mm_, off_canal_mm);
 
   const int tries = tries_++;
   const double off_tooth_mm = kOffTooth_mm[std::min(static_cast<std::size_t>(tries), kOffTooth_mm.size() - 1)];

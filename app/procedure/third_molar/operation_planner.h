@@ -84,15 +84,16 @@ class OperationPlanner {
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
 
  private:
+  std::optional<assets::PlannedCut> nextSection(double off_canal_mm);
   static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 
   assets::Patient now_;                  ///< its solid is what is left
-  std::vector<glm::dvec3> tongue_P_mm_;  ///< outer surface of the jaw where it faces the tongue
+  std::vector<glm::dvec3> tongue_P_mm_;  ///< outer surface of the jaw where it faces the tongue; empty: not kept off
   double bur_radius_mm_;
   bool with_elevator_;
-  std::optional<SplitStep> slot_;  ///< of the last section, not twisted in yet
+  std::vector<SplitStep> slots_;  ///< of the sections, not twisted in yet
   WayUp up_;
   double whole_mm3_ = 0.0;  ///< of the tooth before it was parted; 0: not looked at yet
   std::size_t sections_ = 0;

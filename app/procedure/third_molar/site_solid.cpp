@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kClear_mm = 1.0;   ///< of the bur from what it passes over
 constexpr double kReach_mm = 22.0;  ///< of the solid that is looked at
-constexpr double kOffNeighbour_mm = 0.9, kOffTongue_mm = 0.36;
+constexpr double kOffNeighbour_mm = 0.9, kOffTongue_mm = 0.45;
 constexpr double kToCheek[] = {0.0, 0.3, 0.6, 1.0, 1.6}, kToFront[] = {-0.2, 0.0, 0.2, 0.4, 0.6, 0.9};
 
 /// The highest that a ball rests on the straight way between two places.
