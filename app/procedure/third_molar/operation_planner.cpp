@@ -21,7 +21,7 @@ constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller 
 constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
 constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
 constexpr double kOffCanal_mm = 2.1;  ///< nearer is an error of the shipped steps: only after some tries
-constexpr std::size_t kCarefulTries = 2;
+constexpr int kCarefulTries = 2;
 constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
 constexpr double kTried_mm3 = 10.0;    ///< with no more in its way than this, a piece is pulled at before more is cut
@@ -149,10 +149,9 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
   return {step, fmt::format("take out the piece of {:.0f} mm³", volume_mm3)};
 }
 
-std::optional<assets::PlannedCut> OperationPlanner::nextSection(double off_canal_mm) {
+std::optional<assets::PlannedCut> OperationPlanner::nextSection() {
   if (sections_ >= kOvershoot_mm.size()) return {};
-  const SiteSolid site(now_, tongue_P_mm_, off_canal_mm);
-  auto cut = planSection(site, bur_radius_mm_, kOvershoot_mm[sections_++]);
+  auto cut = planSection(SiteSolid(now_), bur_radius_mm_, kOvershoot_mm[sections_++]);
   if (!cut || !with_elevator_) return cut;
   if (const auto slot = slotOf(*cut)) slots_.push_back(*slot);
   return cut;
@@ -185,25 +184,21 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   if (whole_mm3_ == 0.0) whole_mm3_ = tooth.pieces()[0].volume_mm3;
   const bool is_parted = tooth.pieces()[0].volume_mm3 < kParted * whole_mm3_;
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
-  const bool is_careful = is_parted ? static_cast<std::size_t>(tries_) < kCarefulTries : sections_ < kCarefulTries;
-  const double off_canal_mm = is_careful ? kOffCanal_mm : SiteSolid::kOffCanal_mm;
   if (!is_parted) {
-    if (auto cut = nextSection(off_canal_mm)) return cutStep(std::move(*cut), "part the tooth");
+    if (auto cut = nextSection()) return cutStep(std::move(*cut), "part the tooth");
     // Where no bur may go. A break before leaves pieces that are harder to deliver than those of the planned slot.
     if (!slots_.empty()) {
       const SplitStep slot = slots_.back();
       slots_.pop_back();
       return {slot, "break what holds it with an elevator in the slot"};
     }
-    if (is_whole && !std::exchange(tongue_P_mm_, {}).empty()) {
-      sections_ = 1;
-      if (auto cut = nextSection(off_canal_mm)) return cutStep(std::move(*cut), "part the tooth, to the tongue's side");
-    }
     if (is_whole)
       return {EndStep{sections_ > 1 ? "it did not come apart" : "no bur reaches through it"}, "the tooth stays whole"};
   }
-  const SiteSolid site(now_, tongue_P_mm_, off_canal_mm);
 
+  // Bone that is in the way is looked for at a distance from the nerve and the tongue first.
+  const bool is_careful = tries_ < kCarefulTries;
+  const SiteSolid site = is_careful ? SiteSolid(now_, tongue_P_mm_, kOffCanal_mm) : SiteSolid(now_);
   const int tries = tries_++;
   const double off_tooth_mm = kOffTooth_mm[std::min(static_cast<std::size_t>(tries), kOffTooth_mm.size() - 1)];
   if (tried_ && findAgain(*tried_, tooth, pieces)) {

@@ -84,13 +84,13 @@ class OperationPlanner {
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
 
  private:
-  std::optional<assets::PlannedCut> nextSection(double off_canal_mm);
+  std::optional<assets::PlannedCut> nextSection();
   static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 
   assets::Patient now_;                  ///< its solid is what is left
-  std::vector<glm::dvec3> tongue_P_mm_;  ///< outer surface of the jaw where it faces the tongue; empty: not kept off
+  std::vector<glm::dvec3> tongue_P_mm_;  ///< outer surface of the jaw where it faces the tongue
   double bur_radius_mm_;
   bool with_elevator_;
   std::vector<SplitStep> slots_;  ///< of the sections, not twisted in yet
