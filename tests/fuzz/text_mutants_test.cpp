@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "app/check_page/check_edits.h"
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_csv.h"
 #include "app/evaluation/script.h"
@@ -142,6 +143,16 @@ TEST(TextMutants, JawClicksJson) {
       R"({"clicks": [{"edit": "number", "fdi": 48, "at_P_mm": [[1, -2.5, 3e1]]}, {"edit": "canal", "at_P_mm": [[0, 1, 2], [3, 4, 5]]},
 {"edit": "two-teeth", "at_P_mm": [[0, 1, 2], [3, 4, 5]]}]})",
       [](const std::string& path) { app::readJawClicks(path); });
+}
+
+TEST(TextMutants, CheckPageEdits) {
+  app::CheckEdits edits;
+  edits.add(assets::ToothClick{.edit = assets::ToothEdit::number, .at_P_mm = {glm::dvec3(1.0, -2.5, 30.0)}, .fdi = 48});
+  edits.add(app::CanalClicks{true, {{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}});
+  edits.add(app::CanalWord{true, false, 41.5});
+  edits.undo();
+  judge<app::UsageError>(edits.text(),
+                         [](const std::string& text) { app::CheckEdits::fromText(text, "edits").clicks(); });
 }
 
 TEST(TextMutants, RigYaml) {
