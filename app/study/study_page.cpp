@@ -164,7 +164,7 @@ std::string paragraph(const std::string& words) { return words.empty() ? "" : "<
 
 std::string studyPage(const StudyResult& result) {
   HtmlPage page(result.title.empty() ? "Study" : result.title,
-                escaped(fmt::format("{} participants{}", result.participants,
+                escaped(fmt::format("{} participant{}{}", result.participants, result.participants == 1 ? "" : "s",
                                     result.groups.empty() ? "" : ", groups: " + joined(result.groups))));
   page.section("Problems",
                problemTable(result) + paragraph(discoveryWords(result)) + paragraph(agreementWords(result)));
@@ -178,7 +178,7 @@ std::string studyPage(const StudyResult& result) {
 }
 
 std::string studyLines(const StudyResult& result) {
-  std::string lines = fmt::format("{} participants\n", result.participants);
+  std::string lines = fmt::format("{} participant{}\n", result.participants, result.participants == 1 ? "" : "s");
   const auto table = [&](const std::string& head, const std::vector<AnswerRow>& rows) {
     if (rows.empty()) return;
     lines += fmt::format("\n{:<46} {:<18} {:>3} {:>6} {:>6} {:>6}\n", head, "group", "N", "mean", "SD", "median");
