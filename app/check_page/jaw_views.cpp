@@ -193,7 +193,7 @@ render::Image JawViews::slice(const Plane& plane, const GreyRange& range, glm::i
     for (int x = 0; x <= px.x; ++x)
       what[static_cast<std::size_t>(y * (px.x + 1) + x)] = whatAt(plane.at({x + 0.5, y + 0.5}));
   });
-  const auto isOther = [](std::uint8_t a, std::uint8_t b) {
+  const auto is_other = [](std::uint8_t a, std::uint8_t b) {
     return a != b && ((a != 0 && a != kBoneVoxel) || (b != 0 && b != kBoneVoxel));
   };
   tbb::parallel_for(0, px.y, [&](int y) {
@@ -209,8 +209,8 @@ render::Image JawViews::slice(const Plane& plane, const GreyRange& range, glm::i
       const std::uint8_t here = what[n], right = what[n + 1], below = what[n + static_cast<std::size_t>(px.x) + 1];
       const bool is_tooth = here != 0 && here != kBoneVoxel;
       if (is_tooth) colour = glm::mix(colour, colourOf(here), kTint);
-      if (isOther(here, right) || isOther(here, below)) {
-        const std::uint8_t owner = is_tooth ? here : isOther(here, right) ? right : below;
+      if (is_other(here, right) || is_other(here, below)) {
+        const std::uint8_t owner = is_tooth ? here : is_other(here, right) ? right : below;
         colour = glm::mix(colour, colourOf(owner), kOutline);
       }
       for (std::size_t c = 0; c < 3; ++c)
