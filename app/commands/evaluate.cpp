@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -30,6 +29,7 @@
 #include "app/text/command_line.h"
 #include "app/text/list.h"
 #include "app/text/message.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
 #include "calibration/output_file.h"
@@ -99,10 +99,8 @@ RehearseOptions warmUpOptions(const RehearseOptions& main, const StudyTemplate& 
 void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study) {
   const RehearseOptions& rehearsal = options.rehearsal;
   static const RehearseOptions kUntouched;
-  if (!isAnonymousId(options.participant))
-    throw UsageError("--participant " + options.participant + ": give a code as P07, never a name");
-  if (!isAnonymousId(options.evaluator))
-    throw UsageError("--evaluator " + options.evaluator + ": give a code as E1, never a name");
+  if (!isAnonymousId(options.participant)) throw UsageError("--participant: give a code as P07, never a name");
+  if (!isAnonymousId(options.evaluator)) throw UsageError("--evaluator: give a code as E1, never a name");
   if (!rehearsal.record.empty() || rehearsal.no_record)
     throw UsageError("evaluate: a session is recorded into --out, leave --record and --no-record out");
   if (!rehearsal.continued.empty())
@@ -319,9 +317,8 @@ class EvaluationSession {
           answer.data.emplace_back("words", *line);
         } else if (!line->empty()) {
           // What is no number is out of every range.
-          char* end = nullptr;
-          const double value = std::strtod(line->c_str(), &end);
-          answer.data.emplace_back("value", *end == '\0' ? value : -1.0);
+          answer.data.emplace_back("value",
+                                   parseNumber<double>(*line).value_or(std::numeric_limits<double>::quiet_NaN()));
         }
         const auto refused = course_->take(answer);
         if (refused) printMessage(*refused);

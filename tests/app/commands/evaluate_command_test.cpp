@@ -107,7 +107,7 @@ TEST_F(EvaluateCommand, RefusesInOneLine) {
   const std::string example = kExample + "example.toml",
                     rest = " --out " + at("study") + " --script " + kExample +
                            "example_script.jsonl --device scripted --headless --pace fast";
-  expectRefusal("evaluate " + example + " --participant Anna" + rest, "give a code as P07");
+  expectRefusal("evaluate " + example + " --participant Anna" + rest, "--participant: give a code as P07");
   expectRefusal("evaluate " + example + " --participant P01 --no-record" + rest, "--no-record");
   expectRefusal("evaluate " + example + " --participant P01 --case deep" + rest, "names the case");
   expectRefusal("evaluate " + example + " --participant P01 --tool round:2.0" + rest, "--tool");
