@@ -55,6 +55,7 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
     frame_.layers.ghost_tool = true;
     frame_.X_PT_at_hand = {other_tick->heldRotation(), other_tick->proxy_P.mm};
   }
+  showSecondHand(tick);
   frame_.field = surgicalField(moments.clarity());
   frame_.pieces = movedPieces(tick);
   frame_.beads = trailOf(run_.story().samplesBefore(tick.t_s, DebriefPicture::kTrail_s), choice.trail);
@@ -81,6 +82,17 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
     panels = line_.panels();
   }
   renderer_->setOverlay(std::move(panels));
+}
+
+void DebriefPicture::showSecondHand(const haptics::Tick& tick) {
+  // Noted with the tick that was the newest.
+  const auto place = tick.dt_s > 0.0 ? run_.secondHand().at(tick.t_s + 0.5 * tick.dt_s) : std::nullopt;
+  frame_.second_visible = place.has_value();
+  if (!place) return;
+  frame_.X_PO = place->X_PO;
+  if (shown_second_ == place->instrument) return;
+  shown_second_ = place->instrument;
+  renderer_->setSecondInstrument(assets::entryOf(place->instrument).model());
 }
 
 void DebriefPicture::draw(const render::Quality& quality) {

@@ -43,10 +43,13 @@ class DebriefPicture {
   static calibration::Rig firstRig(const DebriefRun& run, glm::ivec2 px, double loupes);
 
  private:
+  void showSecondHand(const haptics::Tick& tick);
+
   DebriefRun& run_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   BrickUploader uploader_;
   std::optional<haptics::Tool> shown_tool_;
+  std::optional<assets::SecondInstrument> shown_second_;
   render::Frame frame_;
   ClearanceWatch clearance_;
   HeadUp head_up_;

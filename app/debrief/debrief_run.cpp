@@ -44,8 +44,12 @@ DebriefRun::DebriefRun(const std::string& session, const std::string& patient_fo
   if (has_patient_ && patient_.site)
     if (const auto planned = plannedCut(patient_, bur_mm); planned && planned->kind == CutKind::gutter)
       cut_ = planned->cut;
-  for (const SessionEvent& event : moments_.events())
+  for (const SessionEvent& event : moments_.events()) {
     if (event.kind == kFlapEvent) recorded_flap_ = flapFrom(event.text);
+    if (event.kind != kSecondHandEvent) continue;
+    if (const auto place = secondHandFrom(event.text))
+      second_hand_.add(static_cast<double>(event.tick) * start.dt_s, *place);
+  }
   site_.emplace(patient_, moments_.bodies(), start.soft_tissue, down_P());
   if (recorded_flap_ && has_patient_ && cut_) beginFlap(start);
 }

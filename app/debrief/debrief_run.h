@@ -10,6 +10,7 @@
 #include "app/debrief/flap_film.h"
 #include "app/debrief/session_story.h"
 #include "app/debrief/site_film.h"
+#include "app/session/second_hand_event.h"
 #include "app/session/session_moments.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
@@ -51,6 +52,8 @@ class DebriefRun {
   /// Chips, follicle, stitches, marks of the work.
   const SiteFilm& site() const { return *site_; }
   const SessionStory& story() const { return story_; }
+  /// Where the other hand's instrument was drawn; empty: there was none, or it was not recorded.
+  const SecondHandTrack& secondHand() const { return second_hand_; }
   /// None: the session began with the flap raised, or its patient is not known.
   const FlapFilm* flap() const { return flap_ ? &*flap_ : nullptr; }
   /// Read at the first call, for who shows them. Throws SessionError: its file is broken.
@@ -77,6 +80,7 @@ class DebriefRun {
   std::optional<SiteFilm> site_;
   std::optional<FlapFilm> flap_;
   std::optional<FlapRecord> recorded_flap_;
+  SecondHandTrack second_hand_;
   double prepared_s_ = 0.0;
   std::vector<glm::ivec3> changed_;  ///< while the session was run once
 };

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/device/pose_source_table.h"
+#include "app/session/session_reader.h"
 #include "app/text/usage_error.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
@@ -43,9 +46,34 @@ Pose<World, OtherTool> holdNextTo(const assets::Patient& patient, const calibrat
   return hold;
 }
 
+/// `replay:SESSION` of a session that holds the places of one: as they were drawn, without the times it was lost.
+std::optional<PoseSource> recordedSecondHand(const SecondHandPlan& plan) {
+  constexpr std::string_view kReplay = "replay:";
+  constexpr double kFrame_s = 1.0 / 60.0;
+  if (!plan.device.starts_with(kReplay)) return {};
+  SessionReader session(plan.device.substr(kReplay.size()));
+  std::vector<haptics::TimedHandlePose> poses;
+  for (const SessionEvent& event : session.events()) {
+    if (event.kind != kSecondHandEvent) continue;
+    const auto place = secondHandFrom(event.text);
+    if (!place || !place->is_tracked) continue;
+    const double t_s = static_cast<double>(event.tick) * session.about().dt_s;
+    if (!poses.empty() && !(t_s > poses.back().t_s)) poses.pop_back();
+    // It held still until the frame before.
+    if (!poses.empty() && t_s - poses.back().t_s > 2.0 * kFrame_s) poses.push_back({t_s - kFrame_s, poses.back().X_DH});
+    poses.push_back({t_s, {place->X_PO.rotation, place->X_PO.translation_mm}});
+  }
+  if (poses.empty()) return {};
+  PoseSource source;
+  source.device = std::make_unique<haptics::PoseListDevice>(std::move(poses));
+  source.name = "second hand of a session";
+  return source;
+}
+
 PoseSource deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
                     const calibration::Rig& rig) {
   const Pose<World, OtherTool> hold = holdNextTo(patient, rig, plan.tool);
+  if (auto recorded = recordedSecondHand(plan)) return std::move(*recorded);
   if (plan.device != "scripted") {
     calibration::Rig others = rig;
     others.device.reset(), others.arm.reset();  // of the first device
@@ -103,10 +131,18 @@ void SecondHand::dress(render::FrameRenderer& renderer) const {
 
 void SecondHand::place(render::Frame& frame) {
   const auto state = hand_->newest();
+  placed_ = {tool_, state.has_value(), {}};
   frame.second_visible = is_seen_ = state.has_value();
   if (!state) return;
   const auto X_PO = device_.X_PD * state->X_DH * device_.X_HT;
-  frame.X_PO = {X_PO.rotation, X_PO.translation_mm};
+  frame.X_PO = placed_.X_PO = {X_PO.rotation, X_PO.translation_mm};
+}
+
+std::optional<SecondHandPlace> SecondHand::takeMoved() {
+  if (!placed_.is_tracked && !taken_) return {};
+  if (taken_ && isSamePlace(*taken_, placed_)) return {};
+  taken_ = placed_;
+  return taken_;
 }
 
 std::optional<std::string> SecondHand::takeNews() {

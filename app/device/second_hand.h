@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/device/pose_source.h"
+#include "app/session/second_hand_event.h"
 #include "assets/instrument/second_instrument.h"
 #include "haptics/loop/instrument_tracker.h"
 #include "render/frame_renderer.h"
@@ -21,8 +22,8 @@ struct SecondHandPlan {
   SecondTool tool = SecondTool::mirror;
 };
 inline constexpr const char* kSecondHandHelp =
-    "The second hand, seen but not felt: scripted, holding still at the site; replay:SESSION; or a device as "
-    "--device takes it";
+    "The second hand, seen but not felt: scripted, holding still at the site; replay:SESSION, its second hand or else "
+    "its first; or a device as --device takes it";
 
 /// The scripted pose of the instrument: next to the tooth at work, on the side of the tongue. The mirror reflects the
 /// tooth towards the eye; the retractor holds the tongue away.
@@ -48,6 +49,8 @@ class SecondHand {
   void dress(render::FrameRenderer& renderer) const;
   /// The pose of the instrument; invisible while the device has no valid pose.
   void place(render::Frame& frame);
+  /// As placed last, where that is not the same as at the last call: to be recorded.
+  std::optional<SecondHandPlace> takeMoved();
   /// A message when tracking is lost, and when it is back.
   std::optional<std::string> takeNews();
 
@@ -58,6 +61,8 @@ class SecondHand {
   double rate_Hz_;
   std::unique_ptr<haptics::InstrumentTracker> hand_;  // stops before its device goes
   bool is_seen_ = false, was_seen_ = false, was_lost_ = false;
+  SecondHandPlace placed_;
+  std::optional<SecondHandPlace> taken_;
 };
 
 }  // namespace app

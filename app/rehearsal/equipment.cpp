@@ -34,7 +34,7 @@ void Equipment::start() {
   workstation_->note("start", source_.name);
   if (!second_hand_) return;
   second_hand_->start();
-  workstation_->note("second hand", second_hand_->name());
+  workstation_->note(kSecondHandNamed, second_hand_->name());
 }
 
 std::vector<ControlRequest> Equipment::takeRequests() {

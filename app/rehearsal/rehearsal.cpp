@@ -36,6 +36,7 @@
 #include "app/session/assessment_event.h"
 #include "app/session/eyes_event.h"
 #include "app/session/measures/sight_lines.h"
+#include "app/session/second_hand_event.h"
 #include "app/session/soft_touches.h"
 #include "app/sound/live_sound.h"
 #include "assets/scan/tooth_division.h"
@@ -300,7 +301,8 @@ class Rehearsal {
     return app::worksOutOfSight({station().bodies().grid(),
                                  socket_->solidInMouth(),
                                  plan_.soft_tissue,
-                                 {command.assistant_holds, command.flap_aside}},
+                                 {command.assistant_holds, command.flap_aside},
+                                 mirrorDiscOf(second_hand_)},
                                 *newest, command.tool.head, *eyes_);
   }
 
@@ -351,11 +353,21 @@ class Rehearsal {
     clarity_.step(newest_, active_command_.inForce().irrigating);
     frame_.field = surgicalField(clarity_);
     frame_.marks = soft_marks_.marks();
-    if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
+    placeSecondHand();
     frame_.pieces = movedPieces(newest_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
     frame_.gap = view_.gapOf(frame_);
+  }
+
+  void placeSecondHand() {
+    SecondHand* const hand = equipment_.secondHand();
+    if (hand == nullptr) return;
+    hand->place(frame_);
+    const auto moved = hand->takeMoved();
+    if (!moved) return;
+    second_hand_ = moved;
+    event_log_.note(kSecondHandEvent, secondHandText(*moved));
   }
 
   void followTooth() {
@@ -573,7 +585,8 @@ class Rehearsal {
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};
   bool shows_gutter_ = false;
-  std::optional<EyesPlace> eyes_;  ///< as noted last
+  std::optional<EyesPlace> eyes_;               ///< as noted last
+  std::optional<SecondHandPlace> second_hand_;  ///< alike
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;

@@ -38,6 +38,7 @@ h2, h3 { break-after: avoid; } h2, h3, tr { break-inside: avoid; }
   table { font-size: 11px; } th, td { padding: 2px 8px 2px 0; } h2 { margin: 18px 0 4px; }
   .beside { grid-template-columns: 1fr 1fr; } .verdict { padding: 8px 12px; } a { color: inherit; }
   ol.columns { font-size: 11px; }
+  .pairs figure { width: 134mm; margin: 4px auto; } section:last-of-type { break-inside: avoid; }
 }
 )";
 
@@ -73,9 +74,10 @@ std::string tableOfMarkup(const std::vector<std::string>& heads,
                           const std::vector<std::vector<std::string>>& rows_markup) {
   std::string table = "<table>\n";
   if (!heads.empty()) {
-    table += "<tr>";
+    // A head of its own: print repeats it on every page.
+    table += "<thead><tr>";
     for (const std::string& head : heads) table += "<th>" + escaped(head) + "</th>";
-    table += "</tr>\n";
+    table += "</tr></thead>\n";
   }
   for (const std::vector<std::string>& row : rows_markup) {
     table += "<tr>";

@@ -44,15 +44,17 @@ std::string boneSection(const SessionComparison& c, const ComparisonPictures& pi
                                                       {"by the first alone", shortText(c.bone.onlyInA_mm3())},
                                                       {"by the second alone", shortText(c.bone.onlyInB_mm3())},
                                                       {"overlap (Dice)", orDash(c.bone.dice())}});
-  std::vector<BonePicture> pairs;
-  for (std::size_t n = 0; n < std::min(pictures.a.size(), pictures.b.size()); ++n) {
-    pairs.push_back({"first, " + pictures.a[n].from, pictures.a[n].image});
-    pairs.push_back({"second, " + pictures.b[n].from, pictures.b[n].image});
-  }
-  if (pairs.empty()) return content;
-  return content + figureMarkup(picturesFigure(pairs, "The site as both left it"),
-                                "The site as it was left. Red: bone that this one cut and the other did not; blue: "
-                                "bone that stands here and the other cut.");
+  const std::size_t pairs = std::min(pictures.a.size(), pictures.b.size());
+  if (pairs == 0) return content;
+  // A figure for each, so that a printed page is filled and none is cut.
+  content +=
+      "<p>The site as it was left. Red: bone that this one cut and the other did not; blue: bone that stands "
+      "here and the other cut.</p>\n<div class=\"pairs\">\n";
+  for (std::size_t n = 0; n < pairs; ++n)
+    content += figureMarkup(picturesFigure({{"", pictures.a[n].image}, {"", pictures.b[n].image}},
+                                           "The site as both left it, " + pictures.a[n].from, false),
+                            escaped("First and second, " + pictures.a[n].from));
+  return content + "</div>\n";
 }
 
 std::string stepsSection(const SessionComparison& c) {

@@ -192,7 +192,18 @@ std::string removedSection(const SessionReview& review) {
           ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
             "the plan that stands. What sectioning and clearing took beyond the gutter is red, too."
           : "The site as it was left.";
-  return tableMarkup({}, rows) + figureMarkup(picturesFigure(review.pictures, "The site as it was left"), caption);
+  std::string content = tableMarkup({}, rows);
+  if (review.pictures.empty()) return content;
+  // Rows of two, so that a printed page is filled and none is cut.
+  content += "<p>" + escaped(caption) + "</p>\n<div class=\"pairs\">\n";
+  for (std::size_t n = 0; n < review.pictures.size(); n += 2) {
+    const auto begin = review.pictures.begin() + static_cast<std::ptrdiff_t>(n);
+    const std::vector<BonePicture> row(begin, begin + std::min<std::ptrdiff_t>(2, review.pictures.end() - begin));
+    std::string from;
+    for (const BonePicture& picture : row) from += (from.empty() ? "" : ", ") + picture.from;
+    content += figureMarkup(picturesFigure(row, "The site as it was left, " + from, false), escaped(from));
+  }
+  return content + "</div>\n";
 }
 
 std::string handSection(const SessionReview& review, const SessionMetrics* other) {

@@ -12,10 +12,10 @@
 #include "app/session/measures/clearance_measures.h"
 #include "app/session/measures/hand_work.h"
 #include "app/session/measures/near_work.h"
+#include "app/session/measures/onlooker.h"
 #include "app/session/measures/original_surface.h"
 #include "app/session/measures/outcome.h"
 #include "app/session/measures/practice_measures.h"
-#include "app/session/measures/sight.h"
 #include "app/session/measures/tissue_work.h"
 #include "app/session/session_error.h"
 #include "app/text/parse_number.h"
@@ -113,52 +113,6 @@ void addEvents(SessionMetrics& metrics, const std::vector<SessionEvent>& events)
   }
 }
 
-/// Looked on by eyes at these places, or by a usual surgeon's.
-class Onlooker {
- public:
-  static constexpr double kAway_mm = 400.0, kHalfApart_mm = 31.5;
-
-  void add(const EyesPlace& eyes, double t_s) { eyes_.push_back({eyes_.empty() ? 0.0 : t_s, eyes}); }
-  void add(const haptics::Command& in_force, double t_s) {
-    const HeldFrom now{t_s, in_force.assistant_holds, in_force.flap_aside};
-    if (held_.empty() || held_.back().assistant_holds != now.assistant_holds ||
-        held_.back().flap_aside != now.flap_aside)
-      held_.push_back(now);
-  }
-  bool isRecorded() const { return !eyes_.empty(); }
-  void assume(const glm::dvec3& site_P_mm, const glm::dvec3& sight_P) {
-    const glm::dvec3 aside = kHalfApart_mm * glm::normalize(glm::cross(sight_P, glm::dvec3(0.0, 0.0, 1.0)));
-    const glm::dvec3 middle = site_P_mm + kAway_mm * sight_P;
-    eyes_.push_back({0.0, {middle - aside, middle + aside}});
-  }
-  std::span<const EyesFrom> eyes() const { return eyes_; }
-  std::span<const HeldFrom> held() const { return held_; }
-
- private:
-  std::vector<EyesFrom> eyes_;
-  std::vector<HeldFrom> held_;
-};
-
-constexpr MeasureName kOutOfSight{"S7", "share of removal out of sight of both eyes", ""};
-
-MeasureValue outOfSight(const RemovalClock* clock, const StoredStart& start, std::span<const std::uint8_t> after,
-                        const SessionCase& about, Onlooker& onlooker, std::optional<double> out_s) {
-  MeasureValue value{kOutOfSight.id, kOutOfSight.name, kOutOfSight.unit, {}, {}, {}};
-  const bool is_recorded = onlooker.isRecorded();
-  if (clock == nullptr)
-    value.why = "the bone at the end is not known";
-  else if (!is_recorded && (!start.setup.site || about.sight_P == glm::dvec3(0.0)))
-    value.why = "where the eyes were is not recorded";
-  if (!value.why.empty()) return value;
-  if (!is_recorded) onlooker.assume(start.setup.site->centre_P_mm, about.sight_P);
-  value.value = shareOutOfSight(
-      *clock, {start.solid, after, start.soft_tissue, onlooker.eyes(), onlooker.held(), start.is_tooth, out_s});
-  if (!value.value) value.why = "no bur removed anything";
-  value.conditions = is_recorded ? "eyes as recorded; the mirror is not counted"
-                                 : "eyes of a usual surgeon, as they were not recorded; the mirror is not counted";
-  return value;
-}
-
 }  // namespace
 
 SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const BoneLeft* left) {
@@ -221,11 +175,11 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const B
       if (!is_out) out_s.reset();
       if (is_out && !out_s) out_s = tick.t_s;
       for (; event != events.end() && event->tick <= tick.index; ++event) {
-        if (event->kind == kEyesEvent)
-          if (const auto eyes = eyesFrom(event->text)) onlooker.add(*eyes, tick.t_s);
+        onlooker.add(*event, tick.t_s);
         if (event->kind != kRulerEvent) continue;
         if (const auto mm = measuredMm(event->text)) metrics.measured.push_back({tick.t_s, *mm, event->text});
       }
+      onlooker.add(tick);
       soft_touches.add(tick);
       work_us.push_back(tick.work_us);
       before = tick;
@@ -253,9 +207,9 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const B
   add(case_of ? clearance.values() : noClearances(kNotLookedAt));
   add(case_of ? near.values() : noNearWork(kNotLookedAt));
   add(noEnvelope());
-  add({!case_of ? MeasureValue{kOutOfSight.id, kOutOfSight.name, kOutOfSight.unit, {}, kNotLookedAt, {}}
-                : outOfSight(clock ? &*clock : nullptr, start, after.value_or(std::vector<std::uint8_t>()), about,
-                             onlooker, out_s)});
+  add(!case_of ? noSight(kNotLookedAt)
+               : onlooker.values(
+                     {clock ? &*clock : nullptr, start, after.value_or(std::vector<std::uint8_t>()), about, out_s}));
   add(!case_of ? noOutcome(kNotLookedAt)
       : !clock ? noOutcome("the bone at the end is not known")
                : outcomeMeasures(

@@ -11,7 +11,7 @@ namespace {
 using calibration::kPi;
 using glm::dvec3;
 
-constexpr double kGlassRadius_mm = 11.0, kGlassThickness_mm = 0.8;
+constexpr double kGlassRadius_mm = kMirrorGlassRadius_mm, kGlassThickness_mm = 0.8;
 constexpr double kRimHeight_mm = 0.25;  ///< of the casing over the glass
 constexpr double kCasingDepth_mm = 2.2, kEdge_mm = 0.4;
 constexpr double kStemThinnest_mm = 0.95, kStemThickest_mm = 1.15;
@@ -23,8 +23,8 @@ constexpr std::size_t kAroundHead = 96, kAroundStem = 24, kAroundHandle = 40;
 const Material kSteel{{0.60f, 0.61f, 0.63f, 1.0f}, 0.30f, 1.0f};
 const Material kSilvered{{0.93f, 0.94f, 0.95f, 1.0f}, 0.05f, 1.0f};
 
-/// Normal of the glass, and direction from its centre to the stem.
-dvec3 glassNormal() { return dvec3(0.0, -std::sqrt(0.5), std::sqrt(0.5)); }
+dvec3 glassNormal() { return mirrorGlassNormal(); }
+/// From the centre of the glass.
 dvec3 towardsStem() { return dvec3(0.0, std::sqrt(0.5), std::sqrt(0.5)); }
 
 struct OutlinePoint {
@@ -133,6 +133,8 @@ MeshPart handle() {
 }
 
 }  // namespace
+
+glm::dvec3 mirrorGlassNormal() { return {0.0, -std::sqrt(0.5), std::sqrt(0.5)}; }
 
 MeshModel dentalMirror() {
   return {{named(glass(), "Glass", kSilvered), named(casing(), "Casing", kSteel), named(stem(), "Stem", kSteel),

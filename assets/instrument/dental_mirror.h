@@ -5,11 +5,16 @@
 // ms. The glass is drawn as polished metal; it reflects no scene.
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "assets/mesh.h"
 
 namespace assets {
 
-inline constexpr double kMirrorCasingRadius_mm = 12.0;
+inline constexpr double kMirrorCasingRadius_mm = 12.0, kMirrorGlassRadius_mm = 11.0;
+
+/// Unit, out of the glass.
+glm::dvec3 mirrorGlassNormal();
 
 MeshModel dentalMirror();
 

@@ -19,8 +19,6 @@ constexpr auto kTissueWork = std::to_array<MeasureName>({
     {"S11.heat", "largest rise of temperature in the bone, indicative", "K"},
     {"M9.changes", "changes of bur", ""},
     {"M9.planned_size", "share of bone cut with the size of bur that the plan is made for", ""},
-    {"M10.mirror", "share of removal seen in the mirror", ""},
-    {"M10.hold", "steadiness of the hold of the second hand", "N"},
 });
 
 /// The cell of a place, 1 mm wide.
@@ -85,7 +83,7 @@ void TissueWork::add(const haptics::Tick& tick, const haptics::Command& in_force
 }
 
 std::vector<MeasureValue> TissueWork::values(std::optional<double> planned_radius_mm) const {
-  std::vector<MeasureValue> values = untold(kTissueWork, "the second hand is not recorded");
+  std::vector<MeasureValue> values = untold(kTissueWork, {});
   const auto tell = [&](std::string_view id, std::optional<double> value, std::string_view why = {},
                         std::string conditions = {}, std::optional<double> t_s = {}) {
     MeasureValue& one = *std::ranges::find(values, id, &MeasureValue::id);

@@ -28,8 +28,11 @@ HandleState PoseListDevice::stateAt(double t_s) noexcept {
   if (next_ == 0 || next_ == poses_.size()) return state;
   const TimedHandlePose& to = poses_[next_];
   const double part = (t_s - from.t_s) / (to.t_s - from.t_s);
-  state.X_DH = {glm::slerp(from.X_DH.rotation, to.X_DH.rotation, part),
-                glm::mix(from.X_DH.translation_mm, to.X_DH.translation_mm, part)};
+  // Between two equal poses it is still to the last bit.
+  if (to.X_DH.rotation != from.X_DH.rotation)
+    state.X_DH.rotation = glm::slerp(from.X_DH.rotation, to.X_DH.rotation, part);
+  if (to.X_DH.translation_mm != from.X_DH.translation_mm)
+    state.X_DH.translation_mm = glm::mix(from.X_DH.translation_mm, to.X_DH.translation_mm, part);
   state.pedal = from.pedal;
   state.buttons = from.buttons;
   return state;

@@ -504,6 +504,24 @@ TEST_F(RehearseCommand, DrawsTheSecondInstrument) {
   expectRefusal(kCoarse + std::string("--second-hand mouse"), "--second-hand mouse");
 }
 
+TEST_F(RehearseCommand, RecordsWhereTheSecondHandWasAndReplaysIt) {
+  const auto measured = [&](const std::string& options, const std::string& name) {
+    EXPECT_EQ(molar(kCoarse + std::string("--seconds 2 --record ") + at(name) + " " + options).status, 0);
+    std::vector<std::string> words;
+    const auto metrics = nlohmann::json::parse(molar("metrics --json " + at(name)).out);
+    for (const auto& one : metrics["measures"])
+      if (one["id"] == "S7" || one["id"].get<std::string>().starts_with("M10.")) words.push_back(one.dump());
+    return words;
+  };
+  const auto with = measured("--second-hand scripted", "s.molar");
+  EXPECT_EQ(with, measured("--second-hand replay:" + at("s.molar"), "t.molar"));
+  ASSERT_EQ(with.size(), 4u);
+  EXPECT_NE(with[2].find("\"value\":0."), std::string::npos) << with[2];
+  EXPECT_NE(measured("", "u.molar")[1].find("nothing was in the other hand"), std::string::npos);
+  EXPECT_NE(measured("--second-hand scripted --second-tool retractor", "v.molar")[2].find("held no mirror"),
+            std::string::npos);
+}
+
 TEST_F(RehearseCommand, ReportsTheTemporaryFileOfAReplacedRecording) {
   const std::string line = kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar");
   ASSERT_EQ(molar(line).status, 0);

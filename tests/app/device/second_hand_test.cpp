@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "app/session/session_writer.h"
 #include "app/text/usage_error.h"
+#include "tests/app/session/small_session.h"
+#include "tests/scratch_folder.h"
 
 namespace app {
 namespace {
@@ -72,6 +75,37 @@ TEST(SecondHand, HoldsItsInstrumentNextToTheToothForAnyPoseOfThePatient) {
     EXPECT_NEAR(std::abs(glm::dot(X_WO.rotation, hold.rotation)), 1.0, 1e-9);
     EXPECT_FALSE(hand.takeNews());
   }
+}
+
+TEST(SecondHand, IsRecordedWhereItMovedAndReplayedFromThere) {
+  const tests::ScratchFolder folder;
+  const assets::Patient jaw = patient(true);
+  SecondHandPlace first{SecondTool::mirror, true, {}}, second = first;
+  first.X_PO = {glm::normalize(glm::dquat(0.9, 0.1, -0.3, 0.2)), {1.0 / 3.0, -2.0, 7.5}};
+  second.X_PO = {first.X_PO.rotation, {4.0, -2.0, 7.5}};
+  {
+    const test::SmallBone bone;
+    SessionWriter writer(folder.file("s.molar"), false, bone.start());
+    writer.write({{},
+                  test::imaginedTicks(0, 3000),
+                  {{15, kSecondHandEvent, secondHandText(first)}, {2000, kSecondHandEvent, secondHandText(second)}}});
+  }
+  SecondHand hand({"replay:" + folder.file("s.molar"), SecondTool::mirror}, {}, jaw, rigAround(jaw), Ticking::stepped);
+  hand.start();
+  render::Frame frame;
+  EXPECT_FALSE(hand.takeMoved()) << "nothing was placed yet";
+  const auto placedAt = [&](double t_s) {
+    hand.stepTo(t_s);
+    hand.place(frame);
+    return hand.takeMoved();
+  };
+  const auto begun = placedAt(0.02);
+  ASSERT_TRUE(begun);
+  EXPECT_TRUE(isSamePlace(*begun, first)) << "to the last bit";
+  EXPECT_FALSE(placedAt(1.9)) << "it held still until it moved";
+  const auto moved = placedAt(2.5);
+  ASSERT_TRUE(moved);
+  EXPECT_LT(glm::distance(moved->X_PO.translation_mm, second.X_PO.translation_mm), 1e-12);
 }
 
 TEST(SecondHand, RefusesASourceThatCannotHoldAnInstrument) {

@@ -132,7 +132,6 @@ TEST(TissueWork, TellsOfForceSoftTissueHeatAndBurs) {
   EXPECT_EQ(valueNamed(values, "S9.events"), 2.0);
   EXPECT_EQ(valueNamed(values, "M9.changes"), 1.0);
   EXPECT_NEAR(valueNamed(values, "M9.planned_size"), 0.5, 1e-9);
-  EXPECT_FALSE(named(values, "M10.hold").value);
   EXPECT_FALSE(named(work.values({}), "M9.planned_size").value);
 }
 
