@@ -6,7 +6,7 @@
 namespace app {
 namespace {
 
-constexpr double kBetweenLooks_s = 0.1;
+constexpr double kBetweenEnds_s = 0.1;
 constexpr double kAway_mm = 400.0, kHalfApart_mm = 31.5;  ///< a usual surgeon's eyes
 
 constexpr auto kSight = std::to_array<MeasureName>({
@@ -45,8 +45,7 @@ void Onlooker::add(const SessionEvent& event, double t_s) {
 
 void Onlooker::add(const haptics::Tick& tick) {
   if (!has_mirror_ || has(tick.faults, haptics::Fault::bad_pose)) return;
-  if (ends_.empty() || tick.t_s - ends_.back().t_s >= kBetweenLooks_s)
-    ends_.push_back({tick.t_s, 0.0, tick.proxy_P.mm});
+  if (ends_.empty() || tick.t_s - ends_.back().t_s >= kBetweenEnds_s) ends_.push_back({tick.t_s, 0.0, tick.proxy_P.mm});
   ends_.back().dt_s += tick.dt_s;
 }
 

@@ -57,7 +57,8 @@ TEST_F(ReportCommand, ComparesTwoRehearsalsOfACase) {
   EXPECT_EQ(words.find("length of the work"), std::string::npos) << "no measure twice";
   ASSERT_EQ(molar("compare " + at("a.molar") + " " + at("b.molar") + " --out " + at("two.html")).status, 0);
   const std::string page = read("two.html");
-  for (const char* said : {"Two rehearsals", "by the second alone", "First and second, from above", "second, from the tongue"})
+  for (const char* said :
+       {"Two rehearsals", "by the second alone", "First and second, from above", "second, from the tongue"})
     EXPECT_NE(page.find(said), std::string::npos) << said;
   EXPECT_EQ(page.find(at("")), std::string::npos) << "no path";
   EXPECT_EQ(molar("report " + at("b.molar") + " --compare " + at("a.molar") + " --out " + at("c.html")).status, 0);
