@@ -67,6 +67,7 @@ void addDebrief(CommandLine& molar) {
   // Those that fill a part of a window like any other.
   command.option("--display", options->display, "In stereo, within the picture")
       .oneOf({"mono", "side-by-side", "top-bottom", "anaglyph", "anaglyph-red-cyan"});
+  command.flag("--edges", options->plan.choice.edges, "Sharp edges of bone marked, once a piece of the tooth is out");
   command.flag("--no-line", options->no_line, "Without the line of text in the picture");
   options->picture.addTo(command);
   command.optionGroup("Without a window");

@@ -35,6 +35,7 @@ enum class DebriefAction : std::uint8_t {
   trail,
   ghost,
   other_ghost,
+  edges,
   line,
   first_view,
   magnify,
@@ -50,7 +51,7 @@ struct DebriefKey {
   std::string_view name, does;  ///< empty name: told with the one before
 };
 
-inline constexpr std::array<DebriefKey, 32> kDebriefKeys = {{
+inline constexpr std::array<DebriefKey, 33> kDebriefKeys = {{
     {DebriefAction::play, render::Key::space, false, "Space", "play or pause"},
     {DebriefAction::back_little, render::Key::left, false, "Left, Right", "one second"},
     {DebriefAction::on_little, render::Key::right, false, "", ""},
@@ -75,6 +76,7 @@ inline constexpr std::array<DebriefKey, 32> kDebriefKeys = {{
     {DebriefAction::ghost, render::keyOf('G'), false, "G, Shift+G",
      "ghost: the tool at the hand, the other session's tool"},
     {DebriefAction::other_ghost, render::keyOf('G'), true, "", ""},
+    {DebriefAction::edges, render::keyOf('E'), false, "E", "sharp edges of bone, once a piece is out"},
     {DebriefAction::line, render::keyOf('H'), false, "H", "line of text in the picture"},
     {DebriefAction::first_view, render::keyOf('V'), false, "V", "the surgeon's view again"},
     {DebriefAction::magnify, render::keyOf('='), false, "+, -", "nearer, farther"},

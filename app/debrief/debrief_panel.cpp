@@ -182,6 +182,14 @@ void drawTop(const DebriefPanelState& state, DebriefPanelInput& input) {
     write(plain_letters, kInkColour, nowText(state));
 }
 
+/// "Sharp edges 17 mm", of two sessions "17, 9 mm"; a dash: no piece is out.
+std::string edgesText(const DebriefPanelState& state) {
+  std::string lengths;
+  for (const DebriefPanelRun& run : state.runs)
+    lengths += (lengths.empty() ? "" : ", ") + (run.edges_mm ? fmt::format("{:.0f}", *run.edges_mm) : "-");
+  return "   Sharp edges " + lengths + " mm";
+}
+
 void drawChoices(const DebriefPanelState& state, DebriefPanelInput& input) {
   PictureChoice choice = state.choice;
   bool changed = false;
@@ -189,6 +197,8 @@ void drawChoices(const DebriefPanelState& state, DebriefPanelInput& input) {
     changed = ImGui::Checkbox(layer.label.data(), &(choice.layers.*layer.on)) || changed;
     ImGui::SameLine();
   }
+  changed = ImGui::Checkbox("Sharp edges", &choice.edges) || changed;
+  ImGui::SameLine();
   ImGui::SetNextItemWidth(110.0F);
   int percent = static_cast<int>(std::lround(100.0F * choice.layers.face_opacity));
   if (ImGui::SliderInt("##face", &percent, 0, 100, "Face %d %%", ImGuiSliderFlags_AlwaysClamp)) {
@@ -214,6 +224,9 @@ void drawChoices(const DebriefPanelState& state, DebriefPanelInput& input) {
   }
   ImGui::SameLine();
   write(small_letters, kQuietColour, "   Space plays, F1: all keys");
+  if (!state.choice.edges) return;
+  ImGui::SameLine();
+  write(small_letters, kInkColour, edgesText(state));
 }
 
 void drawSheetOfKeys(glm::ivec2 window_px) {

@@ -21,6 +21,7 @@ struct DebriefPanelRun {
   std::vector<SessionMark> marks;  ///< in order of time
   std::span<const StorySample> samples;
   double most_force_N = 0.0;
+  std::optional<double> edges_mm = {};  ///< sharp, at this moment; none: not known or not shown
 };
 
 struct DebriefPanelState {

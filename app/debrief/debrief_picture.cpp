@@ -6,13 +6,14 @@
 #include "app/case/patient_placement.h"
 #include "app/options/picture_option.h"
 #include "app/rehearsal/frame_builder.h"
+#include "app/rehearsal/loose_site.h"
 #include "app/view/patient_renderer.h"
 
 namespace app {
 
 bool PictureChoice::operator==(const PictureChoice& other) const {
   return mode == other.mode && display == other.display && trail == other.trail && has_line == other.has_line &&
-         other_ghost == other.other_ghost && layers.face_opacity == other.layers.face_opacity &&
+         other_ghost == other.other_ghost && edges == other.edges && layers.face_opacity == other.layers.face_opacity &&
          std::ranges::all_of(kPictureLayers,
                              [&](const PictureLayer& layer) { return layers.*layer.on == other.layers.*layer.on; });
 }
@@ -37,7 +38,7 @@ calibration::Rig DebriefPicture::firstRig(const DebriefRun& run, glm::ivec2 px, 
 }
 
 void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm,
-                            const haptics::Tick* other_tick) {
+                            const haptics::Tick* other_tick, DebriefRun::Look look) {
   SessionMoments& moments = run_.moments();
   const haptics::Tick& tick = moments.tick();
   const haptics::Command& command = moments.command();
@@ -59,6 +60,8 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
   frame_.field = surgicalField(moments.clarity());
   frame_.pieces = movedPieces(tick);
   frame_.beads = trailOf(run_.story().samplesBefore(tick.t_s, DebriefPicture::kTrail_s), choice.trail);
+  edges_mm_.reset();
+  if (choice.edges) showEdges(look);
   run_.site().show(tick.t_s + tick.dt_s, frame_);
   if (run_.flap() != nullptr) run_.flap()->show(tick.t_s + tick.dt_s, frame_);
   uploader_.tell(run_.takeChangedBricks());
@@ -93,6 +96,16 @@ void DebriefPicture::showSecondHand(const haptics::Tick& tick) {
   if (shown_second_ == place->instrument) return;
   shown_second_ = place->instrument;
   renderer_->setSecondInstrument(assets::entryOf(place->instrument).model());
+}
+
+void DebriefPicture::showEdges(DebriefRun::Look look) {
+  const std::vector<SharpEdge>* const edges = run_.sharpEdges(look);
+  if (edges == nullptr) return;
+  edges_mm_ = 0.0;
+  for (const SharpEdge& edge : *edges) {
+    *edges_mm_ += edge.length_mm;
+    for (const glm::dvec3& p : edge.points_P_mm) frame_.beads.push_back(edgeMark(p));
+  }
 }
 
 void DebriefPicture::draw(const render::Quality& quality) {

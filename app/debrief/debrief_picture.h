@@ -21,6 +21,7 @@ struct PictureChoice {
   TrailColour trail = TrailColour::none;
   bool has_line = true;      ///< of text
   bool other_ghost = false;  ///< the other session's tool in the place of the ghost
+  bool edges = false;        ///< sharp ones of bone, once a piece of the tooth is out
 
   bool operator==(const PictureChoice& other) const;
 };
@@ -35,7 +36,9 @@ class DebriefPicture {
   /// The run's moment seen with a rig: its `screen.px` is the size of the picture. `other_tick`: of the other session,
   /// whose tool is drawn as a ghost, in the form of this one's; null: of none.
   void update(const PictureChoice& choice, const calibration::Rig& rig, double face_window_mm,
-              const haptics::Tick* other_tick = nullptr);
+              const haptics::Tick* other_tick = nullptr, DebriefRun::Look look = DebriefRun::Look::now);
+  /// Of the sharp edges that are shown; none: they are not chosen, or not known at this moment.
+  std::optional<double> edges_mm() const { return edges_mm_; }
   void draw(const render::Quality& quality);
   render::FrameRenderer& renderer() { return *renderer_; }
 
@@ -44,12 +47,14 @@ class DebriefPicture {
 
  private:
   void showSecondHand(const haptics::Tick& tick);
+  void showEdges(DebriefRun::Look look);
 
   DebriefRun& run_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   BrickUploader uploader_;
   std::optional<haptics::Tool> shown_tool_;
   std::optional<assets::SecondInstrument> shown_second_;
+  std::optional<double> edges_mm_;
   render::Frame frame_;
   ClearanceWatch clearance_;
   HeadUp head_up_;

@@ -1,7 +1,9 @@
 #include "app/debrief/debrief_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "app/case/gutter_plan.h"
 #include "app/case/patient_placement.h"
 #include "app/case/trough_plan.h"
+#include "app/procedure/socket/socket_watch.h"
 #include "app/session/flap_event.h"
 #include "app/station/session_patient.h"
 #include "app/station/session_risks.h"
@@ -85,6 +88,25 @@ void DebriefRun::lookAtSite(const haptics::Tick& tick) {
   const std::vector<glm::ivec3> bricks = moments_.takeChangedBricks();
   site_->look(tick, bricks);
   addBricks(changed_, bricks);
+}
+
+const std::vector<SharpEdge>* DebriefRun::sharpEdges(Look look) {
+  constexpr double kBetweenLooks_s = 1.0;
+  const haptics::Tick& tick = moments_.tick();
+  EdgesSeen now{tick.t_s, tick.bone_digest, {}, {}};
+  for (std::size_t piece = 0; piece < tick.pieces; ++piece)
+    now.is_out[piece] = haptics::Bodies::isAside(tick.X_PQ[piece]);
+  if (std::ranges::none_of(now.is_out, std::identity{}) || !patient_.site || patient_.ct.label.empty()) return nullptr;
+  const bool is_same = edges_seen_ && edges_seen_->bone_digest == now.bone_digest && edges_seen_->is_out == now.is_out;
+  const bool is_near = edges_seen_ && std::abs(edges_seen_->t_s - now.t_s) < kBetweenLooks_s;
+  if (!is_same && (look == Look::now || (look == Look::each_second && !is_near))) {
+    SocketWatch watch(patient_, patient_.ct.solid, moments_.bodies());
+    if (const auto& found = watch.finish({}, tick)) now.edges = found->edges;
+    edges_seen_ = std::move(now);
+  } else if (!is_same && !is_near) {
+    return nullptr;
+  }
+  return edges_seen_->edges ? &*edges_seen_->edges : nullptr;
 }
 
 Bookmarks& DebriefRun::bookmarks() {

@@ -2,6 +2,8 @@
 // at a time. Construction takes seconds (patient, structures), prepare() runs the session once.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "app/debrief/flap_film.h"
 #include "app/debrief/session_story.h"
 #include "app/debrief/site_film.h"
+#include "app/procedure/socket/sharp_edges.h"
 #include "app/session/second_hand_event.h"
 #include "app/session/session_moments.h"
 #include "assets/patient.h"
@@ -54,6 +57,11 @@ class DebriefRun {
   const SessionStory& story() const { return story_; }
   /// Where the other hand's instrument was drawn; empty: there was none, or it was not recorded.
   const SecondHandTrack& secondHand() const { return second_hand_; }
+  /// Whether sharpEdges() looks: not at all, once a second of the session at most, or where the bone has changed.
+  enum class Look : std::uint8_t { never, each_second, now };
+  /// Of bone at this moment, as SocketWatch finds them in a rehearsal; a look takes 0.1 s. Null: no piece of the tooth
+  /// is out, or nobody has looked.
+  const std::vector<SharpEdge>* sharpEdges(Look look);
   /// None: the session began with the flap raised, or its patient is not known.
   const FlapFilm* flap() const { return flap_ ? &*flap_ : nullptr; }
   /// Read at the first call, for who shows them. Throws SessionError: its file is broken.
@@ -81,6 +89,13 @@ class DebriefRun {
   std::optional<FlapFilm> flap_;
   std::optional<FlapRecord> recorded_flap_;
   SecondHandTrack second_hand_;
+  struct EdgesSeen {
+    double t_s = 0.0;
+    std::uint64_t bone_digest = 0;
+    std::array<bool, haptics::kMaxPieces> is_out{};
+    std::optional<std::vector<SharpEdge>> edges;  ///< none: no piece is out
+  };
+  std::optional<EdgesSeen> edges_seen_;
   double prepared_s_ = 0.0;
   std::vector<glm::ivec3> changed_;  ///< while the session was run once
 };

@@ -73,7 +73,7 @@ glm::ivec2 DebriefScene::sizeOfOne(glm::ivec2 px) const {
   return glm::max(glm::ivec2((px.x - (count - 1) * kBetween_px) / count, px.y), glm::ivec2(16));
 }
 
-void DebriefScene::draw(glm::ivec2 px, const render::Quality& quality) {
+void DebriefScene::draw(glm::ivec2 px, const render::Quality& quality, DebriefRun::Look look) {
   drawn_px_ = sizeOfOne(px);
   calibration::Rig rig = view_->rig();
   // Square pixels whatever the window's shape: as high as at first.
@@ -81,9 +81,15 @@ void DebriefScene::draw(glm::ivec2 px, const render::Quality& quality) {
   rig.screen = shaped.screen;
   for (std::size_t n = 0; n < pictures_.size(); ++n) {
     const haptics::Tick* const other = runs_.size() == 2 ? &runs_[1 - n]->moments().tick() : nullptr;
-    pictures_[n]->update(choice, rig, view_->faceWindow_mm(), other);
+    pictures_[n]->update(choice, rig, view_->faceWindow_mm(), other, look);
     pictures_[n]->draw(quality);
   }
+}
+
+std::vector<std::optional<double>> DebriefScene::edges_mm() const {
+  std::vector<std::optional<double>> lengths_mm;
+  for (const auto& picture : pictures_) lengths_mm.push_back(picture->edges_mm());
+  return lengths_mm;
 }
 
 void DebriefScene::showOnWindow(glm::ivec2 corner_px, glm::ivec2 window_px) {

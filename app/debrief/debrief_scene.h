@@ -47,7 +47,9 @@ class DebriefScene {
   void backToFirst() { view_->backToFirst(); }
 
   /// Draws all pictures; `px`: of all of them together.
-  void draw(glm::ivec2 px, const render::Quality& quality);
+  void draw(glm::ivec2 px, const render::Quality& quality, DebriefRun::Look look = DebriefRun::Look::now);
+  /// By session, as drawn.
+  std::vector<std::optional<double>> edges_mm() const;
   /// Into the current window, the upper left corner of all at `corner_px` from the window's.
   void showOnWindow(glm::ivec2 corner_px, glm::ivec2 window_px);
   /// As drawn, side by side.

@@ -62,6 +62,10 @@ int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted) {
     scene.draw(plan.size_px, {});
     savePng(scene.image(), *snapshot);
     std::printf("picture at %.3f s written\n", std::min(plan.at_s, scene.length_s()));
+    if (plan.choice.edges)
+      for (const std::optional<double>& edges_mm : scene.edges_mm())
+        std::puts(edges_mm ? fmt::format("sharp edges {:.0f} mm", *edges_mm).c_str()
+                           : "sharp edges: none are told before a piece of the tooth is out");
   }
   for (std::size_t n = 0; n < names.size(); ++n) {
     scene.goTo(wanted.from_s + static_cast<double>(n) / wanted.frames_per_s);

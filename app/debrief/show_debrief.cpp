@@ -121,7 +121,7 @@ class DebriefWindow {
     for (const auto& run : scene_.runs()) {
       run->bookmarks();
       state_.runs.push_back(
-          {run->name(), run->length_s(), run->marks(), run->story().samples(), run->story().mostForce_N()});
+          {run->name(), run->length_s(), run->marks(), run->story().samples(), run->story().mostForce_N(), {}});
     }
   }
 
@@ -292,6 +292,9 @@ class DebriefWindow {
         choice.other_ghost = !choice.other_ghost;
         say(choice.other_ghost ? "ghost: the other session's tool" : "no ghost of the other session");
         break;
+      case DebriefAction::edges:
+        choice.edges = !choice.edges;
+        break;
       case DebriefAction::line:
         choice.has_line = !choice.has_line;
         break;
@@ -406,7 +409,16 @@ class DebriefWindow {
     scene_.choice = state_.choice;
     const Clock::time_point begun = Clock::now();
     const bool is_rough = on_processor_ && (is_near || jumps);
-    scene_.draw(px, refines ? render::kQualitySteps.front().quality : is_rough ? kScrubQuality : ladder_->quality());
+    const auto look = refines                                               ? DebriefRun::Look::now
+                      : state_.transport.isPlaying() && scene_.isPrepared() ? DebriefRun::Look::each_second
+                                                                            : DebriefRun::Look::never;
+    scene_.draw(px,
+                refines    ? render::kQualitySteps.front().quality
+                : is_rough ? kScrubQuality
+                           : ladder_->quality(),
+                look);
+    const auto edges_mm = scene_.edges_mm();
+    for (std::size_t n = 0; n < state_.runs.size(); ++n) state_.runs[n].edges_mm = edges_mm[n];
     if (!refines && !is_near && !is_rough) ladder_->add(secondsBetween(begun, Clock::now()), true);
     shown_ = Shown{position_s, state_.prepared_share, px, state_.choice, refines, is_near};
     view_changed_ = false;

@@ -1,6 +1,6 @@
 // What lies loose at the site of a recorded session, and what the soft tissue shows of the work, for any moment: chips,
 // follicle, stitches, cuts and red places, followed as in the rehearsal, at 50 looks a second instead of its frames,
-// and kept a few times a second where they changed. Marks of sharp edges are not: they are of the check afterwards.
+// and kept a few times a second where they changed. Sharp edges are not: DebriefRun looks for them.
 // Frame P. Any one thread; a microsecond a tick; at most kMost pictures of some kB.
 #pragma once
 

@@ -17,6 +17,9 @@
 
 namespace app {
 
+/// A point of a sharp edge, as it is drawn.
+inline render::Bead edgeMark(const glm::dvec3& p_P_mm) { return {{p_P_mm}, 0.18, render::BeadKind::mark}; }
+
 class LooseSite {
  public:
   /// Borrows bodies and soft tissue. `down_P`: unit, along gravity as the patient lies.

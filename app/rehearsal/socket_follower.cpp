@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-constexpr double kEdgeMark_mm = 0.18, kRestMark_mm = 0.6;  ///< radii
+constexpr double kRestMark_mm = 0.6;  ///< radius
 constexpr double kBetweenEvents_s = 1.0;
 
 Amount amountOf(const std::vector<const LooseChip*>& chips) {
@@ -109,7 +109,7 @@ std::vector<render::Bead> SocketFollower::beads() const {
   std::vector<render::Bead> beads = loose_.beads();
   if (!isAnyOut()) return beads;
   for (const SharpEdge& edge : watch_->newest()->edges)
-    for (const glm::dvec3& p : edge.points_P_mm) beads.push_back({{p}, kEdgeMark_mm, render::BeadKind::mark});
+    for (const glm::dvec3& p : edge.points_P_mm) beads.push_back(edgeMark(p));
   for (const Place& rest : watch_->newest()->record.retained)
     beads.push_back({{rest.centre_P_mm}, kRestMark_mm, render::BeadKind::mark});
   return beads;
