@@ -30,6 +30,7 @@ void addCompare(CommandLine& molar);
 void addTrend(CommandLine& molar);
 void addReference(CommandLine& molar);
 void addEvaluate(CommandLine& molar);
+void addSeat(CommandLine& molar);
 void addStudy(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
@@ -42,9 +43,9 @@ void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
 inline constexpr auto kCommands = {
-    addRehearse, addStart,  addImport,  addInspect,       addCheck,     addPlan,     addClearance, addFeel,
-    addCarve,    addSee,    addDisplay, addCalibrate,     addDevices,   addDoctor,   addDebrief,   addReplay,
-    addMetrics,  addReport, addCompare, addTrend,         addReference, addEvaluate, addStudy,     addSessions,
-    addExport,   addPieces, addLaws,    addPsychophysics, addHelp,      addManual,   addCompletion};
+    addRehearse, addStart,  addImport,  addInspect,   addCheck,         addPlan,     addClearance, addFeel,
+    addCarve,    addSee,    addDisplay, addCalibrate, addDevices,       addDoctor,   addDebrief,   addReplay,
+    addMetrics,  addReport, addCompare, addTrend,     addReference,     addEvaluate, addStudy,     addSessions,
+    addExport,   addPieces, addLaws,    addSeat,      addPsychophysics, addHelp,     addManual,    addCompletion};
 
 }  // namespace app

@@ -93,7 +93,8 @@ const TaskTemplate* EvaluationCourse::startTask(const Moment& at) {
 void EvaluationCourse::fired(const RuleFired& rule, const Moment& at) {
   const TaskTemplate* const task = running();
   if (task == nullptr) return;
-  log(at, "system", "rule",
+  // Of the tick that made it hold, also where its bone was told later.
+  log({at.t_ns, at.tick ? std::optional(rule.told_at) : std::nullopt}, "system", "rule",
       {{"task", task->id},
        {"verdict", std::string(kRuleVerdicts[static_cast<std::size_t>(rule.verdict)])},
        {"rule_tick", static_cast<std::int64_t>(rule.tick)},

@@ -9,9 +9,21 @@
 #include "app/text/message.h"
 
 namespace app {
+namespace {
+
+/// For what a second servo says: of all ticks where they are the clock, of the last ones at the end.
+constexpr std::chrono::minutes kLongestWait{10};
+constexpr std::chrono::milliseconds kLastWait{2000};
+
+}  // namespace
 
 EvaluationDesk::EvaluationDesk(Parts parts, bool begins_by_itself)
     : parts_(std::move(parts)), begins_by_itself_(begins_by_itself), tray_(parts_.study.tools()) {}
+
+void EvaluationDesk::open(const assets::RiskStructures& structures, const std::string& recording) {
+  structures_ = &structures;
+  if (parts_.bone != nullptr) parts_.bone->start(recording);
+}
 
 Moment EvaluationDesk::now() const {
   constexpr double kSecond_ns = 1e9;
@@ -44,8 +56,14 @@ void EvaluationDesk::begin() {
   const TaskTemplate* const running = parts_.course.running();
   if (running == watched_) return;
   tellEnd();
+  // What the rules were not asked for any more, as a person decided first.
+  if (watched_ != nullptr && parts_.bone != nullptr)
+    parts_.course.log(now(), "system", "rules.looked",
+                      {{"task", watched_->id}, {"until", looked_ ? static_cast<std::int64_t>(*looked_) : -1}});
   watched_ = running;
   watch_.reset();
+  unlooked_.clear();
+  looked_.reset();
   if (running == nullptr) return;
   watch_.emplace(*running, *structures_);
   task_began_s_ = now_s_;
@@ -87,27 +105,57 @@ void EvaluationDesk::takeSaid() {
 void EvaluationDesk::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
                             std::uint64_t serial) {
   if (commands_.empty() || commands_.back().serial != serial) commands_.push_back({serial, command});
+  // Where the ticks are the clock, all that is to be told of them is told first.
+  if (parts_.bone != nullptr && !ticks.empty())
+    parts_.bone->update(ticks.back().index, parts_.clock_ns ? std::chrono::milliseconds(0) : kLongestWait);
   for (const haptics::Tick& tick : ticks) {
     if (begins_by_itself_ && parts_.course.running() == nullptr) parts_.course.startTask({now().t_ns, tick.index});
     begin();
     next_tick_ = tick.index + 1;
     now_s_ = tick.t_s + tick.dt_s;
     dt_s_ = tick.dt_s;
-    if (watch_) {
-      if (const auto fired = watch_->add(tick, commandOf(tick))) {
-        marks_.push_back(fmt::format("rule {} {} {}", watched_->id,
-                                     kRuleVerdicts[static_cast<std::size_t>(fired->verdict)], fired->tick));
-        parts_.course.fired(*fired, now());
-      }
-    }
+    if (watch_) unlooked_.push_back({tick, commandOf(tick)});
+    lookAtRules();
     // A script says it at its tick.
     if (!parts_.clock_ns) takeSaid();
   }
+  lookAtRules();
   if (parts_.clock_ns) takeSaid();
   begin();
+  tellBoneNews();
   // Ticks of one command are enough of it.
   constexpr std::size_t kMostCommands = 64;
   if (commands_.size() > kMostCommands) commands_.erase(commands_.begin());
+}
+
+bool EvaluationDesk::isKnown(const haptics::Tick& tick) const {
+  return parts_.bone == nullptr || parts_.bone->isLost() || tick.index < parts_.bone->followed();
+}
+
+void EvaluationDesk::lookAtRules() {
+  while (watch_ && parts_.course.running() == watched_ && !unlooked_.empty() && isKnown(unlooked_.front().tick)) {
+    const Unlooked one = unlooked_.front();
+    unlooked_.pop_front();
+    looked_ = one.tick.index;
+    const auto bone = [&](std::string_view id) -> std::optional<double> {
+      return parts_.bone == nullptr || one.tick.index >= parts_.bone->followed()
+                 ? std::nullopt
+                 : parts_.bone->value(id, one.tick.index);
+    };
+    const auto fired = watch_->add(one.tick, one.in_force, bone);
+    if (!fired) continue;
+    marks_.push_back(fmt::format("rule {} {} {}", watched_->id, kRuleVerdicts[static_cast<std::size_t>(fired->verdict)],
+                                 fired->tick));
+    parts_.course.fired(*fired, now());
+  }
+}
+
+void EvaluationDesk::tellBoneNews() {
+  if (parts_.bone == nullptr) return;
+  for (BoneSource::News& news : parts_.bone->takeNews()) {
+    printMessage(news.type + (news.data.empty() ? "" : ", see the event log"));
+    parts_.course.log(now(), "system", news.type, std::move(news.data));
+  }
 }
 
 std::vector<ControlRequest> EvaluationDesk::takeRequests() { return std::exchange(requests_, {}); }
@@ -147,8 +195,14 @@ bool EvaluationDesk::isOver() const {
 }
 
 void EvaluationDesk::finish() {
+  if (parts_.bone != nullptr && !unlooked_.empty()) {
+    parts_.bone->update(unlooked_.back().tick.index, parts_.clock_ns ? kLastWait : kLongestWait);
+    lookAtRules();
+    begin();
+  }
   parts_.course.endOfRehearsal(now());
   begin();
+  tellBoneNews();
 }
 
 }  // namespace app

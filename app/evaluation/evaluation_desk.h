@@ -1,9 +1,12 @@
 // The tasks of an evaluation during a rehearsal: follows every tick with the command in force, lets the rules fire,
 // begins and ends tasks, takes what the evaluator or the script says, and tells the surgeon the task. It changes
-// nothing that is felt but the instrument that a task begins with. Main thread, once a frame; the cost of task_watch.
+// nothing that is felt but the instrument that a task begins with. Rules that need the bone of a tick are looked at
+// once it is told: they fire with the tick that they are of, and the task ends when that is known. Main thread, once a
+// frame; the cost of task_watch.
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +15,7 @@
 #include <vector>
 
 #include "app/controls/control.h"
+#include "app/evaluation/bone_source.h"
 #include "app/evaluation/evaluation_course.h"
 #include "app/evaluation/script.h"
 #include "haptics/servo/command.h"
@@ -33,12 +37,14 @@ class EvaluationDesk {
     Evaluator evaluator;
     std::function<std::int64_t()> clock_ns;  ///< none where the ticks are the clock (fast)
     std::int64_t begun_ns = 0;               ///< of the log, at the first tick: where the ticks are the clock
+    BoneSource* bone = nullptr;              ///< for rules that need it; null: what they name has no value
   };
   /// Borrows all. The next task begins by itself where a script leads, else when the evaluator says so.
   EvaluationDesk(Parts parts, bool begins_by_itself);
 
-  /// Once the case is there, with the study's tools as the tray: the structures that the bur keeps off. Borrowed.
-  void open(const assets::RiskStructures& structures) { structures_ = &structures; }
+  /// Once the case is there, with the study's tools as the tray: the structures that the bur keeps off, borrowed, and
+  /// the file of the recording, empty where there is none.
+  void open(const assets::RiskStructures& structures, const std::string& recording);
   /// All ticks, in order; `command` in force now, with the number that ticks tell of it.
   void follow(std::span<const haptics::Tick> ticks, const haptics::Command& command, std::uint64_t serial);
 
@@ -63,11 +69,19 @@ class EvaluationDesk {
     std::uint64_t serial = 0;
     haptics::Command command;
   };
+  /// A tick of the running task whose bone is not told yet.
+  struct Unlooked {
+    haptics::Tick tick;
+    haptics::Command in_force;
+  };
   const haptics::Command& commandOf(const haptics::Tick& tick) const;
   void begin();
   void tellEnd();
   void say(LogEvent event, const std::string& where);
   void takeSaid();
+  bool isKnown(const haptics::Tick& tick) const;
+  void lookAtRules();
+  void tellBoneNews();
 
   Parts parts_;
   bool begins_by_itself_;
@@ -75,6 +89,8 @@ class EvaluationDesk {
   std::vector<std::string> tray_;
   std::vector<Numbered> commands_;
   std::optional<TaskWatch> watch_;
+  std::deque<Unlooked> unlooked_;
+  std::optional<std::uint64_t> looked_;  ///< newest tick of the task whose rules were looked at
   const TaskTemplate* watched_ = nullptr;
   std::uint64_t next_tick_ = 0;
   double now_s_ = 0.0, dt_s_ = 0.0, task_began_s_ = 0.0;

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/evaluation/seat/follower.h"
 #include "app/evaluation/task_watch.h"
 #include "app/session/session_reader.h"
 #include "app/station/session_patient.h"
@@ -18,7 +19,7 @@ namespace {
 struct Told {
   const TaskTemplate* task = nullptr;
   std::uint64_t start = 0;
-  std::optional<std::uint64_t> stop;
+  std::optional<std::uint64_t> stop, looked_end;
   std::vector<RuleFired> fired, again;
   std::unique_ptr<TaskWatch> watch;
 };
@@ -29,10 +30,16 @@ std::vector<Told> toldIn(const StudyTemplate& study, const std::vector<LogEvent>
     const std::string* const id = event.text("task");
     if (event.type == "task.start" && id != nullptr && event.tick) {
       const auto place = study.taskNamed(*id);
-      if (place) told.push_back({&study.tasks[*place], *event.tick, {}, {}, {}, {}});
+      if (place) told.push_back({&study.tasks[*place], *event.tick, {}, {}, {}, {}, {}});
     }
     if (told.empty()) continue;
     if (event.type == "task.stop") told.back().stop = event.tick;
+    // Where bone was waited for, they were looked at until then.
+    if (event.type == "rules.looked" && id != nullptr) {
+      const auto of = std::find_if(told.rbegin(), told.rend(), [&](const Told& one) { return one.task->id == *id; });
+      if (of != told.rend())
+        of->looked_end = static_cast<std::uint64_t>(std::max(-1.0, event.number("until").value_or(-1.0)) + 1.0);
+    }
     if (event.type != "rule" || !event.tick) continue;
     const std::string* const verdict = event.text("verdict");
     const auto found = std::ranges::find(kRuleVerdicts, verdict == nullptr ? std::string_view() : *verdict);
@@ -54,14 +61,24 @@ RuleCheck checkRules(const StudyTemplate& study, const std::vector<LogEvent>& ev
   std::vector<Told> told = toldIn(study, events);
   for (Told& one : told) one.watch = std::make_unique<TaskWatch>(*one.task, risks);
 
+  std::optional<Follower> follower;
+  if (std::vector<std::string> ids = boneMeasuresOf(study); !ids.empty()) follower.emplace(start, std::move(ids));
+  if (follower) follower->add(commands);
+  const auto bone = [&](std::string_view id) -> std::optional<double> {
+    const auto found = std::ranges::find(follower->measures().ids(), id);
+    return follower->measures().values()[static_cast<std::size_t>(found - follower->measures().ids().begin())];
+  };
   haptics::Command in_force;
   auto next = commands.begin();
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
     for (const haptics::Tick& tick : block.ticks) {
       for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
+      if (follower) follower->step(tick);
       for (Told& one : told)
-        if (tick.index >= one.start && (!one.stop || tick.index <= *one.stop))
-          if (const auto fired = one.watch->add(tick, in_force)) one.again.push_back(*fired);
+        if (tick.index >= one.start && (!one.stop || tick.index <= *one.stop) &&
+            (!one.looked_end || tick.index < *one.looked_end))
+          if (const auto fired = one.watch->add(tick, in_force, follower ? BoneValue(bone) : BoneValue()))
+            one.again.push_back(*fired);
     }
 
   RuleCheck check;

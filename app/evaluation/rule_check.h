@@ -1,5 +1,5 @@
 // Whether the rules fire in the recording where they fired live: the same ticks and commands, the same code. Any
-// thread but the servo; a third of a second for a minute.
+// thread but the servo; a third of a second for a minute, and where rules need the bone the servo's steps again.
 #pragma once
 
 #include <string>

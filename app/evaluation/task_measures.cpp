@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/session/measures/outcome.h"
 #include "app/session/measures/work_sample.h"
 #include "haptics/body/bodies.h"
 
 namespace app {
+namespace {
 
-const std::vector<RuleMeasure>& ruleMeasures() {
-  static const std::vector<RuleMeasure> kKnown{
+/// Those that a tick decides.
+std::vector<RuleMeasure> ofTicks() {
+  return {
       {"time", "s"},
       {"pieces", ""},
       {"pieces_out", ""},
@@ -37,7 +40,21 @@ const std::vector<RuleMeasure>& ruleMeasures() {
       {"S9.events", ""},
       {"S10.dry", "s"},
   };
+}
+
+}  // namespace
+
+const std::vector<RuleMeasure>& ruleMeasures() {
+  static const std::vector<RuleMeasure> kKnown = [] {
+    std::vector<RuleMeasure> known = ofTicks();
+    for (const MeasureName& one : outcomeNames()) known.push_back({one.id, one.unit});
+    return known;
+  }();
   return kKnown;
+}
+
+bool needsBone(std::string_view id) {
+  return std::ranges::find(outcomeNames(), id, &MeasureName::id) != outcomeNames().end();
 }
 
 TaskMeasures::TaskMeasures(const assets::RiskStructures& structures, std::vector<std::string> ids)
@@ -48,13 +65,15 @@ TaskMeasures::TaskMeasures(const assets::RiskStructures& structures, std::vector
       asks_tissue_(asks("S8.") || asks("S9.")),
       asks_hand_(asks("M") || asks("S10.")),
       clearance_(structures),
-      near_(structures) {}
+      near_(structures) {
+  for (const std::string& id : ids_) needs_bone_.push_back(needsBone(id));
+}
 
 bool TaskMeasures::asks(std::string_view beginning) const {
   return std::ranges::any_of(ids_, [&](const std::string& id) { return id.starts_with(beginning); });
 }
 
-void TaskMeasures::add(const haptics::Tick& tick, const haptics::Command& in_force) {
+void TaskMeasures::add(const haptics::Tick& tick, const haptics::Command& in_force, const BoneValue& bone) {
   time_s_ += tick.dt_s;
   removed_mm3_ += tick.removed_mm3;
   if (asks_clearance_) clearance_.add(tick, in_force.tool);
@@ -70,6 +89,7 @@ void TaskMeasures::add(const haptics::Tick& tick, const haptics::Command& in_for
     if (ids_[n] == "pieces") values_[n] = tick.pieces;
     if (ids_[n] == "pieces_out") values_[n] = static_cast<double>(aside);
     if (ids_[n] == "O1.removed") values_[n] = removed_mm3_;
+    if (needs_bone_[n]) values_[n] = bone ? bone(ids_[n]) : std::nullopt;
   }
   if (asks_clearance_) read(clearance_.values());
   if (asks_near_) read(near_.values());

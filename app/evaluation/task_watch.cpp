@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kRounding_s = 1e-9;  ///< of sums of dt
 
+}  // namespace
+
 std::vector<std::string> measuresOf(const TaskTemplate& task) {
   std::vector<std::string> ids = task.success.measures();
   if (task.fail)
@@ -17,7 +19,13 @@ std::vector<std::string> measuresOf(const TaskTemplate& task) {
   return ids;
 }
 
-}  // namespace
+std::vector<std::string> boneMeasuresOf(const StudyTemplate& study) {
+  std::vector<std::string> ids;
+  for (const TaskTemplate& task : study.tasks)
+    for (const std::string& id : measuresOf(task))
+      if (needsBone(id) && std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+  return ids;
+}
 
 TaskWatch::TaskWatch(const TaskTemplate& task, const assets::RiskStructures& structures)
     : task_(task), measures_(structures, measuresOf(task)) {}
@@ -34,10 +42,11 @@ std::optional<RuleFired> TaskWatch::look(const Rule& rule, RuleVerdict verdict, 
   return RuleFired{verdict, since->tick, tick.index, since->time_s};
 }
 
-std::optional<RuleFired> TaskWatch::add(const haptics::Tick& tick, const haptics::Command& in_force) {
+std::optional<RuleFired> TaskWatch::add(const haptics::Tick& tick, const haptics::Command& in_force,
+                                        const BoneValue& bone) {
   if (is_decided_) return {};
   time_s_ += tick.dt_s;
-  measures_.add(tick, in_force);
+  measures_.add(tick, in_force, bone);
   std::optional<RuleFired> fired;
   if (task_.fail) fired = look(*task_.fail, RuleVerdict::failed, failed_since_, tick);
   const auto success = look(task_.success, RuleVerdict::success, success_since_, tick);

@@ -24,6 +24,11 @@ struct RuleFired {
   bool operator==(const RuleFired&) const = default;
 };
 
+/// Ids of the measures that the rules of a task name, each once.
+std::vector<std::string> measuresOf(const TaskTemplate& task);
+/// Those of all tasks that need the bone of their tick.
+std::vector<std::string> boneMeasuresOf(const StudyTemplate& study);
+
 class TaskWatch {
  public:
   /// Borrows both.
@@ -31,7 +36,7 @@ class TaskWatch {
 
   /// Returns what fires with this tick. Success or failure is the last; the time box fires once, and the rules are
   /// looked at on. Failure wins where both hold long enough in one tick.
-  std::optional<RuleFired> add(const haptics::Tick& tick, const haptics::Command& in_force);
+  std::optional<RuleFired> add(const haptics::Tick& tick, const haptics::Command& in_force, const BoneValue& bone = {});
 
   double time_s() const { return time_s_; }
   /// "O1.removed 12.3 mm3 · S1.canal 2.1 mm"; what is not known yet is left out.

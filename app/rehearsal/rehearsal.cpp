@@ -96,7 +96,7 @@ class Rehearsal {
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
-    if (plan_.evaluation) plan_.evaluation->open(plan_.risks);
+    if (plan_.evaluation) plan_.evaluation->open(plan_.risks, station().recordingFile().value_or(""));
     if (equipment_.led() != nullptr) beginOperation();
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
@@ -286,6 +286,8 @@ class Rehearsal {
   /// Marks go into the recording, words do not.
   void followEvaluation(std::span<const haptics::Tick> ticks, const haptics::Command& command) {
     EvaluationDesk& desk = *plan_.evaluation;
+    // It waits for who follows by what is written.
+    if (!pace_.isRealTime()) station().write();
     desk.follow(ticks, command, station().commandSerial());
     for (const ControlRequest& request : desk.takeRequests()) active_command_.execute(request);
     for (const std::string& mark : desk.takeMarks()) event_log_.note(kEvaluationEvent, mark);

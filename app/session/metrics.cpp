@@ -213,7 +213,7 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const B
   add(!case_of ? noOutcome(kNotLookedAt)
       : !clock ? noOutcome("the bone at the end is not known")
                : outcomeMeasures(
-                     {start, *after, *clock, surface, about, metrics.socket, parted_s, metrics.removed_mm3_by_label}));
+                     {start, *after, *clock, &surface, about, metrics.socket, parted_s, metrics.removed_mm3_by_label}));
   if (const auto task = assets::practiceTaskOf(start.setup.practice); task && clock)
     add(practiceMeasures(*task, start.grid, start.label, start.solid, *after));
   metrics.envelope = near.envelope();

@@ -35,7 +35,9 @@ struct Recorder::Impl {
 
   // The recording thread's own.
   SessionWriter writer;
+  const std::string first_file;
   const std::optional<std::string> temporary_file;
+  TickTap* tap;
   SessionBatch batch;
   std::deque<haptics::Command> unconfirmed_commands;
   std::uint64_t serial_in_force, ticks_seen = 0, next_index = 0, gaps = 0;
@@ -44,11 +46,16 @@ struct Recorder::Impl {
   std::optional<RecordingSummary> summary;
   std::thread thread;
 
-  Impl(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& ticks)
+  Impl(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& ticks, TickTap* told)
       : log(ticks),
         writer(path, overwrite, start),
+        first_file(writer.file()),
         temporary_file(writer.replaces() ? std::optional(writer.file()) : std::nullopt),
-        serial_in_force(start.command.serial) {}
+        tap(told),
+        serial_in_force(start.command.serial) {
+    const SessionCommand first{start.command, 0};
+    if (tap != nullptr) tap->take({&first, 1}, {});
+  }
 
   void run() {
     for (bool last = false; !last;) {
@@ -62,7 +69,7 @@ struct Recorder::Impl {
   }
 
   void drain() noexcept {
-    if (writing) attempt([this] { take(), trackTicks(), write(); });
+    if (writing) attempt([this] { take(), trackTicks(), tell(), write(); });
     // After an early end the rest is counted as lost.
     if (!writing) ticks_seen += log.discard();
   }
@@ -108,6 +115,10 @@ struct Recorder::Impl {
     unconfirmed_commands.erase(unconfirmed_commands.begin(), found + 1);
   }
 
+  void tell() noexcept {
+    if (tap != nullptr && !batch.ticks.empty()) tap->take(batch.commands, batch.ticks);
+  }
+
   /// Nothing is written before the first tick.
   void write() {
     const bool begun = writer.ticks() > 0 || !batch.ticks.empty();
@@ -142,6 +153,7 @@ struct Recorder::Impl {
 
   void stopRecording(const char* why) noexcept {
     writing = false;
+    if (tap != nullptr) tap->end();
     const std::scoped_lock lock(mutex);
     try {
       trouble = std::string("the recording ended early: ") + why;
@@ -152,14 +164,16 @@ struct Recorder::Impl {
 };
 
 Recorder::Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
-                   DrainMode drain_mode)
-    : impl_(std::make_unique<Impl>(path, overwrite, start, log)) {
+                   DrainMode drain_mode, TickTap* tap)
+    : impl_(std::make_unique<Impl>(path, overwrite, start, log, tap)) {
   if (drain_mode == DrainMode::by_thread) impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
 }
 
 Recorder::~Recorder() { stop(); }
 
 const std::optional<std::string>& Recorder::temporaryFile() const { return impl_->temporary_file; }
+
+const std::string& Recorder::firstFile() const { return impl_->first_file; }
 
 void Recorder::command(const haptics::Command& command) noexcept {
   const std::scoped_lock lock(impl_->mutex);

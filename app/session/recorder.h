@@ -12,6 +12,7 @@
 #include <string>
 
 #include "app/session/session_start.h"
+#include "app/session/tick_tap.h"
 #include "haptics/body/bodies.h"
 #include "haptics/servo/tick_log.h"
 
@@ -34,14 +35,16 @@ enum class DrainMode { by_thread, by_hand };
 class Recorder {
  public:
   /// Throws SessionError if the file exists and not `overwrite`, or cannot be created. Borrows the log and is its only
-  /// reader; construct before the servo's first tick.
+  /// reader; construct before the servo's first tick. `tap`: borrowed; null: nobody else is told of the ticks.
   Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
-           DrainMode drain_mode = DrainMode::by_thread);
+           DrainMode drain_mode = DrainMode::by_thread, TickTap* tap = nullptr);
   /// Stops, if stop() was not called.
   ~Recorder();
 
   /// The temporary name of the file until it replaces another at the close; none: there is nothing to replace.
   const std::optional<std::string>& temporaryFile() const;
+  /// Its name until the first ticks are in it. From now on it holds the start, which does not change any more.
+  const std::string& firstFile() const;
 
   /// Call before the command is published to the servo.
   void command(const haptics::Command& command) noexcept;

@@ -70,6 +70,10 @@ Rerun::Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue
     first_.emplace(bodies);
 }
 
+void Rerun::expectMore() {
+  if (!first_) first_.emplace(bodies_);
+}
+
 std::optional<std::string> Rerun::prepare(const haptics::Tick& recorded) {
   const std::uint64_t lost = recorded.index - std::exchange(next_index_, recorded.index + 1);
   // Of several for one tick the servo sees the last.

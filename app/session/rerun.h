@@ -36,6 +36,13 @@ class Rerun {
   Rerun(haptics::Bodies& bodies, const assets::SoftTissueField& soft_tissue, std::vector<SessionCommand> commands,
         Keeping keeping = Keeping::what_is_in_use);
 
+  /// Commands come while it runs, each before the tick that it is first in force in: what a later one may need is kept.
+  /// Before the first step.
+  void expectMore();
+  void add(std::span<const SessionCommand> commands) {
+    commands_.insert(commands_.end(), commands.begin(), commands.end());
+  }
+
   /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
   std::optional<std::string> prepare(const haptics::Tick& recorded);
   haptics::Tick step(const haptics::Tick& recorded);

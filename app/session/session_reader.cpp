@@ -251,6 +251,15 @@ SessionReader::SessionReader(const std::string& named) {
   }
 }
 
+StoredStart SessionReader::startWhileRecorded(const std::string& path) {
+  try {
+    Impl impl(path);
+    return impl.reading([&] { return impl.start(); });
+  } catch (const SQLite::Exception& error) {
+    throw notRead(path, error);
+  }
+}
+
 SessionReader::~SessionReader() = default;
 
 bool SessionReader::closed() const { return impl_->closed; }

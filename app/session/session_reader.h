@@ -30,6 +30,10 @@ class SessionReader {
   explicit SessionReader(const std::string& path);
   ~SessionReader();
 
+  /// The start of a session while another program records it, also of one that is closed: what the file holds of it
+  /// does not change. Throws SessionError.
+  static StoredStart startWhileRecorded(const std::string& path);
+
   /// One line on the first change found: chain over all rows, then the seal over the file. Reads it all.
   std::optional<std::string> damage();
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "app/session/session_error.h"
+#include "calibration/random.h"
 
 namespace app {
 namespace {
@@ -242,6 +243,16 @@ std::vector<std::uint8_t> packTicks(std::span<const haptics::Tick> ticks) {
     for (std::size_t b = 0; b < kRowBytes; ++b) planes[b * count + t] = row[b];
   }
   return planes;
+}
+
+std::uint64_t digestOf(const haptics::Tick& tick) {
+  haptics::Tick timeless = tick;
+  timeless.work_us = 0.0f;
+  std::uint64_t digest = 0;
+  forEachColumn(timeless, [&](const Text&, const auto& field) {
+    digest = calibration::mixedBits(digest ^ static_cast<std::uint64_t>(bitsOf(field)));
+  });
+  return digest;
 }
 
 TickUnpacker::Type TickUnpacker::typeOf(const std::string& text) {

@@ -28,6 +28,8 @@ struct TickColumn {
 /// The columns this program writes.
 const std::vector<TickColumn>& tickColumns();
 std::vector<std::uint8_t> packTicks(std::span<const haptics::Tick> ticks);
+/// Of every column but work_us: two ticks with the same digest are the same, bit for bit.
+std::uint64_t digestOf(const haptics::Tick& tick);
 
 /// Reads blocks stored with the columns of a table.
 class TickUnpacker {

@@ -44,7 +44,8 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.started_utc = calibration::nowUtc();
   try {
     return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log,
-                                      ticking == Ticking::stepped ? DrainMode::by_hand : DrainMode::by_thread);
+                                      ticking == Ticking::stepped ? DrainMode::by_hand : DrainMode::by_thread,
+                                      recording->tap);
   } catch (const SessionError& error) {
     if (!recording->by_default) throw;
     refusal = error.what();
@@ -99,10 +100,13 @@ void Workstation::step(std::uint64_t ticks) {
     loop_.step(now);
     ticks -= now;
     unwritten_ += now;
-    if (unwritten_ < together) continue;
-    if (recorder_) recorder_->drain();
-    unwritten_ = 0;
+    if (unwritten_ >= together) write();
   }
+}
+
+void Workstation::write() {
+  if (recorder_) recorder_->drain();
+  unwritten_ = 0;
 }
 
 std::vector<haptics::Tick> Workstation::takeTicks() {
@@ -128,6 +132,10 @@ void Workstation::change(haptics::Command command) {
   command_ = haptics::limitedTo(device_->capabilities(), rate_Hz_, command);
   if (recorder_) recorder_->command(command_);
   commands_.publish(command_);
+}
+
+std::optional<std::string> Workstation::recordingFile() const {
+  return recorder_ ? std::optional(recorder_->firstFile()) : std::nullopt;
 }
 
 std::optional<std::string> Workstation::temporaryFile() const {

@@ -27,6 +27,7 @@ struct Recording {
   SessionCalibration calibration = {};
   SessionSetup setup = {};
   bool by_default = false;  ///< nobody asked for it: if it cannot be made, the rehearsal goes on without
+  TickTap* tap = nullptr;   ///< borrowed; null: nobody else is told of the ticks
 };
 
 class Workstation {
@@ -49,6 +50,8 @@ class Workstation {
 
   /// Stepped only: makes ticks and writes them.
   void step(std::uint64_t ticks);
+  /// Stepped only: writes at once what step() kept for later.
+  void write();
 
   /// Active from a later tick on, stepped from the next; recorded.
   void change(haptics::Command command);
@@ -57,6 +60,8 @@ class Workstation {
   bool isApplied(const haptics::Tick& tick) const { return tick.command_serial == command_.serial; }
   void note(const std::string& kind, const std::string& text);
 
+  /// Recorder::firstFile; none: nothing is recorded.
+  std::optional<std::string> recordingFile() const;
   /// Recorder::temporaryFile.
   std::optional<std::string> temporaryFile() const;
   /// A line, if recording has ended early or could not begin.

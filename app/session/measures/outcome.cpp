@@ -60,19 +60,23 @@ class Outcome {
   explicit Outcome(const OutcomeOf& of) : of_(of), values_(untold(kOutcomes, "")) {}
 
   std::vector<MeasureValue> values() {
-    removed();
-    againstPlan();
-    lingual();
-    trough();
-    section();
-    secondMolar();
-    leftIn();
+    if (isWanted("O1.")) removed();
+    if (isWanted("O2.") || isWanted("O3.") || isWanted("O4.")) againstPlan();
+    if (isWanted("O5.") || isWanted("O6.")) lingual();
+    if (isWanted("O7.") || isWanted("O8.")) trough();
+    if (isWanted("O9.")) section();
+    if (isWanted("O10.")) secondMolar();
+    if (isWanted("O11.")) leftIn();
     for (MeasureValue& value : values_)
       if (value.value) value.conditions = fmt::format("voxel {:g} mm", of_.start.grid.spacing_mm);
     return std::move(values_);
   }
 
  private:
+  bool isWanted(std::string_view beginning) const {
+    return of_.wanted.empty() ||
+           std::ranges::any_of(of_.wanted, [&](const std::string& id) { return id.starts_with(beginning); });
+  }
   MeasureValue& named(std::string_view id) { return *std::ranges::find(values_, id, &MeasureValue::id); }
   void tell(std::string_view id, std::optional<double> value, std::string_view why = {},
             std::optional<double> t_s = {}) {
@@ -91,20 +95,13 @@ class Outcome {
 
   /// By zone in the order of Zone.
   void removed() {
-    constexpr std::array<std::string_view, kZones> kIds{"O1.occlusal", "O1.buccal",  "O1.distal",
-                                                        "O1.mesial",   "O1.lingual", "O1.apical"};
+    constexpr std::span kIds = kZoneMeasures;
     const StoredStart& start = of_.start;
     if (!isLabelled()) {
       refuse({"O1.bone", "O1.tooth"}, "tissues are not labelled");
       return refuse(kIds, "tissues are not labelled");
     }
-    const int fdi = start.setup.site ? start.setup.site->fdi : 0;
-    const auto is_tooth = [&](std::size_t v) {
-      return start.is_tooth.empty() ? fdi != 0 && !start.teeth.empty() && start.teeth[v] == fdi
-                                    : start.is_tooth[v] != 0;
-    };
-    const std::optional<Zones> zones =
-        of_.about.directions ? Zones::around(start.grid, is_tooth, *of_.about.directions) : std::nullopt;
+    const std::optional<Zones> zones = zonesOfCase(start, of_.about);
     const double voxel_mm3 = start.grid.voxelVolume_mm3();
     double bone_mm3 = 0.0, tooth_mm3 = 0.0;
     std::array<double, kZones> by_zone_mm3{};
@@ -172,7 +169,7 @@ class Outcome {
                               std::string_view("O7.width"),   std::string_view("O7.width_cv"),
                               std::string_view("O7.section"), std::string_view("O7.length")};
     const auto gouge_ids = {std::string_view("O8.gouges"), std::string_view("O8.deepest")};
-    if (!of_.about.plan || !isLabelled()) {
+    if (!of_.about.plan || !isLabelled() || of_.surface == nullptr) {
       refuse(profile_ids, of_.about.why_no_plan);
       return refuse(gouge_ids, of_.about.why_no_plan);
     }
@@ -183,7 +180,7 @@ class Outcome {
     axes.across_P = glm::cross(axes.along_P, axes.outward_P);
     const auto counts = [this](std::size_t v) { return isBone(v); };
     const auto profile =
-        troughProfile(of_.clock, axes, counts, [this](const glm::dvec3& p) { return -of_.surface.distance_mm(p); });
+        troughProfile(of_.clock, axes, counts, [this](const glm::dvec3& p) { return -of_.surface->distance_mm(p); });
     if (profile) {
       tell("O7.depth", profile->depth_mm.mean), tell("O7.depth_cv", profile->depth_mm.variation);
       tell("O7.width", profile->width_mm.mean), tell("O7.width_cv", profile->width_mm.variation);
@@ -232,6 +229,8 @@ class Outcome {
 };
 
 }  // namespace
+
+std::span<const MeasureName> outcomeNames() { return kOutcomes; }
 
 std::vector<MeasureValue> outcomeMeasures(const OutcomeOf& of) { return Outcome(of).values(); }
 

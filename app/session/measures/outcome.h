@@ -5,8 +5,10 @@
 // any thread; a second.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "app/session/measures/original_surface.h"
 #include "app/session/measures/removal_clock.h"
 #include "app/session/measures/session_case.h"
+#include "app/session/measures/zones.h"
 #include "app/session/session_text.h"
 #include "app/session/socket_event.h"
 
@@ -23,13 +26,22 @@ struct OutcomeOf {
   const StoredStart& start;
   std::span<const std::uint8_t> after;  ///< solid at the end
   const RemovalClock& clock;
-  const OriginalSurface& surface;
+  const OriginalSurface* surface;  ///< for O7, O8; null: they have no value
   const SessionCase& about;
   const std::optional<SocketRecord>& socket;
   std::optional<double> parted_s;  ///< when the tooth first came apart; none: it did not
   /// As recorded; none: what a bur covered of the tooth counts as removed by it.
   std::optional<RemovedByTissue> removed_mm3 = {};
+  /// Ids that are wanted, others may have no value; empty: all.
+  std::span<const std::string> wanted = {};
 };
+
+/// By zone, in the order of Zone.
+inline constexpr std::array<std::string_view, kZones> kZoneMeasures{"O1.occlusal", "O1.buccal",  "O1.distal",
+                                                                    "O1.mesial",   "O1.lingual", "O1.apical"};
+
+/// Ids, names and units of all.
+std::span<const MeasureName> outcomeNames();
 
 std::vector<MeasureValue> outcomeMeasures(const OutcomeOf& of);
 /// Without the bone at the end: each measure with why.

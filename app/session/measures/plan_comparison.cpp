@@ -14,8 +14,6 @@ std::optional<double> diceOf(double a, double b, double both) {
   return a + b > 0.0 ? std::optional(2.0 * both / (a + b)) : std::nullopt;
 }
 
-double lost(std::uint8_t before, std::uint8_t after) { return before > after ? (before - after) / 255.0 : 0.0; }
-
 }  // namespace
 
 bool countsAsBone(std::uint8_t label) { return assets::isHard(label) && !assets::isTooth(label); }
@@ -29,7 +27,7 @@ RemovalDifference compareRemovals(const assets::VolumeGrid& grid, std::span<cons
   const double voxel_mm3 = grid.spacing_mm * grid.spacing_mm * grid.spacing_mm;
   RemovalDifference found;
   for (std::size_t v = 0; v < before.size(); ++v) {
-    const double a = lost(before[v], after_a[v]), b = lost(before[v], after_b[v]);
+    const double a = lostShare(before[v], after_a[v]), b = lostShare(before[v], after_b[v]);
     if ((a == 0.0 && b == 0.0) || !counts(v)) continue;
     found.a_mm3 += a * voxel_mm3;
     found.b_mm3 += b * voxel_mm3;
@@ -41,23 +39,26 @@ RemovalDifference compareRemovals(const assets::VolumeGrid& grid, std::span<cons
 PlanComparison compareWithPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t> before,
                                std::span<const std::uint8_t> after, const std::function<bool(std::size_t)>& counts,
                                const std::function<double(const glm::dvec3&)>& from_plan_mm) {
-  // Half a voxel or less of one cell is noise at its surface, not a cut.
-  constexpr double kCut = 0.5;
   const double h = grid.spacing_mm, voxel_mm3 = h * h * h;
   PlanComparison found;
   std::vector<std::pair<double, double>> over;  // distance, volume
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     if (before[v] == 0 || !counts(v)) return;
     const double distance_mm = from_plan_mm(grid.centre_P_mm(ijk));
-    const double inside = std::clamp(0.5 - distance_mm / h, 0.0, 1.0);
-    const double removed = lost(before[v], after[v]);
+    const double inside = shareInPlan(distance_mm, h);
+    const double removed = lostShare(before[v], after[v]);
     const double planned = inside * before[v] / 255.0, both = std::min(removed, planned);
     found.removed_mm3 += removed * voxel_mm3;
     found.planned_mm3 += planned * voxel_mm3;
     found.both_mm3 += both * voxel_mm3;
-    if (removed - both > kCut && distance_mm > 0.0) over.emplace_back(distance_mm + 0.5 * h, removed - both);
+    if (isOverCut(removed - both, distance_mm)) over.emplace_back(distance_mm + 0.5 * h, removed - both);
   });
-  if (over.empty()) return found;
+  tellOverCut(std::move(over), found);
+  return found;
+}
+
+void tellOverCut(std::vector<std::pair<double, double>> over, PlanComparison& found) {
+  if (over.empty()) return;
   std::ranges::sort(over);
   double volume = 0.0, sum = 0.0;
   for (const auto& [distance_mm, part] : over) volume += part, sum += part * distance_mm;
@@ -68,7 +69,6 @@ PlanComparison compareWithPlan(const assets::VolumeGrid& grid, std::span<const s
     found.over_p95_mm = distance_mm;
     if ((until += part) >= 0.95 * volume) break;
   }
-  return found;
 }
 
 }  // namespace app

@@ -4,10 +4,13 @@
 // the voxels.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -34,6 +37,22 @@ struct PlanComparison {
 PlanComparison compareWithPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t> before,
                                std::span<const std::uint8_t> after, const std::function<bool(std::size_t)>& counts,
                                const std::function<double(const glm::dvec3&)>& from_plan_mm);
+
+/// Of a voxel: how much of it went.
+inline double lostShare(std::uint8_t before, std::uint8_t after) {
+  return before > after ? (before - after) / 255.0 : 0.0;
+}
+/// A voxel that lies there: how much of it is within the plan.
+inline double shareInPlan(double from_plan_mm, double spacing_mm) {
+  return std::clamp(0.5 - from_plan_mm / spacing_mm, 0.0, 1.0);
+}
+/// Of what went of a voxel outside of the plan: whether it is a cut, and not noise at its surface.
+inline bool isOverCut(double outside, double from_plan_mm) {
+  constexpr double kCut = 0.5;
+  return outside > kCut && from_plan_mm > 0.0;
+}
+/// How far outside of the plan; `over`: distance and volume of what was cut there, in any order.
+void tellOverCut(std::vector<std::pair<double, double>> over, PlanComparison& found);
 
 /// Bone removed in two rehearsals of one case.
 struct RemovalDifference {

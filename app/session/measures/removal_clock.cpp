@@ -43,7 +43,7 @@ RemovalClock::RemovalClock(const assets::VolumeGrid& grid, std::span<const std::
 }
 
 void RemovalClock::add(const haptics::Tick& tick, const haptics::Tool& tool) {
-  if (removed_.empty() || !tick.drilling || !tool.turns() || !(tick.removed_mm3 > 0.0) ||
+  if (place_.empty() || !tick.drilling || !tool.turns() || !(tick.removed_mm3 > 0.0) ||
       has(tick.faults, haptics::Fault::bad_pose))
     return;
   const double h = grid_.spacing_mm;

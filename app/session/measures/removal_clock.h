@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "assets/volume_grid.h"
@@ -29,7 +30,11 @@ class RemovalClock {
   RemovalClock(const assets::VolumeGrid& grid, std::span<const std::uint8_t> before,
                std::span<const std::uint8_t> after);
 
-  /// `tool` of that tick.
+  /// Of what is known already, in the order of the grid.
+  RemovalClock(const assets::VolumeGrid& grid, std::vector<RemovedVoxel> removed)
+      : grid_(grid), removed_(std::move(removed)) {}
+
+  /// Of a clock made from the bone at the end; `tool` of that tick.
   void add(const haptics::Tick& tick, const haptics::Tool& tool);
 
   /// In the order of the grid.

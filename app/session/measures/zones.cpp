@@ -34,4 +34,16 @@ Zone Zones::at(const glm::dvec3& p_P_mm) const {
   return out.x > 0.0 ? Zone::distal : Zone::mesial;
 }
 
+std::optional<Zones> zonesOfCase(const StoredStart& start, const SessionCase& about) {
+  if (!about.directions) return {};
+  const int fdi = start.setup.site ? start.setup.site->fdi : 0;
+  return Zones::around(
+      start.grid,
+      [&](std::size_t v) {
+        return start.is_tooth.empty() ? fdi != 0 && !start.teeth.empty() && start.teeth[v] == fdi
+                                      : start.is_tooth[v] != 0;
+      },
+      *about.directions);
+}
+
 }  // namespace app

@@ -33,4 +33,7 @@ class Zones {
   glm::dvec3 centre_mm_{0.0}, half_mm_{1.0};  ///< of the box, along these
 };
 
+/// Around the operated tooth; none: it, or where its sides are, is not known.
+std::optional<Zones> zonesOfCase(const StoredStart& start, const SessionCase& about);
+
 }  // namespace app

@@ -103,6 +103,55 @@ TEST_F(EvaluateCommand, ASessionThatIsKilledIsTold) {
   EXPECT_TRUE(std::filesystem::exists(at("study/P01-1-2/tasks.csv")));
 }
 
+const std::string kBoneTemplate = R"(title = "Rules that ask for the bone"
+language = "en"
+case = "block-groove"
+consent = "consent.md"
+[[task]]
+id = "open"
+say = "Begin the groove"
+time_box_s = 30
+at_time_box = "failed"
+success = "O2.plan >= 0.02 and O3.over < 50 mm3"
+[[task]]
+id = "on"
+say = "Go on with it"
+time_box_s = 30
+at_time_box = "failed"
+success = "O1.bone > 4 mm3 and M1.drilling > 0.5 s"
+hold_s = 0.2
+)";
+
+class BoneRules : public EvaluateCommand {
+ protected:
+  void SetUp() override {
+    EvaluateCommand::SetUp();
+    write("consent.md", "What is kept, and for how long.");
+    write("bone.toml", kBoneTemplate);
+    std::string script;
+    for (const char* stream : {"log", "audio", "picture", "quotes", "reuse"})
+      script += R"({"during": "consent", "type": "consent", "data": {"stream": ")" + std::string(stream) +
+                R"(", "given": true}})" + "\n";
+    write("script.jsonl", script);
+  }
+  std::string boneSession() const { return session("P01", at("bone.toml"), at("script.jsonl")); }
+};
+
+TEST_F(BoneRules, FireLiveAtTheTicksOfTheRecordingTwiceAlike) {
+  const ProgramOutput said = molar(boneSession());
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto lines = log("P01-1");
+  const auto verified = ofType(lines, "verified").at(0)["data"];
+  EXPECT_EQ(verified["recording"], true);
+  EXPECT_EQ(verified["rules"], 2);
+  EXPECT_EQ(verified["rules_deviate"], 0);
+  for (const auto& rule : ofType(lines, "rule")) EXPECT_EQ(rule["data"]["verdict"], "success");
+  const std::string first = read("study/P01-1/events.jsonl");
+  std::filesystem::remove_all(at("study"));
+  ASSERT_EQ(molar(boneSession()).status, 0);
+  EXPECT_EQ(read("study/P01-1/events.jsonl"), first);
+}
+
 TEST_F(EvaluateCommand, RefusesInOneLine) {
   const std::string example = kExample + "example.toml",
                     rest = " --out " + at("study") + " --script " + kExample +

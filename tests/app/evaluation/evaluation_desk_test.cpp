@@ -33,8 +33,8 @@ success = "O1.removed >= 1 mm3"
 
 class EvaluationDeskTest : public testing::Test {
  protected:
-  EvaluationDeskTest()
-      : study_(studyTemplateFrom(kDeskTemplate, "t.toml")),
+  explicit EvaluationDeskTest(const std::string& study_template = kDeskTemplate)
+      : study_(studyTemplateFrom(study_template, "t.toml")),
         course_(study_, {"P07", "", 1, "E1"}, [this](const LogEvent& event) { events_.push_back(event); }) {
     course_.prepare({}, {});
     course_.enter(Phase::consent, {});
@@ -76,7 +76,7 @@ class EvaluationDeskTest : public testing::Test {
 
 TEST_F(EvaluationDeskTest, AScriptedSessionFiresAndBeginsTheNextAtTheVeryTick) {
   EvaluationDesk desk({study_, course_, script_, {}, {}, kLogBegun_ns}, true);
-  desk.open(none_);
+  desk.open(none_, "");
   goTo(desk, 200);
   EXPECT_EQ(only("task.start").tick, 0u);
   EXPECT_EQ(only("rule").tick, 49u);
@@ -96,7 +96,7 @@ TEST_F(EvaluationDeskTest, ByHandATaskWaitsAndANoteIsOfItsFirstLetter) {
   std::vector<LogEvent> said;
   EvaluationDesk desk({study_, course_, script_, [&] { return std::exchange(said, {}); }, [&] { return clock_ns_; }, 0},
                       false);
-  desk.open(none_);
+  desk.open(none_, "");
   goTo(desk, 160);
   EXPECT_TRUE(events_.empty());
   said.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
@@ -114,7 +114,7 @@ TEST_F(EvaluationDeskTest, ByHandATaskWaitsAndANoteIsOfItsFirstLetter) {
 
 TEST_F(EvaluationDeskTest, WhatMayNotChangeIsRefusedAndBothAreLogged) {
   EvaluationDesk desk({study_, course_, script_, {}, {}, 0}, true);
-  desk.open(none_);
+  desk.open(none_, "");
   EXPECT_FALSE(desk.allows({Control::law, 1}));
   EXPECT_TRUE(desk.allows({Control::layer, 0}));
   EXPECT_FALSE(desk.allows({Control::snapshot}));
@@ -127,13 +127,117 @@ TEST_F(EvaluationDeskTest, WhatMayNotChangeIsRefusedAndBothAreLogged) {
 
 TEST_F(EvaluationDeskTest, AWithdrawnLogEndsTheTasks) {
   EvaluationDesk desk({study_, course_, script_, {}, {}, 0}, true);
-  desk.open(none_);
+  desk.open(none_, "");
   goTo(desk, 20);
   EXPECT_FALSE(desk.isOver());
   course_.take({1, {}, "", "consent", {{"stream", std::string("log")}, {"given", false}}});
   EXPECT_TRUE(desk.isOver());
   desk.finish();
   EXPECT_EQ(*only("task.stop").text("by"), "end");
+}
+
+/// Half of the plan is gone from tick 100 on; told some ticks later.
+class LateBone : public BoneSource {
+ public:
+  void start(const std::string& recording) override { recording_ = recording; }
+  void update(std::uint64_t newest, std::chrono::milliseconds most_wait) override {
+    if (is_lost_) return;
+    const std::uint64_t made = newest + 1;
+    followed_ = std::max(followed_, most_wait > most_wait.zero() ? made : made - std::min(made, kBehind));
+  }
+  std::uint64_t followed() const override { return followed_; }
+  std::optional<double> value(std::string_view id, std::uint64_t tick) override {
+    EXPECT_LT(tick, followed_);
+    return id == "O2.plan" ? std::optional(tick < kHalf ? 0.25 : 0.5) : std::nullopt;
+  }
+  bool isLost() const override { return is_lost_; }
+  std::vector<News> takeNews() override { return {}; }
+
+  static constexpr std::uint64_t kHalf = 100, kBehind = 40;
+  std::string recording_;
+  std::uint64_t followed_ = 0;
+  bool is_lost_ = false;
+};
+
+const std::string kBoneTemplate = R"(title = "T"
+language = "en"
+consent = "c.md"
+[[task]]
+id = "one"
+say = "First"
+time_box_s = 60
+success = "O2.plan >= 0.5"
+hold_s = 0.01
+[[task]]
+id = "two"
+say = "Second"
+time_box_s = 60
+success = "time > 0.05 s"
+)";
+
+class BoneDeskTest : public EvaluationDeskTest {
+ protected:
+  BoneDeskTest() : EvaluationDeskTest(kBoneTemplate) {}
+  EvaluationDesk::Parts parts(EvaluationDesk::Evaluator evaluator = {}, bool is_live = true) {
+    return {study_,
+            course_,
+            script_,
+            std::move(evaluator),
+            is_live ? std::function<std::int64_t()>([&] { return clock_ns_; }) : nullptr,
+            kLogBegun_ns,
+            &bone_};
+  }
+  LateBone bone_;
+};
+
+TEST_F(BoneDeskTest, ARuleFiresWithItsTickThoughTheBoneIsToldLater) {
+  EvaluationDesk desk(parts(), true);
+  desk.open(none_, "s.molar");
+  EXPECT_EQ(bone_.recording_, "s.molar");
+  goTo(desk, 144);
+  EXPECT_EQ(std::ranges::count(events_, "rule", &LogEvent::type), 0);
+  goTo(desk, 200);
+  EXPECT_EQ(only("rule").number("rule_tick"), 100.0);
+  EXPECT_EQ(only("rule").tick, 110u);
+  EXPECT_GE(only("task.stop").tick, 144u);
+  EXPECT_EQ(only("rules.looked").number("until"), 110.0);
+  EXPECT_EQ(only("task.start", 1).tick, *only("task.stop").tick + 1);
+}
+
+TEST_F(BoneDeskTest, WhereTicksAreTheClockItIsWaitedForAndTheNextBeginsAtTheVeryTick) {
+  EvaluationDesk desk(parts({}, false), true);
+  desk.open(none_, "s.molar");
+  goTo(desk, 200);
+  EXPECT_EQ(only("rule").tick, 110u);
+  EXPECT_EQ(only("task.stop").tick, 110u);
+  EXPECT_EQ(only("task.start", 1).tick, 111u);
+}
+
+TEST_F(BoneDeskTest, WhoDecidesByHandLeavesUnaskedWhatWasNotToldYet) {
+  std::vector<LogEvent> said;
+  EvaluationDesk desk(parts([&] { return std::exchange(said, {}); }), false);
+  desk.open(none_, "s.molar");
+  said.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
+  goTo(desk, 16);
+  goTo(desk, 112);
+  said.push_back(
+      {0, {}, "evaluator", "task", {{"result", std::string("partly")}, {"reason", std::string("he is tired")}}});
+  goTo(desk, 128);
+  EXPECT_EQ(std::ranges::count(events_, "rule", &LogEvent::type), 0);
+  EXPECT_EQ(only("task.stop").tick, 127u);
+  EXPECT_EQ(only("rules.looked").number("until"), 87.0);
+}
+
+TEST_F(BoneDeskTest, WithoutWhoTellsTheBoneTheRestOfTheRulesIsLookedAt) {
+  EvaluationDesk desk(parts(), true);
+  desk.open(none_, "s.molar");
+  goTo(desk, 64);
+  bone_.is_lost_ = true;
+  goTo(desk, 300);
+  EXPECT_EQ(std::ranges::count(events_, "rule", &LogEvent::type), 0);
+  EXPECT_NE(course_.running(), nullptr);
+  desk.finish();
+  EXPECT_EQ(only("rules.looked").number("until"), 299.0);
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST(Outcome, OneVoxelOfTheSecondMolarIsItsVolume) {
   const OriginalSurface surface(start.grid, start.solid);
   const SessionCase about;
   std::optional<SocketRecord> socket;
-  const auto values = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  const auto values = outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}});
   const MeasureValue& second = named(values, "O10.second_molar");
   EXPECT_NEAR(second.value.value(), 0.25 * 0.25 * 0.25, 1e-12);
   EXPECT_EQ(second.t_s, 0.0);
@@ -199,7 +199,7 @@ TEST(Outcome, OneVoxelOfTheSecondMolarIsItsVolume) {
   EXPECT_FALSE(named(values, "O3.over").value);
   socket.emplace();
   socket->retained = {{3.0, {}}, {1.5, {}}};
-  const auto left = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  const auto left = outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}});
   EXPECT_EQ(named(left, "O11.count").value, 2.0);
   EXPECT_EQ(named(left, "O11.volume").value, 4.5);
 }
@@ -231,7 +231,7 @@ TEST(Outcome, BoneIsCountedByTheSideOfTheToothItLayOn) {
   about.directions = CaseDirections{};  // distal +y, buccal -x
   const OriginalSurface surface(start.grid, start.solid);
   const std::optional<SocketRecord> socket;
-  const auto values = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  const auto values = outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}});
   EXPECT_NEAR(behind_mm3, 15.60, 0.02 * 15.60) << "a ball of 1.55 mm";
   EXPECT_NEAR(named(values, "O1.distal").value.value(), behind_mm3, 1e-3);
   EXPECT_NEAR(named(values, "O1.buccal").value.value(), beside_mm3, 1e-3);
@@ -242,12 +242,13 @@ TEST(Outcome, BoneIsCountedByTheSideOfTheToothItLayOn) {
   for (std::size_t v = 0; v < cut.after.size(); ++v)
     if (start.is_tooth[v] != 0) cut.after[v] = 0;
   const RemovedByTissue removed{{"dentine", 0.25}, {"cortical", 3.0}};
-  EXPECT_EQ(named(outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}}), "O1.tooth").value, 0.0);
+  EXPECT_EQ(named(outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}}), "O1.tooth").value,
+            0.0);
   EXPECT_EQ(
-      named(outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}, removed}), "O1.tooth").value,
+      named(outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}, removed}), "O1.tooth").value,
       0.25);
   about.directions.reset();
-  const auto untold = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  const auto untold = outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}});
   EXPECT_EQ(named(untold, "O1.distal").why, "no operated tooth is known");
 }
 
@@ -267,7 +268,7 @@ TEST(Outcome, HalfOfThePlanIsAHalf) {
   });
   const OriginalSurface surface(start.grid, start.solid);
   const std::optional<SocketRecord> socket;
-  const auto values = outcomeMeasures({start, cut.after, cut.clock(), surface, about, socket, {}});
+  const auto values = outcomeMeasures({start, cut.after, cut.clock(), &surface, about, socket, {}});
   EXPECT_NEAR(named(values, "O2.plan").value.value(), 0.5, 0.01);
   EXPECT_NEAR(named(values, "O3.over").value.value(), 0.0, 0.01);
   for (const MeasureValue& value : noOutcome("so")) EXPECT_EQ(value.why, "so");

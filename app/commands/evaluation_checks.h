@@ -1,0 +1,16 @@
+// What is looked at before a session of an evaluation may begin: case, device, disk, recording, rig. Red: it does not
+// begin. Start-up only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/evaluation/evaluation_course.h"
+#include "app/rehearsal/rehearsal_plan.h"
+
+namespace app {
+
+/// `folder`: of the study; it need not be there yet.
+std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const std::string& folder);
+
+}  // namespace app

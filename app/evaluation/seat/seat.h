@@ -1,0 +1,22 @@
+// The process beside a rehearsal, `molar seat`: follows its servo by what it was given (session/input_feed) and says
+// what the bone is like in each tick (seat_words). Low priority, never on the servo's core; ends when the rehearsal
+// does. Every kBetweenStates_s of the session a whole state is kept (seat_keeper), to go on from after a death. Holds
+// no file of the rehearsal but those that it was given. Linux.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace app {
+
+struct SeatOptions {
+  int recording = -1, feed = -1, words = -1;  ///< descriptors
+  std::vector<std::string> ids;
+};
+
+inline constexpr double kBetweenStates_s = 10.0;
+
+/// The exit status. Throws SessionError: what it is fed with cannot be read.
+int runSeat(const SeatOptions& options);
+
+}  // namespace app
