@@ -12,6 +12,7 @@
 #include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
 #include "app/procedure/jaw_stress.h"
+#include "app/procedure/root_stress.h"
 #include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/clearance_watch.h"
@@ -388,6 +389,8 @@ class Rehearsal {
     if (station().isApplied(newest_)) makePiecesReady();
     const haptics::Bodies& bodies = station().bodies();
     jaw_stress_.follow(newest_, [&] { return bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size); });
+    root_stress_.follow(newest_, bodies);
+    if (const auto line = root_stress_.news()) event_log_.note("tooth", *line);
     if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
     if (const auto line = tooth_->news()) {
       head_up_.say(*line);
@@ -465,6 +468,8 @@ class Rehearsal {
     Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                                       monitor_.recordingEnded());
     situation.jaw_N_per_mm2 = jaw_stress_.now_N_per_mm2();
+    situation.root_N_per_mm2 = root_stress_.now_N_per_mm2();
+    situation.is_crown = root_stress_.isCrown();
     situation.canal_mm = clearance_.canal_mm();
     situation.is_blind = !plan_.shows_clearance;
     return {situation,
@@ -545,6 +550,9 @@ class Rehearsal {
     if (jaw_stress_.most_N_per_mm2() > 0.0)
       figures.luxation += fmt::format("{}jaw stressed to {:.0f} MPa (model)", figures.luxation.empty() ? "" : ", ",
                                       jaw_stress_.most_N_per_mm2());
+    if (root_stress_.most_N_per_mm2() > 0.0)
+      figures.luxation += fmt::format("{}root or crown stressed to {:.0f} MPa (model)",
+                                      figures.luxation.empty() ? "" : ", ", root_stress_.most_N_per_mm2());
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     figures.touched = touches_.counts();
     figures.clearance = clearancesInWords(clearance_.measures());
@@ -579,6 +587,7 @@ class Rehearsal {
   std::optional<DrawnPlanFollower> drawn_;
   std::optional<FlapFollower> flap_;
   JawStress jaw_stress_{plan_.patient};
+  RootStress root_stress_{plan_.patient};
   LuxationLog luxation_;
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;

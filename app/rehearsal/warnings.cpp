@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "app/procedure/jaw_stress.h"
+#include "app/procedure/root_stress.h"
 #include "app/rehearsal/touches.h"
 #include "assets/soft_tissue.h"
 #include "assets/tooth.h"
@@ -81,6 +82,19 @@ Words jawStressed(const Situation& s) {
   return fmt::format("Jaw stressed, {:.0f} MPa", *s.jaw_N_per_mm2);
 }
 
+Words rootAtRisk(const Situation& s) {
+  if (!s.root_N_per_mm2 || *s.root_N_per_mm2 < RootStress::kBreaks_N_per_mm2) return {};
+  return fmt::format("{} would break, {:.0f} MPa: loosen it first", s.is_crown ? "Crown" : "Root", *s.root_N_per_mm2);
+}
+
+Words rootStressed(const Situation& s) {
+  if (!s.root_N_per_mm2 || *s.root_N_per_mm2 < RootStress::kHigh_N_per_mm2 ||
+      *s.root_N_per_mm2 >= RootStress::kBreaks_N_per_mm2)
+    return {};
+  return fmt::format("{} stressed, {:.0f} of {:.0f} MPa", s.is_crown ? "Crown" : "Root", *s.root_N_per_mm2,
+                     RootStress::kBreaks_N_per_mm2);
+}
+
 Words dry(const Situation& s) {
   const bool cuts = s.tick.drilling && s.tick.depth_mm > 0.0;
   return cuts && !s.command.irrigating ? "Cutting dry: water on with I" : "";
@@ -133,17 +147,19 @@ struct Row {
 };
 
 // The most important first.
-constexpr std::array<Row, 15> kTable = {{
+constexpr std::array<Row, 17> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
     {"bur on soft tissue", true, burOnSoftTissue, true},
     {"neighbour tooth touched", true, neighbourTouched, true},
     {"jaw at risk", true, jawAtRisk},
+    {"root or crown would break", true, rootAtRisk},
     {"elevator on a neighbouring tooth", true, leveredOnTeeth},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},
     {"jaw stressed", false, jawStressed},
+    {"root or crown stressed", false, rootStressed},
     {"cutting dry", false, dry},
     {"soft tissue touched", false, softTissuePressed, true},
     {"drill held back", false, drillHeldBack},
@@ -166,7 +182,7 @@ Situation situationOf(const haptics::Tick& tick, const haptics::Command& command
   const haptics::BurShape& head = command.tool.head;
   // A hand instrument that touches a tooth harms nothing.
   const auto neighbour = command.tool.isHandInstrument() ? std::nullopt : neighbourAt(tick, head, patient);
-  return {tick, command, has_motors, recording_ended, neighbour, {}, {}};
+  return {tick, command, has_motors, recording_ended, neighbour, {}, {}, {}};
 }
 
 std::vector<HeadUpWarning> Warnings::update(const Situation& now) {

@@ -14,6 +14,7 @@ namespace {
 
 /// The neighbour's name in touches, of either side.
 constexpr std::string_view kSecondMolar = "second molar";
+constexpr double kLeastShown_mm3 = 0.01;
 
 std::string atTime(const std::optional<double>& t_s) { return t_s ? " at " + clockText(*t_s) : ""; }
 
@@ -61,7 +62,9 @@ Gate secondMolarGate(const SessionMetrics& metrics) {
   const TouchCount* const touch = touchOf(metrics, kSecondMolar);
   const bool is_cut = removed != nullptr && removed->value && *removed->value > 0.0;
   if (is_cut)
-    gate.words = fmt::format("{:.2f}", *removed->value) + " mm³ gone" + atTime(removed->t_s);
+    gate.words = (*removed->value < kLeastShown_mm3 ? fmt::format("less than {:.2f}", kLeastShown_mm3)
+                                                    : fmt::format("{:.2f}", *removed->value)) +
+                 " mm³ gone" + atTime(removed->t_s);
   else if (touch != nullptr)
     gate.words = touchWords(*touch);
   else if (!metrics.touched)

@@ -134,6 +134,8 @@ TEST(Gates, AreOpenClosedOrNotKnown) {
   run.measures[3].value = 4.0;
   for (const Gate& gate : gatesOf(run)) EXPECT_EQ(gate.is_open, true) << gate.name;
   EXPECT_NE(gatesInWords(run).find("0.50 mm³ gone at 0:12"), std::string::npos) << gatesInWords(run);
+  run.measures.back().value = 0.002;
+  EXPECT_NE(gatesInWords(run).find("less than 0.01 mm³ gone"), std::string::npos) << gatesInWords(run);
   for (const Gate& gate : gatesOf(SessionMetrics())) {
     EXPECT_FALSE(gate.is_open) << gate.name;
     EXPECT_FALSE(gate.words.empty()) << gate.name;
