@@ -23,8 +23,8 @@ struct Clearing {
 };
 
 Clearing clearingAlong(const SiteSolid& site, const WayIn& way, std::span<const glm::dvec3> in_the_way_P_mm,
-                       double bur_radius_mm, double off_tooth_mm) {
-  Clearing one{way, site.heightsAlong(way, bur_radius_mm, off_tooth_mm), 0, {}, 0.0};
+                       double bur_radius_mm, double off_tooth_mm, const Margins& margins) {
+  Clearing one{way, site.heightsAlong(way, bur_radius_mm, off_tooth_mm, margins), 0, {}, 0.0};
   Heights& h = one.heights;
   HeightMap goal;
   for (int j = 0; j < HeightMap::kSide; ++j)
@@ -57,11 +57,11 @@ Clearing clearingAlong(const SiteSolid& site, const WayIn& way, std::span<const 
 }  // namespace
 
 std::optional<assets::PlannedCut> planClearing(const SiteSolid& site, std::span<const glm::dvec3> in_the_way_P_mm,
-                                               double bur_radius_mm, double off_tooth_mm) {
+                                               double bur_radius_mm, double off_tooth_mm, const Margins& margins) {
   std::vector<Clearing> all;
   std::size_t most = 0;
   for (const WayIn& way : site.waysIn()) {
-    all.push_back(clearingAlong(site, way, in_the_way_P_mm, bur_radius_mm, off_tooth_mm));
+    all.push_back(clearingAlong(site, way, in_the_way_P_mm, bur_radius_mm, off_tooth_mm, margins));
     most = std::max(most, all.back().reached);
   }
   if (most < kLeastPlaces) return {};

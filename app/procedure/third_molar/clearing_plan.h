@@ -12,6 +12,6 @@ namespace app {
 
 /// `off_tooth_mm`: of the bur from the tooth; below 0 it may be cut too. None: the bur reaches next to nothing of it.
 std::optional<assets::PlannedCut> planClearing(const SiteSolid& site, std::span<const glm::dvec3> in_the_way_P_mm,
-                                               double bur_radius_mm, double off_tooth_mm);
+                                               double bur_radius_mm, double off_tooth_mm, const Margins& margins = {});
 
 }  // namespace app

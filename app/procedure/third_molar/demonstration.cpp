@@ -18,7 +18,7 @@ constexpr double kSettles_s = 0.6;                               ///< after a st
 constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
 constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
 constexpr double kAssistantWait_s = 10.0;                        ///< for the flap to be held aside
-constexpr double kGutter_mm_per_s = 20.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
+constexpr double kGutter_mm_per_s = 28.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
 /// Means of ways that begin and end at rest: at most 94 mm/s, as hands go with a bur in them.
 constexpr double kOver_mm_per_s = 60.0, kIn_mm_per_s = 40.0;
 constexpr const char* kAllDone = "the operation is done";

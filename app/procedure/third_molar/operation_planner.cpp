@@ -20,8 +20,12 @@ namespace {
 constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
 constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
 constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
-constexpr double kOffCanal_mm = 2.1;  ///< nearer is an error of the shipped steps: only after some tries
+/// Nearer to the canal is an error of the shipped steps: clearing keeps off at first.
+constexpr Margins kCareful{2.1, 0.45};
 constexpr int kCarefulTries = 2;
+/// A section that would open the tongue's side stops short of it, and what is left is broken with the elevator.
+constexpr double kSafeTongue_mm = 0.1, kOffTongue_mm = 0.36;
+constexpr int kPasses = static_cast<int>(kOvershoot_mm.size());
 constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
 constexpr double kTried_mm3 = 10.0;    ///< with no more in its way than this, a piece is pulled at before more is cut
@@ -118,6 +122,8 @@ OperationStep OperationPlanner::cutStep(assets::PlannedCut cut, std::string word
   return {CutStep{std::move(cut)}, std::move(words)};
 }
 
+bool OperationPlanner::isParted(double largest_mm3) const { return largest_mm3 < kParted * whole_mm3_; }
+
 bool OperationPlanner::findAgain(Tried& tried, const haptics::Components& tooth, std::size_t pieces) {
   for (std::size_t n = 0; n < pieces; ++n) {
     if (glm::distance(tooth.pieces()[n].centroid_mm, tried.centroid_P_mm) > kSamePiece_mm) continue;
@@ -150,11 +156,31 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
 }
 
 std::optional<assets::PlannedCut> OperationPlanner::nextSection() {
-  if (sections_ >= kOvershoot_mm.size()) return {};
-  auto cut = planSection(SiteSolid(now_), bur_radius_mm_, kOvershoot_mm[sections_++]);
-  if (!cut || !with_elevator_) return cut;
-  if (const auto slot = slotOf(*cut)) slots_.push_back(*slot);
-  return cut;
+  const SiteSolid site(now_, tongue_P_mm_);
+  const auto planned = [&](int pass, std::optional<double> tongue_mm) {
+    const double overshoot_mm = kOvershoot_mm[static_cast<std::size_t>(pass)];
+    std::optional<PlannedSection> section;
+    for (const double canal_mm : {kCareful.canal_mm, Margins{}.canal_mm}) {
+      section = planSection(site, bur_radius_mm_, overshoot_mm, {canal_mm, tongue_mm});
+      if (section && isParted(section->largest_mm3)) break;
+    }
+    return section;
+  };
+  std::optional<PlannedSection> section;
+  if (through_ < kPasses) section = planned(through_, std::nullopt);
+  if (with_elevator_ && section && section->off_tongue_mm < kSafeTongue_mm && spared_ < kPasses) {
+    if (auto spares = planned(spared_, kOffTongue_mm)) {
+      ++spared_;
+      if (const auto slot = slotOf(spares->cut)) slots_.push_back(*slot);
+      return std::move(spares->cut);
+    }
+  }
+  // The elevator first, where a cut has spared the tongue's side.
+  if (!section || (spared_ > 0 && through_ == 0 && !slots_.empty())) return {};
+  ++through_;
+  if (with_elevator_)
+    if (const auto slot = slotOf(section->cut)) slots_.push_back(*slot);
+  return std::move(section->cut);
 }
 
 OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
@@ -182,7 +208,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
 
   // A corner that broke off does not make it parted.
   if (whole_mm3_ == 0.0) whole_mm3_ = tooth.pieces()[0].volume_mm3;
-  const bool is_parted = tooth.pieces()[0].volume_mm3 < kParted * whole_mm3_;
+  const bool is_parted = isParted(tooth.pieces()[0].volume_mm3);
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
   if (!is_parted) {
     if (auto cut = nextSection()) return cutStep(std::move(*cut), "part the tooth");
@@ -193,17 +219,19 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
       return {slot, "break what holds it with an elevator in the slot"};
     }
     if (is_whole)
-      return {EndStep{sections_ > 1 ? "it did not come apart" : "no bur reaches through it"}, "the tooth stays whole"};
+      return {EndStep{through_ + spared_ > 1 ? "it did not come apart" : "no bur reaches through it"},
+              "the tooth stays whole"};
   }
 
   // Bone that is in the way is looked for at a distance from the nerve and the tongue first.
   const bool is_careful = tries_ < kCarefulTries;
-  const SiteSolid site = is_careful ? SiteSolid(now_, tongue_P_mm_, kOffCanal_mm) : SiteSolid(now_);
+  const SiteSolid site(now_, tongue_P_mm_);
+  const Margins margins = is_careful ? kCareful : Margins{};
   const int tries = tries_++;
   const double off_tooth_mm = kOffTooth_mm[std::min(static_cast<std::size_t>(tries), kOffTooth_mm.size() - 1)];
   if (tried_ && findAgain(*tried_, tooth, pieces)) {
     if (tried_->is_cleared) return deliver(std::exchange(tried_, std::nullopt)->way, bodies, piece_grid, tooth);
-    if (auto cut = planClearing(site, tried_->way.blockers_P_mm, bur_radius_mm_, off_tooth_mm)) {
+    if (auto cut = planClearing(site, tried_->way.blockers_P_mm, bur_radius_mm_, off_tooth_mm, margins)) {
       tried_->is_cleared = true;
       return cutStep(std::move(*cut), "take away what held the piece");
     }
@@ -222,7 +250,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
     was_tried_ = true;
     return deliver(way, bodies, piece_grid, tooth);
   }
-  auto cut = planClearing(site, way.blockers_P_mm, bur_radius_mm_, off_tooth_mm);
+  auto cut = planClearing(site, way.blockers_P_mm, bur_radius_mm_, off_tooth_mm, margins);
   if (!cut) return deliver(way, bodies, piece_grid, tooth);
   return cutStep(std::move(*cut), fmt::format("take away what blocks a piece: {}", wordsOf(way)));
 }

@@ -85,6 +85,7 @@ class OperationPlanner {
 
  private:
   std::optional<assets::PlannedCut> nextSection();
+  bool isParted(double largest_mm3) const;
   static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
@@ -95,9 +96,9 @@ class OperationPlanner {
   bool with_elevator_;
   std::vector<SplitStep> slots_;  ///< of the sections, not twisted in yet
   WayUp up_;
-  double whole_mm3_ = 0.0;  ///< of the tooth before it was parted; 0: not looked at yet
-  std::size_t sections_ = 0;
-  int tries_ = 0;  ///< since a piece was taken out or parted
+  double whole_mm3_ = 0.0;        ///< of the tooth before it was parted; 0: not looked at yet
+  int spared_ = 0, through_ = 0;  ///< sections that stopped short of the tongue's side, that did not
+  int tries_ = 0;                 ///< since a piece was taken out or parted
   std::size_t pieces_left_ = 0;
   /// A way along which a piece did not come out. What is in it is cut away, and the piece pulled along it once more:
   /// what the search finds next may be farther from free.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kClear_mm = 1.0;   ///< of the bur from what it passes over
 constexpr double kReach_mm = 22.0;  ///< of the solid that is looked at
-constexpr double kOffNeighbour_mm = 0.9, kOffTongue_mm = 0.45;
+constexpr double kOffNeighbour_mm = 0.9;
 constexpr double kToCheek[] = {0.0, 0.3, 0.6, 1.0, 1.6}, kToFront[] = {-0.2, 0.0, 0.2, 0.4, 0.6, 0.9};
 
 /// The highest that a ball rests on the straight way between two places.
@@ -32,8 +32,8 @@ constexpr StrokePlan kLongBur{1.0, 2};
 
 }  // namespace
 
-SiteSolid::SiteSolid(const assets::Patient& now, std::span<const glm::dvec3> tongue_P_mm, double off_canal_mm)
-    : now_(now), tongue_P_mm_(tongue_P_mm), off_canal_mm_(off_canal_mm) {
+SiteSolid::SiteSolid(const assets::Patient& now, std::span<const glm::dvec3> tongue_P_mm)
+    : now_(now), tongue_P_mm_(tongue_P_mm) {
   const assets::CtVolume& ct = now.ct;
   const int fdi = now.site->fdi;
   const auto crown = operatedCrown(ct, *now.site);
@@ -64,7 +64,8 @@ SiteSolid::SiteSolid(const assets::Patient& now, std::span<const glm::dvec3> ton
     for (const double to_front : kToFront) ways_.push_back(axes.wayIn(crown->middle_P_mm, to_cheek, to_front));
 }
 
-Heights SiteSolid::heightsAlong(const WayIn& way, double bur_radius_mm, double off_tooth_mm, double within_mm) const {
+Heights SiteSolid::heightsAlong(const WayIn& way, double bur_radius_mm, double off_tooth_mm, const Margins& margins,
+                                double within_mm) const {
   Heights h;
   for (const Point& point : surface_) {
     const glm::dvec3 q = way.local(point.p_P_mm);
@@ -73,12 +74,13 @@ Heights SiteSolid::heightsAlong(const WayIn& way, double bur_radius_mm, double o
     if (point.is_tooth) h.tooth.rest(q, bur_radius_mm + off_tooth_mm);
     if (point.is_other_tooth) h.lowest.rest(q, bur_radius_mm + kOffNeighbour_mm);
   }
-  for (const glm::dvec3& p : tongue_P_mm_) {
-    const glm::dvec3 q = way.local(p);
-    if (std::abs(q.y) <= within_mm) h.lowest.rest(q, bur_radius_mm + kOffTongue_mm);
-  }
+  if (margins.tongue_mm)
+    for (const glm::dvec3& p : tongue_P_mm_) {
+      const glm::dvec3 q = way.local(p);
+      if (std::abs(q.y) <= within_mm) h.lowest.rest(q, bur_radius_mm + *margins.tongue_mm);
+    }
   for (const glm::dvec3& p : now_.mandibular_canal_P_mm)
-    h.lowest.rest(way.local(p), bur_radius_mm + now_.mandibular_canal_radius_mm + off_canal_mm_);
+    h.lowest.rest(way.local(p), bur_radius_mm + now_.mandibular_canal_radius_mm + margins.canal_mm);
   return h;
 }
 

@@ -107,10 +107,46 @@ TEST(SectionPlan, PartsATwoRootedToothBetweenItsRoots) {
   const auto cut = planSection(SiteSolid(patient), kBur_mm, 0.9);
   ASSERT_TRUE(cut);
   const std::size_t neighbour = solidOf(patient.ct, kNeighbour);
-  sweep(patient.ct, *cut);
+  sweep(patient.ct, cut->cut);
   EXPECT_EQ(piecesOf(patient.ct), 2U);
   EXPECT_EQ(solidOf(patient.ct, kNeighbour), neighbour);
-  EXPECT_GT(nearestCanal_mm(patient, *cut), 1.4);
+  EXPECT_GT(nearestCanal_mm(patient, cut->cut), 1.4);
+}
+
+double largestOf_mm3(const assets::CtVolume& ct) {
+  std::vector<std::uint8_t> tooth(ct.solid.size());
+  for (std::size_t v = 0; v < tooth.size(); ++v) tooth[v] = ct.tooth[v] == kFdi ? ct.solid[v] : std::uint8_t{0};
+  return haptics::Components(ct.grid, tooth).pieces().front().volume_mm3;
+}
+
+TEST(SectionPlan, TellsWhatTheToothFallsInto) {
+  assets::Patient patient = phantom(3.0);
+  const auto whole_mm3 = largestOf_mm3(patient.ct);
+  const auto cut = planSection(SiteSolid(patient), kBur_mm, 0.9);
+  ASSERT_TRUE(cut);
+  sweep(patient.ct, cut->cut);
+  EXPECT_LT(cut->largest_mm3, 0.55 * whole_mm3);
+  EXPECT_NEAR(cut->largest_mm3, largestOf_mm3(patient.ct), 0.05 * whole_mm3);
+}
+
+TEST(SectionPlan, StopsShortOfTheTonguesSideWhereAskedTo) {
+  const assets::Patient patient = phantom(3.0);
+  // The jaw ends 0.2 mm beyond the tooth.
+  constexpr double kEnd_mm = 3.8;
+  std::vector<glm::dvec3> surface_P_mm;
+  for (double y = -16.0; y < 12.0; y += 0.3)
+    for (double z = -14.0; z < 3.0; z += 0.3) surface_P_mm.push_back({kEnd_mm, y, z});
+  const SiteSolid site(patient, surface_P_mm);
+  const auto through = planSection(site, kBur_mm, 0.9), spares = planSection(site, kBur_mm, 0.9, {.tongue_mm = 0.4});
+  ASSERT_TRUE(through && spares);
+  EXPECT_LT(through->off_tongue_mm, 0.0);
+  EXPECT_GT(spares->off_tongue_mm, 0.3);
+  double least_mm = 1e9;
+  for (const auto& stroke : spares->cut.strokes_P_mm)
+    for (const glm::dvec3& p : stroke)
+      for (const glm::dvec3& q : surface_P_mm) least_mm = std::min(least_mm, glm::distance(p, q) - kBur_mm);
+  EXPECT_LE(spares->off_tongue_mm, least_mm + 1e-9);
+  EXPECT_GT(spares->largest_mm3, 1.3 * through->largest_mm3);
 }
 
 TEST(SectionPlan, HasNothingToPartWhereTheToothIsGone) {
@@ -187,7 +223,7 @@ TEST(ClearingPlan, LeavesTheWallTowardsTheTongue) {
     for (double y = -3.0; y < 3.1; y += 0.4)
       for (double z : {-1.0, 0.0, 1.0, 2.0}) beside.push_back({x, y, z});
   const auto nearest_mm = [&](std::span<const glm::dvec3> tongue_P_mm) {
-    const auto cut = planClearing(SiteSolid(patient, tongue_P_mm), beside, kBur_mm, 0.1);
+    const auto cut = planClearing(SiteSolid(patient, tongue_P_mm), beside, kBur_mm, 0.1, {.tongue_mm = 0.45});
     double least_mm = 1e9;
     for (const auto& stroke : cut.value().strokes_P_mm)
       for (const glm::dvec3& p : stroke)
