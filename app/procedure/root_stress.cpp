@@ -11,6 +11,7 @@
 #include "assets/tissue.h"
 #include "calibration/geometry/units.h"
 #include "haptics/body/bridge_strength.h"
+#include "haptics/body/principal_axes.h"
 
 namespace app {
 namespace {
@@ -25,29 +26,6 @@ double shareOfDentine(std::uint8_t label) {
   const assets::Tissue tissue{label};
   if (tissue == assets::Tissue::dentine || tissue == assets::Tissue::other_teeth) return 1.0;
   return tissue == assets::Tissue::enamel ? haptics::DentineLimits::kEnamelFactor : 0.0;
-}
-
-/// Axis of the least moment of inertia, and its two fellows.
-std::array<glm::dvec3, 3> principalAxes(const glm::dmat3& spread) {
-  // Power iteration, the longest first, then what is left of it.
-  std::array<glm::dvec3, 3> axes{};
-  glm::dmat3 left = spread;
-  for (std::size_t n = 0; n < 2; ++n) {
-    glm::dvec3 axis(0.31, 0.53, 0.79);
-    if (n == 1) axis -= glm::dot(axis, axes[0]) * axes[0];
-    for (int k = 0; k < 100; ++k) {
-      axis = left * axis;
-      if (n == 1) axis -= glm::dot(axis, axes[0]) * axes[0];
-      const double length = glm::length(axis);
-      if (!(length > 0.0)) break;
-      axis /= length;
-    }
-    axes[n] = axis;
-    const double size = glm::dot(axis, left * axis);
-    left -= size * glm::outerProduct(axis, axis);
-  }
-  axes[2] = glm::cross(axes[0], axes[1]);
-  return axes;
 }
 
 /// Solid dentine and enamel on a plane across the axis.
@@ -200,8 +178,11 @@ std::vector<RootSection> rootSections(const HeldPiece& piece, const glm::dvec3& 
   const glm::dvec3 middle = sum / static_cast<double>(count);
   glm::dmat3 spread(0.0);
   for_solid([&](const glm::dvec3& q) { spread += glm::outerProduct(q - middle, q - middle); });
-  std::array<glm::dvec3, 3> axes = principalAxes(spread);
-  if (glm::dot(grip_Q_mm - middle, axes[0]) > 0.0) axes[0] = -axes[0], axes[2] = -axes[2];
+  glm::dmat3 axes = haptics::principalAxes(spread);
+  const auto spread_along = [&](int n) { return glm::dot(axes[n], spread * axes[n]); };
+  for (const int n : {1, 2})
+    if (spread_along(n) > spread_along(0)) std::swap(axes[0], axes[n]);
+  if (glm::dot(grip_Q_mm - middle, axes[0]) > 0.0) axes[0] = -axes[0];
 
   double first_mm = std::numeric_limits<double>::infinity(), last_mm = -first_mm;
   for_solid([&](const glm::dvec3& q) {

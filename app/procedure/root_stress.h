@@ -5,7 +5,7 @@
 // Parts of a section that do not touch, as two roots, bend each about its own middle. Enamel counts a third of dentine,
 // pulp nothing. An event at 60 MPa, as teeth break (8 % of extractions by forceps), not solved: the piece stays whole.
 // Sources: reference/extraction 1.2, 1.3. Check: a round root of 3.5 mm breaks at 253 N mm. The piece lies in its frame
-// Q (haptics/body/bodies.h). N, mm, MPa. Main thread; a survey takes some 10 ms and is made at most twice a second.
+// Q (haptics/body/bodies.h). N, mm, MPa. Main thread; a survey takes 5 ms and is made at most twice a second.
 #pragma once
 
 #include <array>

@@ -182,7 +182,7 @@ Situation situationOf(const haptics::Tick& tick, const haptics::Command& command
   const haptics::BurShape& head = command.tool.head;
   // A hand instrument that touches a tooth harms nothing.
   const auto neighbour = command.tool.isHandInstrument() ? std::nullopt : neighbourAt(tick, head, patient);
-  return {tick, command, has_motors, recording_ended, neighbour, {}, {}, {}};
+  return {tick, command, has_motors, recording_ended, neighbour};
 }
 
 std::vector<HeadUpWarning> Warnings::update(const Situation& now) {

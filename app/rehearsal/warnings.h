@@ -19,13 +19,13 @@ struct Situation {
   const haptics::Tick& tick;
   const haptics::Command& command;
   bool has_motors = false;
-  bool recording_ended = false;          ///< early
-  std::optional<int> neighbour;          ///< FDI number of another tooth that the bur touches
-  std::optional<double> canal_mm;        ///< from the tool to the mandibular canal, clearance_watch.h; below 0 inside
-  std::optional<double> jaw_N_per_mm2;   ///< of an elevator (app/procedure/jaw_stress)
-  std::optional<double> root_N_per_mm2;  ///< of forceps (app/procedure/root_stress)
-  bool is_crown = false;                 ///< the same is of the crown
-  bool is_blind = false;                 ///< distances are counted and not told
+  bool recording_ended = false;            ///< early
+  std::optional<int> neighbour{};          ///< FDI number of another tooth that the bur touches
+  std::optional<double> canal_mm{};        ///< from the tool to the mandibular canal, clearance_watch.h; below 0 inside
+  std::optional<double> jaw_N_per_mm2{};   ///< of an elevator (app/procedure/jaw_stress)
+  std::optional<double> root_N_per_mm2{};  ///< of forceps (app/procedure/root_stress)
+  bool is_crown = false;                   ///< the same is of the crown
+  bool is_blind = false;                   ///< distances are counted and not told
 };
 
 /// `tick` newest. Cost: the voxels around the bur, while it touches a tooth.

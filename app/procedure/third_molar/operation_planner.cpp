@@ -171,13 +171,16 @@ std::optional<assets::PlannedCut> OperationPlanner::nextSection() {
   if (with_elevator_ && section && section->off_tongue_mm < kSafeTongue_mm && spared_ < kPasses) {
     if (auto spares = planned(spared_, kOffTongue_mm)) {
       ++spared_;
+      is_cut_ = true;
       if (const auto slot = slotOf(spares->cut)) slots_.push_back(*slot);
       return std::move(spares->cut);
     }
   }
   // The elevator first, where a cut has spared the tongue's side.
-  if (!section || (spared_ > 0 && through_ == 0 && !slots_.empty())) return {};
-  ++through_;
+  if (spared_ > 0 && through_ == 0 && !slots_.empty()) return {};
+  if (through_ < kPasses) ++through_;
+  if (!section) return {};
+  is_cut_ = true;
   if (with_elevator_)
     if (const auto slot = slotOf(section->cut)) slots_.push_back(*slot);
   return std::move(section->cut);
@@ -219,8 +222,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
       return {slot, "break what holds it with an elevator in the slot"};
     }
     if (is_whole)
-      return {EndStep{through_ + spared_ > 1 ? "it did not come apart" : "no bur reaches through it"},
-              "the tooth stays whole"};
+      return {EndStep{is_cut_ ? "it did not come apart" : "no bur reaches through it"}, "the tooth stays whole"};
   }
 
   // Bone that is in the way is looked for at a distance from the nerve and the tongue first.

@@ -97,7 +97,8 @@ class OperationPlanner {
   std::vector<SplitStep> slots_;  ///< of the sections, not twisted in yet
   WayUp up_;
   double whole_mm3_ = 0.0;        ///< of the tooth before it was parted; 0: not looked at yet
-  int spared_ = 0, through_ = 0;  ///< sections that stopped short of the tongue's side, that did not
+  int spared_ = 0, through_ = 0;  ///< sections planned short of the tongue's side, and through
+  bool is_cut_ = false;           ///< by one of them
   int tries_ = 0;                 ///< since a piece was taken out or parted
   std::size_t pieces_left_ = 0;
   /// A way along which a piece did not come out. What is in it is cut away, and the piece pulled along it once more:

@@ -18,8 +18,7 @@ struct Picture {
 
   Picture() { tick.dt_s = 0.001; }
   HeadUpContent at(milliseconds later, bool has_motors = false) {
-    return head_up.content({{tick, command, has_motors, false, {}, {}, {}}, 3.0, "", "", ready, {}, {}, {}, {}, hints},
-                           now + later);
+    return head_up.content({{tick, command, has_motors}, 3.0, "", "", ready, {}, {}, {}, {}, hints}, now + later);
   }
 };
 

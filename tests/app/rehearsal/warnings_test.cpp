@@ -17,8 +17,8 @@ struct Scene {
   haptics::Command command;
   assets::Patient patient;
   bool has_motors = false, recording_ended = false;
-  std::optional<double> jaw_N_per_mm2, canal_mm;
-  bool is_blind = false;
+  std::optional<double> jaw_N_per_mm2, root_N_per_mm2, canal_mm;
+  bool is_crown = false, is_blind = false;
   Warnings warnings;
 
   Scene() {
@@ -32,6 +32,8 @@ struct Scene {
   std::vector<HeadUpWarning> shown() {
     Situation situation = situationOf(tick, command, patient, has_motors, recording_ended);
     situation.jaw_N_per_mm2 = jaw_N_per_mm2;
+    situation.root_N_per_mm2 = root_N_per_mm2;
+    situation.is_crown = is_crown;
     situation.canal_mm = canal_mm;
     situation.is_blind = is_blind;
     return warnings.update(situation);
@@ -91,6 +93,18 @@ TEST(Warnings, AJawThatAnElevatorBends) {
   EXPECT_EQ(scene.first(), "Jaw stressed, 34 MPa");
   scene.jaw_N_per_mm2 = 72.0;
   EXPECT_EQ(scene.first(), "Jaw at risk, 72 MPa: less force");
+}
+
+TEST(Warnings, ARootThatForcepsBend) {
+  Scene scene;
+  scene.root_N_per_mm2 = 39.0;
+  EXPECT_EQ(scene.first(), "");
+  scene.root_N_per_mm2 = 44.4;
+  EXPECT_EQ(scene.first(), "Root stressed, 44 of 60 MPa");
+  scene.root_N_per_mm2 = 72.0;
+  EXPECT_EQ(scene.first(), "Root would break, 72 MPa: loosen it first");
+  scene.is_crown = true;
+  EXPECT_EQ(scene.first(), "Crown would break, 72 MPa: loosen it first");
 }
 
 TEST(Warnings, StayLongEnoughToBeReadAndAreCountedOnce) {
