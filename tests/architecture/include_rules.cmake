@@ -97,6 +97,7 @@ set(third_parties
   "tbb/|oneapi/" "assets|haptics|render|app/check_page"
   "libevdev/" "haptics"
   "boost/math/" "app/study"
+  "sodium|zip\\.h" "app/study"
   "libusb" "haptics"
   "GLFW/" "render|app"
   "embree3/" "render"
