@@ -1,0 +1,33 @@
+// Close: the recording verified, the rules looked at again, the tables written.
+
+import { h } from "./h.js";
+import { phases } from "./phases.js";
+
+export function closeScreen({ state }) {
+  const { closing, tasks = [] } = state;
+  return h(
+    "div",
+    { class: "plain", key: "close" },
+    phases(state),
+    h("h2", { class: "title" }, closing?.done ? "Done. Thank you." : "Closing the session…"),
+    h("ul", { class: "checks", "aria-label": "closing" }, closing ? results(closing) : row("todo", "…", "recording", "is replayed and verified")),
+    h("h3", {}, "Tasks"),
+    h(
+      "ul",
+      { class: "checks", "aria-label": "tasks" },
+      tasks.map((one) => row(one.result === "success" ? "green" : "todo", one.result === "success" ? "✓" : "–", one.id, [one.result ?? "not done", one.by && `by ${one.by}`, one.reason].filter(Boolean).join(", "))),
+    ),
+  );
+}
+
+function row(light, sign, name, words) {
+  return h("li", { key: name, class: light }, h("i", { "aria-hidden": "true" }, sign), h("b", {}, name), h("span", {}, words));
+}
+
+function results({ verified, rules, deviate, folder, done }) {
+  return [
+    verified === undefined || verified === null ? row("todo", "…", "recording", "is replayed and verified") : verified ? row("green", "✓", "recording", "verified: the same in every tick") : row("red", "✕", "recording", "does not verify"),
+    rules !== undefined && rules !== null && (deviate ? row("red", "✕", "rules", `${deviate} of ${rules} differ from the recording`) : row("green", "✓", "rules", `${rules} looked at again, none differs`)),
+    folder && row(done ? "green" : "todo", done ? "✓" : "…", "tables", `in ${folder}`),
+  ];
+}
