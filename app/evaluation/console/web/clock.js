@@ -1,8 +1,10 @@
-// The station's clock as the page knows it: four stamps an exchange, of the last 8 the one with the shortest round trip
-// rules, so a time is wrong by half that round trip at most. Page times are performance.timeOrigin + now, ms; the
-// station's are nanoseconds of its monotonic clock.
+// The station's clock as the page knows it: four stamps an exchange. The one that can be wrong by least rules: by half its
+// round trip, and by what two clocks drift apart since. Page times are performance.timeOrigin + now, ms; the station's are
+// nanoseconds of its monotonic clock.
 
-const kKept = 8;
+const kKept = 100;
+const kRecent = 8;
+const kDrift = 1e-4;
 const kSleep_ms = 250;
 
 export function now_ms() {
@@ -22,9 +24,10 @@ export class StationClock {
     const t2_ms = t2 / 1e6;
     const round_ms = Math.max(0, arrived_ms - t0 - (t2_ms - t1_ms));
     this.#forgetAfterSleep();
-    this.#exchanges.push({ round_ms, offset_ms: (t1_ms - t0 + (t2_ms - arrived_ms)) / 2 });
+    this.#exchanges.push({ round_ms, arrived_ms, offset_ms: (t1_ms - t0 + (t2_ms - arrived_ms)) / 2 });
     if (this.#exchanges.length > kKept) this.#exchanges.shift();
-    this.#best = this.#exchanges.reduce((best, one) => (one.round_ms < best.round_ms ? one : best));
+    const wrong_ms = (one) => one.round_ms / 2 + kDrift * (arrived_ms - one.arrived_ms);
+    this.#best = this.#exchanges.reduce((best, one) => (wrong_ms(one) < wrong_ms(best) ? one : best));
   }
 
   /** A page's time on the station's clock; null: no ping was answered yet. */
@@ -38,13 +41,22 @@ export class StationClock {
     return this.#best?.round_ms ?? null;
   }
 
+  /** Of the link as it is now: the shortest of the last eight; null as above. */
+  get recent_ms() {
+    const recent = this.#exchanges.slice(-kRecent).map((one) => one.round_ms);
+    return recent.length > 0 ? Math.min(...recent) : null;
+  }
+
+  /** Another station, another clock. */
+  forget() {
+    this.#exchanges = [];
+    this.#best = null;
+  }
+
   // The page's clock stands still while its machine sleeps, the wall's does not.
   #forgetAfterSleep() {
     const wall_ms = Date.now() - now_ms();
-    if (Math.abs(wall_ms - this.#wall_ms) > kSleep_ms) {
-      this.#exchanges = [];
-      this.#best = null;
-    }
+    if (Math.abs(wall_ms - this.#wall_ms) > kSleep_ms) this.forget();
     this.#wall_ms = wall_ms;
   }
 }

@@ -9,8 +9,8 @@ export function closeScreen({ state }) {
     "div",
     { class: "plain", key: "close" },
     phases(state),
-    h("h2", { class: "title" }, closing?.done ? "Done. Thank you." : "Closing the session…"),
-    h("ul", { class: "checks", "aria-label": "closing" }, closing ? results(closing) : row("todo", "…", "recording", "is replayed and verified")),
+    h("h2", { class: "title" }, closing?.done ? "Done. Thank you." : closing ? "The recording is looked at again…" : "Add what is still to be noted, then close"),
+    h("ul", { class: "checks", "aria-label": "closing" }, results(closing ?? {})),
     h("h3", {}, "Tasks"),
     h(
       "ul",
@@ -26,8 +26,8 @@ function row(light, sign, name, words) {
 
 function results({ verified, rules, deviate, folder, done }) {
   return [
-    verified === undefined || verified === null ? row("todo", "…", "recording", "is replayed and verified") : verified ? row("green", "✓", "recording", "verified: the same in every tick") : row("red", "✕", "recording", "does not verify"),
-    rules !== undefined && rules !== null && (deviate ? row("red", "✕", "rules", `${deviate} of ${rules} differ from the recording`) : row("green", "✓", "rules", `${rules} looked at again, none differs`)),
-    folder && row(done ? "green" : "todo", done ? "✓" : "…", "tables", `in ${folder}`),
+    !done ? row("todo", "…", "recording", "will be replayed and verified: 9") : verified ? row("green", "✓", "recording", "verified: the same in every tick") : row("red", "✕", "recording", "does not verify"),
+    done && (deviate ? row("red", "✕", "rules", `${deviate} of ${rules} differ from the recording`) : row("green", "✓", "rules", `${rules} looked at again, none differs`)),
+    folder && row("green", "✓", "tables", `in ${folder}`),
   ];
 }

@@ -48,5 +48,5 @@ function bar(app, { duration_s, t_s, playing, speed, marks = [] }) {
 
 function questions(app) {
   const asked = (app.state.questionnaires ?? []).filter((one) => one.words);
-  return asked.map((one) => h("div", { key: one.id, class: "words" }, h("h2", {}, one.title, one.locked && h("span", { class: "tag green" }, "submitted")), wordsQuestions(app, one)));
+  return asked.map((one) => h("div", { key: one.id, class: "words" }, h("h2", {}, one.title, " ", h("a", { href: "/participant" }, h("kbd", {}, "0"), " on the participant’s page"), one.locked && h("span", { class: "tag green" }, "submitted")), wordsQuestions(app, one)));
 }

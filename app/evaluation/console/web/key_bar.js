@@ -4,11 +4,11 @@ import { contextOf, pressed, takesNotes } from "./evaluator_keys.js";
 import { h } from "./h.js";
 import { isText, kFreeKeys, kTaskKeys } from "./keys.js";
 
-function button(app, key, name, { on = true, chosen = false, main = false, label = null } = {}) {
+function button(app, key, name, { on = true, chosen = false, main = false, label = null, title = null } = {}) {
   const press = (event) => pressed(app, key, app.at(event));
   return h(
     "button",
-    { key: `${key} ${name}`, class: `key${chosen ? " chosen" : ""}${main ? " main" : ""}`, "aria-label": label, "aria-disabled": on ? null : "true", onclick: on ? press : null },
+    { key: `${key} ${name}`, class: `key${chosen ? " chosen" : ""}${main ? " main" : ""}`, "aria-label": label, title, "aria-disabled": on ? null : "true", onclick: on ? press : null },
     h("kbd", {}, key === "Escape" ? "Esc" : key),
     name && h("span", {}, name),
   );
@@ -44,13 +44,12 @@ function hint(app) {
 function onward(app) {
   const { line, state } = app;
   if (line) return null;
-  const { phases = [], phase, may_continue, writer } = state;
+  const { phases = [], phase, may_continue, writer, closing } = state;
   const next = phases[phases.indexOf(phase) + 1];
   return [
     button(app, "?", "", { label: "all keys" }),
-    ["consent", "debrief", "questionnaires"].includes(phase) && button(app, "0", "participant"),
-    next && phase !== "close" && button(app, "9", `${next} ›`, { on: may_continue && writer, main: may_continue && writer }),
-    phase === "close" && may_continue && writer && button(app, "9", "end", { main: true }),
+    next && phase !== "close" && button(app, "9", "go on", { title: `to ${next}`, on: may_continue && writer, main: may_continue && writer }),
+    phase === "close" && may_continue && writer && button(app, "9", closing?.done ? "end" : "verify", { main: true }),
   ];
 }
 

@@ -4,7 +4,7 @@
 
 /** Lines that take text, and choices that take one digit. */
 export const kTextLines = ["behaviour", "comment", "success", "partly", "failed", "help", "problem"];
-const kLongest = 1000;
+const kLongest_bytes = 2000;
 
 export const kFreeKeys = [
   ["1", "behaviour"],
@@ -77,9 +77,15 @@ function pressedWithdraw(line, key, at, context, nothing) {
   return nothing;
 }
 
+// As much of it as the station takes, whole letters.
+function taken(text) {
+  const letters = new TextEncoder().encodeInto(text, new Uint8Array(kLongest_bytes)).read;
+  return text.slice(0, letters);
+}
+
 /** The line's text has become this; `at` is of the newest key. Its time is that of its first letter. */
 export function typed(line, text, at) {
-  const cut = text.slice(0, kLongest);
+  const cut = taken(text);
   if (cut === "") return { ...line, text: "", at: null };
   return { ...line, text: cut, at: line.at ?? at };
 }

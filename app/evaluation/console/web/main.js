@@ -83,6 +83,7 @@ function tellRefusal() {
 }
 
 function takeState(state) {
+  if (app.session !== null && state.session !== app.session) app.clock.forget();
   app.state = state;
   app.course.take(state);
   app.outbox.setSession(app.session);

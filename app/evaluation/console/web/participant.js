@@ -4,7 +4,7 @@
 import { consentForm } from "./participant_consent.js";
 import { pressedInQuestions, questionForm } from "./participant_questions.js";
 import { h } from "./h.js";
-import { wordsQuestions } from "./words.js";
+import { isSubmitted, wordsQuestions } from "./words.js";
 
 const kWaits = {
   prepare: ["Welcome", "The session is being prepared. You will be asked here in a moment."],
@@ -29,7 +29,7 @@ export function participantPage(app) {
 
 function bodyOf(app) {
   const { state } = app;
-  const asked = (state.questionnaires ?? []).filter((one) => !one.locked);
+  const asked = (state.questionnaires ?? []).filter((one) => !isSubmitted(app, one));
   if (state.phase === "consent" || app.asked?.consent) return consentForm(app);
   const words = asked.filter((one) => one.words);
   if (state.phase === "debrief" && words.length > 0)
@@ -64,12 +64,22 @@ export function listenAsParticipant(app) {
     const { target } = event;
     if (target instanceof HTMLInputElement && target.type === "text") {
       // Enter goes on to the next field, as in a form of paper.
-      if (event.key === "Enter") nextField(target);
+      if (event.key === "Enter") {
+        event.preventDefault();
+        nextField(target);
+      }
       return;
     }
     if (app.state?.phase === "questionnaires" && !app.asked?.consent) pressedInQuestions(app, event);
-    else if (/^[yn]$/i.test(event.key)) target.closest("[data-stream]")?.querySelector(`input[value="${event.key.toLowerCase() === "y" ? "yes" : "no"}"]`)?.click();
+    else if (/^[yn]$/i.test(event.key)) choose(target, event.key.toLowerCase() === "y" ? "yes" : "no");
   });
+}
+
+// The choice that is made has the focus, so that Tab goes on to the next stream.
+function choose(target, value) {
+  const input = target.closest("[data-stream]")?.querySelector(`input[value="${value}"]`);
+  input?.focus();
+  input?.click();
 }
 
 function nextField(field) {

@@ -3,8 +3,9 @@
 
 import { digitOf } from "./keys.js";
 import { h } from "./h.js";
+import { isSubmitted } from "./words.js";
 
-const kButtons = 11;
+const kMostButtons = 11;
 const kSteps = 20;
 
 function answerOf(app, one, item) {
@@ -35,9 +36,16 @@ function answer(app, one, item, value, when) {
   app.say("answer", value === null ? data : { ...data, value }, when);
 }
 
-function rangeOf(item) {
-  const count = item.to - item.from + 1;
-  return { is_buttons: count <= kButtons, step: count <= kButtons ? 1 : Math.max(1, Math.round((item.to - item.from) / kSteps)) };
+// Of two things that are compared the first is 1, the second 2.
+function rangeOf({ choices, from = 1, to = choices?.length ?? 1 }) {
+  const is_buttons = to - from < kMostButtons;
+  return { from, to, is_buttons, step: is_buttons ? 1 : Math.max(1, Math.round((to - from) / kSteps)) };
+}
+
+// The word of the step that is chosen, where each step has one.
+function wordOf(item, value) {
+  const { from, to } = rangeOf(item);
+  return value !== null && item.scale?.length === to - from + 1 && value > from && value < to ? item.scale[value - from] : "";
 }
 
 export function questionForm(app, one) {
@@ -55,26 +63,27 @@ export function questionForm(app, one) {
 
 function asked(app, one, item, n) {
   const value = answerOf(app, one, item);
-  const { is_buttons } = rangeOf(item);
+  const { is_buttons, from, to } = rangeOf(item);
   return h(
     "div",
     { key: item.id, class: "asked" },
     h("p", { class: "quiet" }, `${n + 1} of ${one.items.length}`),
     h("h1", { id: "asked", tabindex: "-1" }, item.say),
     is_buttons ? steps(app, one, item, value) : slider(app, one, item, value),
-    h("div", { class: "ends" }, h("span", {}, item.low), h("span", {}, item.high)),
+    !item.choices && h("div", { class: "ends" }, h("span", {}, item.low), h("b", {}, wordOf(item, value)), h("span", {}, item.high)),
     h(
       "div",
       { class: "onward" },
       h("button", { onclick: () => go(app, one, n - 1), "aria-disabled": n === 0 ? "true" : null }, "Back"),
       h("button", { class: value === null ? "" : "main", onclick: () => go(app, one, n + 1) }, value === null ? "Leave it out" : "Next"),
     ),
-    h("p", { class: "quiet keys-hint" }, is_buttons ? `Keys ${item.from} to ${Math.min(item.to, 9)} choose, Enter goes on, Backspace goes back.` : "Arrows move, Enter goes on, Backspace goes back."),
+    h("p", { class: "quiet keys-hint" }, is_buttons ? `Keys ${from} to ${Math.min(to, 9)} choose, Enter goes on, Backspace goes back.` : "Arrows move, Enter goes on, Backspace goes back."),
   );
 }
 
 function steps(app, one, item, value) {
-  const all = Array.from({ length: item.to - item.from + 1 }, (_, n) => item.from + n);
+  const { from, to } = rangeOf(item);
+  const all = Array.from({ length: to - from + 1 }, (_, n) => from + n);
   return h(
     "div",
     { class: "steps", role: "radiogroup", "aria-labelledby": "asked" },
@@ -83,20 +92,20 @@ function steps(app, one, item, value) {
         "label",
         { key: step, class: value === step ? "chosen" : "" },
         h("input", { type: "radio", name: `q-${one.id}-${item.id}`, value: step, checked: value === step, onchange: (event) => answer(app, one, item, step, app.at(event)) }),
-        h("span", {}, String(step)),
+        h("span", {}, item.choices?.[step - from] ?? String(step)),
       ),
     ),
   );
 }
 
 function slider(app, one, item, value) {
-  const { step } = rangeOf(item);
-  const shown = value ?? Math.round((item.from + item.to) / 2);
+  const { from, to, step } = rangeOf(item);
+  const shown = value ?? Math.round((from + to) / 2);
   return h(
     "div",
     { class: `slider${value === null ? " todo" : ""}` },
-    h("output", {}, value === null ? "not chosen" : `${value} of ${item.to}`),
-    h("input", { type: "range", min: item.from, max: item.to, step, value: shown, "aria-labelledby": "asked", onchange: (event) => answer(app, one, item, Number(event.target.value), app.at(event)) }),
+    h("output", {}, value === null ? "not chosen" : `${value} of ${to}`),
+    h("input", { type: "range", min: from, max: to, step, value: shown, "aria-labelledby": "asked", onchange: (event) => answer(app, one, item, Number(event.target.value), app.at(event)) }),
   );
 }
 
@@ -114,7 +123,7 @@ function lastLook(app, one, done) {
 
 /** A key on the participant's page while a questionnaire is asked. */
 export function pressedInQuestions(app, event) {
-  const one = (app.state.questionnaires ?? []).find((each) => !each.words && !each.locked);
+  const one = (app.state.questionnaires ?? []).find((each) => !each.words && !isSubmitted(app, each));
   if (!one) return;
   const n = place(app, one);
   const item = one.items[n];
@@ -123,12 +132,12 @@ export function pressedInQuestions(app, event) {
   if (!item) return;
   const on_button = event.target.closest("button, a");
   if (event.key === "Enter" && !on_button) return event.repeat ? event.preventDefault() : take(() => go(app, one, n + 1));
-  const { is_buttons, step } = rangeOf(item);
+  const { from, to, is_buttons, step } = rangeOf(item);
   const digit = Number(digitOf(event));
-  if (is_buttons && digitOf(event).length === 1 && digit >= item.from && digit <= item.to) return take(() => answer(app, one, item, digit, app.at(event)));
+  if (is_buttons && digitOf(event).length === 1 && digit >= from && digit <= to) return take(() => answer(app, one, item, digit, app.at(event)));
   const moves = { ArrowLeft: -step, ArrowDown: -step, ArrowRight: step, ArrowUp: step };
   if (!(event.key in moves)) return;
   const value = answerOf(app, one, item);
-  const from = value ?? Math.round((item.from + item.to) / 2) - moves[event.key];
-  take(() => answer(app, one, item, Math.min(item.to, Math.max(item.from, from + moves[event.key])), app.at(event)));
+  const before = value ?? Math.round((from + to) / 2) - moves[event.key];
+  take(() => answer(app, one, item, Math.min(to, Math.max(from, before + moves[event.key])), app.at(event)));
 }

@@ -65,7 +65,7 @@ function voice({ voice }) {
 
 function link(app) {
   if (!app.link.is_up) return lamp("link", "red", "link lost");
-  const { round_ms } = app.clock;
+  const round_ms = app.clock.recent_ms;
   if (round_ms === null) return lamp("link", "amber", "link …");
   return lamp("link", round_ms > kAmber_ms ? "amber" : "green", `link ${number(round_ms, round_ms < 9.5 ? 1 : 0)} ms`);
 }

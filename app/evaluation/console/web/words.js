@@ -4,6 +4,11 @@
 import { words } from "./draft.js";
 import { h } from "./h.js";
 
+/** Also where the station has not told yet. */
+export function isSubmitted(app, { id, locked }) {
+  return locked || app.outbox.told.some(({ type, data }) => type === "submit" && data.questionnaire === id);
+}
+
 export function wordsQuestions(app, questionnaire) {
   if (questionnaire.locked) words.forget(questionnaire.id);
   const may = app.role === "participant" || app.state.writer;
@@ -12,7 +17,7 @@ export function wordsQuestions(app, questionnaire) {
   };
   return [
     questionnaire.items.map((item) => question(app, questionnaire, item, may)),
-    !questionnaire.locked && h("button", { key: "submit", class: "submit", onclick: submit, "aria-disabled": may ? null : "true" }, "Submit the answers"),
+    !isSubmitted(app, questionnaire) && h("button", { key: "submit", class: "submit", onclick: submit, "aria-disabled": may ? null : "true" }, "Submit the answers"),
   ];
 }
 
@@ -33,7 +38,7 @@ function question(app, questionnaire, item, may) {
       type: "text",
       autocomplete: "off",
       maxlength: "1000",
-      readonly: questionnaire.locked || !may,
+      readonly: isSubmitted(app, questionnaire) || !may,
       value: words.of(app.session, questionnaire.id, item.id) ?? kept,
       oninput: (event) => words.save(app.session, questionnaire.id, item.id, event.target.value),
       onchange: say,
