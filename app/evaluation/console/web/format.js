@@ -20,8 +20,8 @@ export function number(value, digits = 2) {
   return String(Number(Number(value).toFixed(digits))).replace("-", "−");
 }
 
-/** A value with its unit, "2.3 mm"; what counts has none. */
-export function withUnit(value, unit, digits = 2) {
+/** A value with its unit, three figures where it is small: "2.31 mm", "34.6 s", "180 mm³"; what counts has none. */
+export function withUnit(value, unit, digits = Math.abs(value) < 10 ? 2 : Math.abs(value) < 100 ? 1 : 0) {
   const shown = number(value, digits);
   return unit && shown !== "–" ? `${shown} ${unit === "mm3" ? "mm³" : unit}` : shown;
 }
