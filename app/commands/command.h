@@ -31,6 +31,7 @@ void addTrend(CommandLine& molar);
 void addReference(CommandLine& molar);
 void addEvaluate(CommandLine& molar);
 void addSeat(CommandLine& molar);
+void addPage(CommandLine& molar);
 void addStudy(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
@@ -42,10 +43,11 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {
-    addRehearse, addStart,  addImport,  addInspect,   addCheck,         addPlan,     addClearance, addFeel,
-    addCarve,    addSee,    addDisplay, addCalibrate, addDevices,       addDoctor,   addDebrief,   addReplay,
-    addMetrics,  addReport, addCompare, addTrend,     addReference,     addEvaluate, addStudy,     addSessions,
-    addExport,   addPieces, addLaws,    addSeat,      addPsychophysics, addHelp,     addManual,    addCompletion};
+inline constexpr auto kCommands = {addRehearse,  addStart,  addImport,    addInspect,  addCheck,   addPlan,
+                                   addClearance, addFeel,   addCarve,     addSee,      addDisplay, addCalibrate,
+                                   addDevices,   addDoctor, addDebrief,   addReplay,   addMetrics, addReport,
+                                   addCompare,   addTrend,  addReference, addEvaluate, addStudy,   addSessions,
+                                   addExport,    addPieces, addLaws,      addSeat,     addPage,    addPsychophysics,
+                                   addHelp,      addManual, addCompletion};
 
 }  // namespace app

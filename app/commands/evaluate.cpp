@@ -19,6 +19,8 @@ void addEvaluate(CommandLine& molar) {
       "without people: the scripted hand does the tasks");
   command.example("molar evaluate T.toml --participant P07 --group surgeon --out STUDY --instructor",
                   "at the desk; the evaluator types at this terminal");
+  command.example("molar evaluate T.toml --participant P07 --out STUDY --page 127.0.0.1:8080",
+                  "evaluator and participant at pages of a browser, the whole session through");
   command
       .option("TEMPLATE", options->study_template, "Case, tasks, rules, questions: TOML (app/evaluation/example.toml)")
       .required();
@@ -30,6 +32,12 @@ void addEvaluate(CommandLine& molar) {
   command.option("--evaluator", options->evaluator, "Code of who writes notes and rates problems").showsDefault();
   command.option("--script", options->script, "What evaluator and participant say, JSON lines, instead of the terminal")
       .valueNamed("EVENTS.jsonl");
+  command
+      .option("--page", options->page,
+              "Serve evaluator's and participant's page there, instead of the terminal; port 0: any")
+      .valueNamed("ADDRESS:PORT");
+  command.flag("--share", options->share,
+               "The page may be reached by other machines: encrypted, with a code of six digits");
   addRehearseOptions(command, options->rehearsal);
   command.does([options] { return runEvaluation(*options); });
 }

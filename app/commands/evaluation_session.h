@@ -9,7 +9,8 @@
 namespace app {
 
 struct EvaluateOptions {
-  std::string study_template, participant, group, evaluator = "E1", out, script;
+  std::string study_template, participant, group, evaluator = "E1", out, script, page;
+  bool share = false;
   RehearseOptions rehearsal;
 };
 

@@ -72,6 +72,11 @@ bool EvaluationCourse::allows(std::string_view stream) const {
   return found != consent_.end() && found->second;
 }
 
+std::optional<bool> EvaluationCourse::wordOn(std::string_view stream) const {
+  const auto found = consent_.find(stream);
+  return found == consent_.end() ? std::nullopt : std::optional(found->second);
+}
+
 const TaskTemplate* EvaluationCourse::running() const {
   return outcomes_.empty() || outcomes_.back().result ? nullptr : &study_.tasks[outcomes_.back().task];
 }
@@ -115,6 +120,8 @@ void EvaluationCourse::endOfRehearsal(const Moment& at) {
 }
 
 void EvaluationCourse::finishTask(TaskResult result, std::string_view by, const std::string& reason, const Moment& at) {
+  // Its pause ends with it.
+  if (isPaused()) task_began_ns_ += std::max<std::int64_t>(0, at.t_ns - *std::exchange(paused_ns_, std::nullopt));
   TaskOutcome& outcome = outcomes_.back();
   outcome.result = result, outcome.by = by, outcome.reason = reason;
   constexpr double kSecond_ns = 1e9;
@@ -158,7 +165,8 @@ std::optional<std::string> EvaluationCourse::takeTask(const LogEvent& event) {
     const Moment at{event.t_ns, event.tick};
     return startTask(at) != nullptr ? std::nullopt : std::optional<std::string>("a task goes on, or all are done");
   }
-  if (found == kTaskResults.end()) return "result: give one of " + joined(kTaskResults) + " or next";
+  if (result == "pause") return takePause(event);
+  if (found == kTaskResults.end()) return "result: give one of " + joined(kTaskResults) + ", next or pause";
   if (outcomes_.empty()) return "no task has begun yet";
   const std::string reason = event.textOr("reason");
   if (reason.empty()) return "reason: say why, it stands beside the rule's own verdict";
@@ -172,6 +180,23 @@ std::optional<std::string> EvaluationCourse::takeTask(const LogEvent& event) {
     log({event.t_ns, event.tick}, "evaluator", "task.override",
         {{"task", study_.tasks[outcome.task].id}, {"result", result}, {"reason", reason}});
   }
+  return {};
+}
+
+std::optional<std::string> EvaluationCourse::takePause(const LogEvent& event) {
+  if (running() == nullptr) return "no task goes on";
+  const Moment at{event.t_ns, event.tick};
+  if (!isPaused()) {
+    paused_ns_ = at.t_ns;
+    log(at, "evaluator", "task.pause", {{"task", running()->id}});
+    return {};
+  }
+  constexpr double kSecond_ns = 1e9;
+  const std::int64_t paused_ns = std::max<std::int64_t>(0, at.t_ns - *paused_ns_);
+  paused_ns_.reset();
+  task_began_ns_ += paused_ns;
+  log(at, "evaluator", "task.resume",
+      {{"task", running()->id}, {"paused_s", static_cast<double>(paused_ns) / kSecond_ns}});
   return {};
 }
 

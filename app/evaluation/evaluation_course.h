@@ -71,9 +71,9 @@ class EvaluationCourse {
   void enter(Phase phase, const Moment& at);
 
   /// An event of evaluator or participant: consent {stream, given}; note {kind, text, severity}; prompt {prompt};
-  /// bookmark {label}; help {reason}; problem {problem, title, severity}; task {result, reason} or {result: "next"};
-  /// change {what}; answer {questionnaire, item, value or words}; submit {questionnaire}. Returns why it is not
-  /// accepted, or nothing.
+  /// bookmark {label}; help {reason}; problem {problem, title, severity}; task {result, reason}, {result: "next"} or
+  /// {result: "pause"}, which holds the task and lets it go on in turn; change {what}; answer {questionnaire, item,
+  /// value or words}; submit {questionnaire}. Returns why it is not accepted, or nothing.
   std::optional<std::string> take(LogEvent event);
 
   /// A stream was allowed, by the newest word on it.
@@ -87,6 +87,12 @@ class EvaluationCourse {
   const TaskTemplate* running() const;
   void fired(const RuleFired& rule, const Moment& at);
   bool isTimeBoxOver() const { return is_box_over_; }
+  /// The running task stands still: its clock, its time box and its rules.
+  bool isPaused() const { return paused_ns_.has_value(); }
+  const Participant& participant() const { return participant_; }
+  /// The newest word on a stream; none yet.
+  std::optional<bool> wordOn(std::string_view stream) const;
+  bool isLocked(std::string_view questionnaire) const { return locked_.contains(questionnaire); }
   bool areTasksDone() const { return outcomes_.size() == order_.size() && running() == nullptr; }
   const std::vector<TaskOutcome>& outcomes() const { return outcomes_; }
   /// The rehearsal has ended while the task went on.
@@ -100,6 +106,7 @@ class EvaluationCourse {
   void finishTask(TaskResult result, std::string_view by, const std::string& reason, const Moment& at);
   std::optional<std::string> takeConsent(const LogEvent& event);
   std::optional<std::string> takeTask(const LogEvent& event);
+  std::optional<std::string> takePause(const LogEvent& event);
   std::optional<std::string> takeAnswer(const LogEvent& event);
   std::optional<std::string> takeSubmit(const LogEvent& event);
   std::optional<std::string> takeNote(LogEvent& event);
@@ -112,7 +119,8 @@ class EvaluationCourse {
   std::vector<std::size_t> order_;
   std::map<std::string, bool, std::less<>> consent_, locked_;
   std::vector<TaskOutcome> outcomes_;
-  std::int64_t task_began_ns_ = 0;
+  std::int64_t task_began_ns_ = 0;         ///< moved on by pauses
+  std::optional<std::int64_t> paused_ns_;  ///< since then
   bool is_box_over_ = false;
 };
 

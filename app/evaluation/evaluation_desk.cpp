@@ -17,8 +17,7 @@ constexpr std::chrono::milliseconds kLastWait{2000};
 
 }  // namespace
 
-EvaluationDesk::EvaluationDesk(Parts parts, bool begins_by_itself)
-    : parts_(std::move(parts)), begins_by_itself_(begins_by_itself), tray_(parts_.study.tools()) {}
+EvaluationDesk::EvaluationDesk(Parts parts) : parts_(std::move(parts)), tray_(parts_.study.tools()) {}
 
 void EvaluationDesk::open(const assets::RiskStructures& structures, const std::string& recording) {
   structures_ = &structures;
@@ -66,7 +65,7 @@ void EvaluationDesk::begin() {
   looked_.reset();
   if (running == nullptr) return;
   watch_.emplace(*running, *structures_);
-  task_began_s_ = now_s_;
+  task_s_ = 0.0;
   marks_.push_back("task.start " + running->id);
   printMessage(fmt::format("task {} of {}, {}: {}", parts_.course.outcomes().size(), parts_.course.order().size(),
                            running->id, running->say));
@@ -74,7 +73,8 @@ void EvaluationDesk::begin() {
   if (tool != tray_.end()) requests_.push_back({Control::tool, static_cast<int>(tool - tray_.begin())});
 }
 
-void EvaluationDesk::say(LogEvent event, const std::string& where) {
+void EvaluationDesk::say(Said said) {
+  LogEvent& event = said.event;
   const Moment at = now();
   // A decision counts when it is made, a note from its first letter on.
   if (event.t_ns == 0 || event.type == "task") event.t_ns = at.t_ns;
@@ -83,23 +83,22 @@ void EvaluationDesk::say(LogEvent event, const std::string& where) {
     const double ago = static_cast<double>(at.t_ns - event.t_ns) / kSecond_ns / dt_s_;
     event.tick = ago < static_cast<double>(*event.tick) ? *event.tick - static_cast<std::uint64_t>(ago) : 0;
   }
-  // A task that is begun by hand begins with the next tick.
-  if (const std::string* const result = event.text("result"); result != nullptr && *result == "next")
-    event.tick = next_tick_;
+  // A task that is begun by hand, or goes on, does so with the next tick.
+  const std::string result = event.textOr("result");
+  if (result == "next" || (result == "pause" && parts_.course.isPaused())) event.tick = next_tick_;
   const std::string type = event.type;
-  if (const auto refused = parts_.course.take(std::move(event))) {
+  const auto refused = parts_.course.take(std::move(event));
+  if (refused) {
     parts_.course.log(at, "system", "refused", {{"what", type}, {"why", *refused}});
-    return printMessage((where.empty() ? type : where) + ": " + *refused);
+    printMessage((said.where.empty() ? type : said.where) + ": " + *refused);
+  } else {
+    marks_.push_back(fmt::format("{} {}", type, ++said_));
   }
-  marks_.push_back(fmt::format("{} {}", type, ++said_));
+  if (said.answered) said.answered(refused);
 }
 
 void EvaluationDesk::takeSaid() {
-  if (parts_.evaluator)
-    for (LogEvent& event : parts_.evaluator()) say(std::move(event), "");
-  if (watched_ == nullptr) return;
-  for (ScriptedEvent& one : parts_.script.takeDue(watched_->id, now_s_ - task_began_s_))
-    say(std::move(one.event), one.where);
+  for (Said& one : parts_.people.take(watched_ != nullptr ? watched_->id : "", task_s())) say(std::move(one));
 }
 
 void EvaluationDesk::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
@@ -109,12 +108,16 @@ void EvaluationDesk::follow(std::span<const haptics::Tick> ticks, const haptics:
   if (parts_.bone != nullptr && !ticks.empty())
     parts_.bone->update(ticks.back().index, parts_.clock_ns ? std::chrono::milliseconds(0) : kLongestWait);
   for (const haptics::Tick& tick : ticks) {
-    if (begins_by_itself_ && parts_.course.running() == nullptr) parts_.course.startTask({now().t_ns, tick.index});
+    if (parts_.people.leads() && parts_.course.running() == nullptr) parts_.course.startTask({now().t_ns, tick.index});
     begin();
     next_tick_ = tick.index + 1;
     now_s_ = tick.t_s + tick.dt_s;
     dt_s_ = tick.dt_s;
-    if (watch_) unlooked_.push_back({tick, commandOf(tick)});
+    // While it is paused neither its clock nor its rules go on.
+    if (watch_ && !parts_.course.isPaused()) {
+      unlooked_.push_back({tick, commandOf(tick)});
+      task_s_ += tick.dt_s;
+    }
     lookAtRules();
     // A script says it at its tick.
     if (!parts_.clock_ns) takeSaid();
@@ -185,13 +188,21 @@ std::string EvaluationDesk::toEvaluator() const {
   const std::size_t place = parts_.course.outcomes().size(), all = parts_.course.order().size();
   if (watched_ == nullptr) return fmt::format("{} of {} tasks done: 5 5 begins the next", place, all);
   const std::string measures = watch_ ? watch_->line() : "";
-  return fmt::format("{} ({}/{}) {} of {}{}{}{}", watched_->id, place, all, clockText(now_s_ - task_began_s_),
-                     clockText(watched_->time_box_s), parts_.course.isTimeBoxOver() ? ", time is over: decide" : "",
+  return fmt::format("{} ({}/{}) {} of {}{}{}{}", watched_->id, place, all, clockText(task_s_),
+                     clockText(watched_->time_box_s),
+                     parts_.course.isPaused()        ? ", paused: 5 4 goes on"
+                     : parts_.course.isTimeBoxOver() ? ", time is over: decide"
+                                                     : "",
                      measures.empty() ? "" : " · ", measures);
 }
 
+std::optional<double> EvaluationDesk::measure(std::string_view id) const {
+  return watch_ ? watch_->measure(id) : std::nullopt;
+}
+
 bool EvaluationDesk::isOver() const {
-  return parts_.course.areTasksDone() || (parts_.course.isConsentComplete() && !parts_.course.allows("log"));
+  return (parts_.course.areTasksDone() && parts_.people.mayEndTasks()) ||
+         (parts_.course.isConsentComplete() && !parts_.course.allows("log"));
 }
 
 void EvaluationDesk::finish() {

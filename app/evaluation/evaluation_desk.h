@@ -17,7 +17,7 @@
 #include "app/controls/control.h"
 #include "app/evaluation/bone_source.h"
 #include "app/evaluation/evaluation_course.h"
-#include "app/evaluation/script.h"
+#include "app/evaluation/session_people.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 
@@ -28,19 +28,16 @@ inline constexpr char kEvaluationEvent[] = "evaluation";
 
 class EvaluationDesk {
  public:
-  /// What the evaluator says between two frames; empty: nothing.
-  using Evaluator = std::function<std::vector<LogEvent>()>;
   struct Parts {
     const StudyTemplate& study;
     EvaluationCourse& course;
-    EvaluationScript& script;
-    Evaluator evaluator;
+    SessionPeople& people;
     std::function<std::int64_t()> clock_ns;  ///< none where the ticks are the clock (fast)
     std::int64_t begun_ns = 0;               ///< of the log, at the first tick: where the ticks are the clock
     BoneSource* bone = nullptr;              ///< for rules that need it; null: what they name has no value
   };
-  /// Borrows all. The next task begins by itself where a script leads, else when the evaluator says so.
-  EvaluationDesk(Parts parts, bool begins_by_itself);
+  /// Borrows all. The next task begins by itself where the people lead so, else when the evaluator says so.
+  explicit EvaluationDesk(Parts parts);
 
   /// Once the case is there, with the study's tools as the tray: the structures that the bur keeps off, borrowed, and
   /// the file of the recording, empty where there is none.
@@ -63,6 +60,10 @@ class EvaluationDesk {
   void finish();
   /// Of the newest tick.
   Moment now() const;
+  /// Of the task that goes on, without its pauses; 0 between two.
+  double task_s() const { return watched_ == nullptr ? 0.0 : task_s_; }
+  /// Of a measure that its rules name; none: not known yet, or no task goes on.
+  std::optional<double> measure(std::string_view id) const;
 
  private:
   struct Numbered {
@@ -77,14 +78,13 @@ class EvaluationDesk {
   const haptics::Command& commandOf(const haptics::Tick& tick) const;
   void begin();
   void tellEnd();
-  void say(LogEvent event, const std::string& where);
+  void say(Said said);
   void takeSaid();
   bool isKnown(const haptics::Tick& tick) const;
   void lookAtRules();
   void tellBoneNews();
 
   Parts parts_;
-  bool begins_by_itself_;
   const assets::RiskStructures* structures_ = nullptr;
   std::vector<std::string> tray_;
   std::vector<Numbered> commands_;
@@ -93,7 +93,7 @@ class EvaluationDesk {
   std::optional<std::uint64_t> looked_;  ///< newest tick of the task whose rules were looked at
   const TaskTemplate* watched_ = nullptr;
   std::uint64_t next_tick_ = 0;
-  double now_s_ = 0.0, dt_s_ = 0.0, task_began_s_ = 0.0;
+  double now_s_ = 0.0, dt_s_ = 0.0, task_s_ = 0.0;
   std::vector<ControlRequest> requests_;
   std::vector<std::string> marks_;
   std::size_t said_ = 0;

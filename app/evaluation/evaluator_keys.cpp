@@ -102,6 +102,10 @@ std::optional<LogEvent> EvaluatorKeys::take(char c, std::int64_t t_ns) {
       open_ = Open::none;
       return eventOf("task", t_ns, {{"result", std::string("next")}});
     }
+    if (c == '4') {
+      open_ = Open::none;
+      return eventOf("task", t_ns, {{"result", std::string("pause")}});
+    }
     takeTask(c);
     return {};
   }
@@ -131,7 +135,7 @@ std::string EvaluatorKeys::line() const {
   constexpr const char* kNames[] = {"",
                                     "behaviour",
                                     "comment",
-                                    "task: 1 success 2 partly 3 failed 5 next",
+                                    "task: 1 success 2 partly 3 failed 4 pause 5 next",
                                     "success",
                                     "partly",
                                     "failed",

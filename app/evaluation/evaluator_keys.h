@@ -1,6 +1,7 @@
 // The evaluator's keys at the terminal, beside the surgeon: 1 behaviour and 2 comment open a line, whose time is that
 // of its first letter; Tab raises its severity, Enter keeps it, Esc drops it. 3 the marked prompt was said (+ marks the
-// next), 4 bookmark, 5 the task: 1 success, 2 partly, 3 failed, each with a reason, 5 next. 6 help given, 7 problem
+// next), 4 bookmark, 5 the task: 1 success, 2 partly, 3 failed, each with a reason, 4 holds it and lets it go on, 5
+// next. 6 help given, 7 problem
 // ("name: sentence"), 8 a stream is withdrawn ("quotes"). Pure state; one thread.
 #pragma once
 
@@ -16,9 +17,8 @@
 namespace app {
 
 inline constexpr std::string_view kEvaluatorKeys =
-    "1 behaviour  2 comment  3 prompt said  4 bookmark  5 task (1 success 2 partly 3 failed 5 next)  6 help  7 problem "
-    " "
-    "8 withdraw";
+    "1 behaviour  2 comment  3 prompt said  4 bookmark  5 task (1 success 2 partly 3 failed 4 pause 5 next)  6 help  "
+    "7 problem  8 withdraw";
 
 class EvaluatorKeys {
  public:

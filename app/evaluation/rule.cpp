@@ -165,6 +165,34 @@ std::vector<std::string> Rule::measures() const {
   return ids;
 }
 
+std::optional<bool> Rule::Comparison::holds(const std::optional<double>& value) const {
+  if (!value) return {};
+  if (comparator == "==") return *value == limit;
+  if (comparator == "!=") return *value != limit;
+  if (comparator.front() == '<') return comparator == "<" ? *value < limit : *value <= limit;
+  return comparator == ">" ? *value > limit : *value >= limit;
+}
+
+std::vector<Rule::Comparison> Rule::comparisons() const {
+  constexpr std::array<const char*, 5> kAsWritten{"<", "<=", ">", ">=", "=="}, kTurned{">=", ">", "<=", "<", "!="};
+  // From the whole rule down to its parts, which stand before it.
+  std::vector<bool> is_turned(terms_.size(), false);
+  for (std::size_t n = terms_.size(); n-- > 0;) {
+    const Term& term = terms_[n];
+    if (term.kind < Kind::negation) continue;
+    is_turned[term.left] = is_turned[n] != (term.kind == Kind::negation);
+    if (term.kind != Kind::negation) is_turned[term.right] = is_turned[n];
+  }
+  std::vector<Comparison> all;
+  for (std::size_t n = 0; n < terms_.size(); ++n) {
+    const Term& term = terms_[n];
+    if (term.kind >= Kind::negation) continue;
+    const auto kind = static_cast<std::size_t>(term.kind);
+    all.push_back({term.id, is_turned[n] ? kTurned[kind] : kAsWritten[kind], term.number});
+  }
+  return all;
+}
+
 std::optional<bool> Rule::holds(const std::function<std::optional<double>(std::string_view id)>& value_of) const {
   std::array<std::optional<bool>, kMostTerms> found;
   for (std::size_t n = 0; n < terms_.size(); ++n) {

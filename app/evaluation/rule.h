@@ -34,6 +34,14 @@ class Rule {
   const std::string& text() const { return text_; }
   /// Ids, each once.
   std::vector<std::string> measures() const;
+  /// Its comparisons in the order written, each turned round where a `not` stands before it: "S1.canal >= 2 mm".
+  struct Comparison {
+    std::string id, comparator;  ///< < <= > >= == !=
+    double limit = 0.0;
+    /// None: the measure has no value.
+    std::optional<bool> holds(const std::optional<double>& value) const;
+  };
+  std::vector<Comparison> comparisons() const;
   /// None: a measure that decides has no value.
   std::optional<bool> holds(const std::function<std::optional<double>(std::string_view id)>& value_of) const;
 

@@ -22,6 +22,13 @@ struct Told {
   std::optional<std::uint64_t> stop, looked_end;
   std::vector<RuleFired> fired, again;
   std::unique_ptr<TaskWatch> watch;
+  /// After the first of each, until the second: it stood still.
+  std::vector<std::pair<std::uint64_t, std::optional<std::uint64_t>>> pauses;
+
+  bool stoodStill(std::uint64_t tick) const {
+    return std::ranges::any_of(
+        pauses, [&](const auto& one) { return tick > one.first && (!one.second || tick < *one.second); });
+  }
 };
 
 std::vector<Told> toldIn(const StudyTemplate& study, const std::vector<LogEvent>& events) {
@@ -30,10 +37,13 @@ std::vector<Told> toldIn(const StudyTemplate& study, const std::vector<LogEvent>
     const std::string* const id = event.text("task");
     if (event.type == "task.start" && id != nullptr && event.tick) {
       const auto place = study.taskNamed(*id);
-      if (place) told.push_back({&study.tasks[*place], *event.tick, {}, {}, {}, {}, {}});
+      if (place) told.push_back({&study.tasks[*place], *event.tick, {}, {}, {}, {}, {}, {}});
     }
     if (told.empty()) continue;
     if (event.type == "task.stop") told.back().stop = event.tick;
+    if (event.type == "task.pause" && event.tick) told.back().pauses.push_back({*event.tick, {}});
+    if (event.type == "task.resume" && event.tick && !told.back().pauses.empty())
+      told.back().pauses.back().second = event.tick;
     // Where bone was waited for, they were looked at until then.
     if (event.type == "rules.looked" && id != nullptr) {
       const auto of = std::find_if(told.rbegin(), told.rend(), [&](const Told& one) { return one.task->id == *id; });
@@ -76,7 +86,7 @@ RuleCheck checkRules(const StudyTemplate& study, const std::vector<LogEvent>& ev
       if (follower) follower->step(tick);
       for (Told& one : told)
         if (tick.index >= one.start && (!one.stop || tick.index <= *one.stop) &&
-            (!one.looked_end || tick.index < *one.looked_end))
+            (!one.looked_end || tick.index < *one.looked_end) && !one.stoodStill(tick.index))
           if (const auto fired = one.watch->add(tick, in_force, follower ? BoneValue(bone) : BoneValue()))
             one.again.push_back(*fired);
     }

@@ -39,6 +39,8 @@ class TaskWatch {
   std::optional<RuleFired> add(const haptics::Tick& tick, const haptics::Command& in_force, const BoneValue& bone = {});
 
   double time_s() const { return time_s_; }
+  /// Of a measure that the rules name; none: not known yet.
+  std::optional<double> measure(std::string_view id) const { return measures_.value(id); }
   /// "O1.removed 12.3 mm3 · S1.canal 2.1 mm"; what is not known yet is left out.
   std::string line() const;
 

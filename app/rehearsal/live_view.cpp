@@ -157,6 +157,13 @@ render::Image LiveView::fullPicture(render::Frame frame) {
   return display().picture(frame);
 }
 
+render::Image LiveView::shownPicture() {
+  if (!display_ || frames_ == 0) return {};
+  display_->makeCurrent();
+  render::FrameRenderer& renderer = display_->renderer();
+  return display_->mode() == render::DisplayMode::mono ? renderer.readImage() : renderer.readEye(render::Eye::left);
+}
+
 void LiveView::describe(RehearsalStatus& status) {
   status.quality = qualityText();
   if (!display_) return;

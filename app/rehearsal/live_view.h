@@ -66,6 +66,10 @@ class LiveView {
   /// The frame and its text at the best quality of the ladder, whatever it is shown with. Throws GpuError.
   render::Image fullPicture(render::Frame frame);
 
+  /// As shown last; in stereo the left eye's, without the text over it. Waits for no drawing: show() has. Empty before
+  /// the first frame.
+  render::Image shownPicture();
+
   SurgeonDisplay& display();
   /// Null: headless.
   render::Window* window() { return display_ ? display_->window() : nullptr; }

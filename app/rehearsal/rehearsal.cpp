@@ -131,6 +131,7 @@ class Rehearsal {
       followTooth();
       followDemonstration();
       draw();
+      tellOnlooker();
       updateMeasures();
       status_reporter_->update(pace_.now(), state());
       router_.handleInstructorInput(status_reporter_->updateInstructor(state()), frame_);
@@ -237,7 +238,7 @@ class Rehearsal {
 
   bool isProcedureOver() const {
     return (plan_.procedure && plan_.procedure->isOver()) || (plan_.evaluation && plan_.evaluation->isOver()) ||
-           (demonstration_ && demonstration_->isOver());
+           (plan_.onlooker && plan_.onlooker->endsRehearsal()) || (demonstration_ && demonstration_->isOver());
   }
 
   /// 1: the tooth could not be taken out.
@@ -512,6 +513,14 @@ class Rehearsal {
     if (view_.adaptQuality(in_stroke)) event_log_.note("quality", view_.qualityText());
   }
 
+  void tellOnlooker() {
+    if (!plan_.onlooker || !pace_.isRealTime()) return;
+    std::optional<double> nearest_mm;
+    for (const std::optional<double>& one : clearance_.now())
+      if (one && (!nearest_mm || *one < *nearest_mm)) nearest_mm = one;
+    plan_.onlooker->see({newest_, nearest_mm, equipment_.rate_Hz(), servo_figures_, picture_});
+  }
+
   RehearsalFigures finish(Ending ending) {
     followTicks();
     for (const Touch& touch : touches_.finish()) noteTouch(touch);
@@ -601,6 +610,8 @@ class Rehearsal {
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;
+  const std::function<haptics::LoopFigures()> servo_figures_ = [this] { return station().figures(); };
+  const std::function<render::Image()> picture_ = [this] { return view_.shownPicture(); };
 };
 
 }  // namespace

@@ -94,8 +94,9 @@ struct SessionLogWriter::Impl {
   std::uint64_t number = 0;
   std::string digest;
   std::optional<std::string> trouble;
-  std::mutex mutex;
+  mutable std::mutex mutex;
   std::condition_variable wakes;
+  std::uint64_t handed = 0, on_disk = 0;
   bool is_dirty = false, ends = false;
   std::thread syncs;
 
@@ -104,9 +105,11 @@ struct SessionLogWriter::Impl {
     while (!ends) {
       wakes.wait_for(lock, kBetweenSyncs, [this] { return ends; });
       if (!std::exchange(is_dirty, false)) continue;
+      const std::uint64_t synced = handed;
       lock.unlock();
-      fdatasync(file);
+      const bool is_kept = fdatasync(file) == 0;
       lock.lock();
+      if (is_kept) on_disk = synced;
     }
   }
 };
@@ -144,7 +147,13 @@ void SessionLogWriter::add(const LogEvent& event) {
   log.digest = digest;
   ++log.number;
   const std::scoped_lock lock(log.mutex);
+  log.handed = log.number;
   log.is_dirty = true;
+}
+
+std::uint64_t SessionLogWriter::onDisk() const {
+  const std::scoped_lock lock(impl_->mutex);
+  return impl_->on_disk;
 }
 
 std::optional<std::string> SessionLogWriter::trouble() const { return impl_->trouble; }

@@ -44,6 +44,8 @@ class SessionLogWriter {
   /// own time. Once the disk refuses, nothing more is written, and trouble() has one line.
   void add(const LogEvent& event);
   std::optional<std::string> trouble() const;
+  /// So many of those that were added are on the disk, not only in the kernel's hands: 100 ms later, where it is fast.
+  std::uint64_t onDisk() const;
 
  private:
   struct Impl;

@@ -98,15 +98,16 @@ set(third_parties
   "libevdev/" "haptics"
   "boost/math/" "app/study"
   "sodium|zip\\.h" "app/study"
+  "boost/(asio|beast)|turbojpeg" "app/evaluation"
   "libusb" "haptics"
   "GLFW/" "render|app"
   "embree3/" "render"
   "epoxy/" "render"
-  "openssl/" "calibration"
+  "openssl/" "calibration|app/evaluation"
   "CLI/" "app/text"
   "spdlog/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|portaudio|sndfile" "app")
 set(operating_system
-  "^(sys/[a-z]+|linux/[a-z0-9-]+|unistd|fcntl|pthread|pwd|sched|signal|spawn|time|poll|dlfcn|link|termios|immintrin|x86intrin)\\.h$")
+  "^((sys|arpa|netinet)/[a-z]+|linux/[a-z0-9-]+|unistd|fcntl|pthread|pwd|sched|signal|spawn|time|poll|dlfcn|link|termios|immintrin|x86intrin)\\.h$")
 
 set(violations 0)
 macro(violation text)

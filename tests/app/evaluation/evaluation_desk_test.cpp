@@ -31,6 +31,26 @@ time_box_s = 60
 success = "O1.removed >= 1 mm3"
 )";
 
+/// Says what it is given.
+class SpokenFor : public SessionPeople {
+ public:
+  std::vector<Said> take(std::string_view, double since_s) override {
+    since_s_ = since_s;
+    std::vector<Said> all;
+    for (LogEvent& event : std::exchange(said_, {}))
+      all.push_back({std::move(event), "", [this](const auto& refused) { refused_.push_back(refused.value_or("")); }});
+    return all;
+  }
+  bool leads() const override { return leads_; }
+  bool mayEndTasks() const override { return may_end_; }
+  void ask(Phase) override {}
+
+  bool leads_ = true, may_end_ = true;
+  double since_s_ = 0.0;
+  std::vector<LogEvent> said_;
+  std::vector<std::string> refused_;
+};
+
 class EvaluationDeskTest : public testing::Test {
  protected:
   explicit EvaluationDeskTest(const std::string& study_template = kDeskTemplate)
@@ -68,14 +88,14 @@ class EvaluationDeskTest : public testing::Test {
   StudyTemplate study_;
   std::vector<LogEvent> events_;
   EvaluationCourse course_;
-  EvaluationScript script_;
+  SpokenFor people_;
   assets::RiskStructures none_;
   std::uint64_t next_ = 0;
   std::int64_t clock_ns_ = 0;
 };
 
 TEST_F(EvaluationDeskTest, AScriptedSessionFiresAndBeginsTheNextAtTheVeryTick) {
-  EvaluationDesk desk({study_, course_, script_, {}, {}, kLogBegun_ns}, true);
+  EvaluationDesk desk({study_, course_, people_, {}, kLogBegun_ns});
   desk.open(none_, "");
   goTo(desk, 200);
   EXPECT_EQ(only("task.start").tick, 0u);
@@ -93,17 +113,16 @@ TEST_F(EvaluationDeskTest, AScriptedSessionFiresAndBeginsTheNextAtTheVeryTick) {
 }
 
 TEST_F(EvaluationDeskTest, ByHandATaskWaitsAndANoteIsOfItsFirstLetter) {
-  std::vector<LogEvent> said;
-  EvaluationDesk desk({study_, course_, script_, [&] { return std::exchange(said, {}); }, [&] { return clock_ns_; }, 0},
-                      false);
+  people_.leads_ = false;
+  EvaluationDesk desk({study_, course_, people_, [&] { return clock_ns_; }, 0});
   desk.open(none_, "");
   goTo(desk, 160);
   EXPECT_TRUE(events_.empty());
-  said.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
+  people_.said_.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
   goTo(desk, 176);
   EXPECT_EQ(only("task.start").tick, 176u);
   goTo(desk, 216);
-  said.push_back({clock_ns_ - 30 * kTick_ns, {}, "evaluator", "note", {{"kind", std::string("behaviour")}}});
+  people_.said_.push_back({clock_ns_ - 30 * kTick_ns, {}, "evaluator", "note", {{"kind", std::string("behaviour")}}});
   goTo(desk, 217);
   EXPECT_NEAR(static_cast<double>(only("note").tick.value()), 216.0 - 31.0, 1.0);
   goTo(desk, 300);
@@ -112,8 +131,65 @@ TEST_F(EvaluationDeskTest, ByHandATaskWaitsAndANoteIsOfItsFirstLetter) {
   EXPECT_FALSE(desk.isOver());
 }
 
+TEST_F(EvaluationDeskTest, InAPauseTheTasksClockAndRulesStandStill) {
+  people_.leads_ = false;
+  EvaluationDesk desk({study_, course_, people_, [&] { return clock_ns_; }, 0});
+  desk.open(none_, "");
+  const LogEvent next{0, {}, "evaluator", "task", {{"result", std::string("next")}}};
+  const LogEvent pause{0, {}, "evaluator", "task", {{"result", std::string("pause")}}};
+  people_.said_.push_back(pause);
+  goTo(desk, 10);
+  ASSERT_EQ(people_.refused_, std::vector<std::string>{"no task goes on"});
+  people_.said_.push_back(next);
+  goTo(desk, 20);
+  // Ticks 20 to 39 are of the task; then it stands until tick 99, far beyond its 50 ticks.
+  people_.said_.push_back(pause);
+  goTo(desk, 36);
+  EXPECT_TRUE(course_.isPaused());
+  goTo(desk, 100);
+  EXPECT_TRUE(events_.back().type == "task.pause") << events_.back().type;
+  EXPECT_NEAR(desk.task_s(), 0.016, 1e-9);
+  people_.said_.push_back(pause);
+  goTo(desk, 116);
+  EXPECT_FALSE(course_.isPaused());
+  EXPECT_EQ(only("task.pause").tick, 35u);
+  EXPECT_EQ(only("task.resume").tick, 116u);
+  EXPECT_NEAR(*only("task.resume").number("paused_s"), 0.080, 1e-9);
+  goTo(desk, 200);
+  // The fiftieth tick of the task: 16 before the pause and 34 after it.
+  EXPECT_EQ(only("rule").tick, 116u + 33u);
+  EXPECT_NEAR(*only("task.stop").number("time_s"), 0.050, 1e-9);
+}
+
+TEST_F(EvaluationDeskTest, WhoDecidesInAPauseEndsIt) {
+  people_.leads_ = false;
+  EvaluationDesk desk({study_, course_, people_, [&] { return clock_ns_; }, 0});
+  desk.open(none_, "");
+  people_.said_.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
+  goTo(desk, 16);
+  people_.said_.push_back({0, {}, "evaluator", "task", {{"result", std::string("pause")}}});
+  goTo(desk, 32);
+  goTo(desk, 64);
+  people_.said_.push_back(
+      {0, {}, "evaluator", "task", {{"result", std::string("partly")}, {"reason", std::string("he is tired")}}});
+  goTo(desk, 80);
+  EXPECT_FALSE(course_.isPaused());
+  EXPECT_NEAR(*only("task.stop").number("time_s"), 0.016, 1e-9);
+}
+
+TEST_F(EvaluationDeskTest, TasksEndWhenTheEvaluatorGoesOn) {
+  people_.may_end_ = false;
+  EvaluationDesk desk({study_, course_, people_, {}, kLogBegun_ns});
+  desk.open(none_, "");
+  goTo(desk, 200);
+  EXPECT_TRUE(course_.areTasksDone());
+  EXPECT_FALSE(desk.isOver());
+  people_.may_end_ = true;
+  EXPECT_TRUE(desk.isOver());
+}
+
 TEST_F(EvaluationDeskTest, WhatMayNotChangeIsRefusedAndBothAreLogged) {
-  EvaluationDesk desk({study_, course_, script_, {}, {}, 0}, true);
+  EvaluationDesk desk({study_, course_, people_, {}, 0});
   desk.open(none_, "");
   EXPECT_FALSE(desk.allows({Control::law, 1}));
   EXPECT_TRUE(desk.allows({Control::layer, 0}));
@@ -126,7 +202,7 @@ TEST_F(EvaluationDeskTest, WhatMayNotChangeIsRefusedAndBothAreLogged) {
 }
 
 TEST_F(EvaluationDeskTest, AWithdrawnLogEndsTheTasks) {
-  EvaluationDesk desk({study_, course_, script_, {}, {}, 0}, true);
+  EvaluationDesk desk({study_, course_, people_, {}, 0});
   desk.open(none_, "");
   goTo(desk, 20);
   EXPECT_FALSE(desk.isOver());
@@ -178,20 +254,16 @@ success = "time > 0.05 s"
 class BoneDeskTest : public EvaluationDeskTest {
  protected:
   BoneDeskTest() : EvaluationDeskTest(kBoneTemplate) {}
-  EvaluationDesk::Parts parts(EvaluationDesk::Evaluator evaluator = {}, bool is_live = true) {
-    return {study_,
-            course_,
-            script_,
-            std::move(evaluator),
-            is_live ? std::function<std::int64_t()>([&] { return clock_ns_; }) : nullptr,
-            kLogBegun_ns,
-            &bone_};
+  EvaluationDesk::Parts parts(bool is_live = true) {
+    return {study_,       course_,
+            people_,      is_live ? std::function<std::int64_t()>([&] { return clock_ns_; }) : nullptr,
+            kLogBegun_ns, &bone_};
   }
   LateBone bone_;
 };
 
 TEST_F(BoneDeskTest, ARuleFiresWithItsTickThoughTheBoneIsToldLater) {
-  EvaluationDesk desk(parts(), true);
+  EvaluationDesk desk(parts());
   desk.open(none_, "s.molar");
   EXPECT_EQ(bone_.recording_, "s.molar");
   goTo(desk, 144);
@@ -205,7 +277,7 @@ TEST_F(BoneDeskTest, ARuleFiresWithItsTickThoughTheBoneIsToldLater) {
 }
 
 TEST_F(BoneDeskTest, WhereTicksAreTheClockItIsWaitedForAndTheNextBeginsAtTheVeryTick) {
-  EvaluationDesk desk(parts({}, false), true);
+  EvaluationDesk desk(parts(false));
   desk.open(none_, "s.molar");
   goTo(desk, 200);
   EXPECT_EQ(only("rule").tick, 110u);
@@ -214,13 +286,13 @@ TEST_F(BoneDeskTest, WhereTicksAreTheClockItIsWaitedForAndTheNextBeginsAtTheVery
 }
 
 TEST_F(BoneDeskTest, WhoDecidesByHandLeavesUnaskedWhatWasNotToldYet) {
-  std::vector<LogEvent> said;
-  EvaluationDesk desk(parts([&] { return std::exchange(said, {}); }), false);
+  people_.leads_ = false;
+  EvaluationDesk desk(parts());
   desk.open(none_, "s.molar");
-  said.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
+  people_.said_.push_back({0, {}, "evaluator", "task", {{"result", std::string("next")}}});
   goTo(desk, 16);
   goTo(desk, 112);
-  said.push_back(
+  people_.said_.push_back(
       {0, {}, "evaluator", "task", {{"result", std::string("partly")}, {"reason", std::string("he is tired")}}});
   goTo(desk, 128);
   EXPECT_EQ(std::ranges::count(events_, "rule", &LogEvent::type), 0);
@@ -229,7 +301,7 @@ TEST_F(BoneDeskTest, WhoDecidesByHandLeavesUnaskedWhatWasNotToldYet) {
 }
 
 TEST_F(BoneDeskTest, WithoutWhoTellsTheBoneTheRestOfTheRulesIsLookedAt) {
-  EvaluationDesk desk(parts(), true);
+  EvaluationDesk desk(parts());
   desk.open(none_, "s.molar");
   goTo(desk, 64);
   bone_.is_lost_ = true;

@@ -1,0 +1,16 @@
+// What a session of an evaluation begins with: what contradicts itself is refused, and the warm-up's rehearsal follows
+// from the session's. Start-up only.
+#pragma once
+
+#include "app/commands/evaluation_session.h"
+#include "app/evaluation/study_template.h"
+
+namespace app {
+
+/// Throws UsageError.
+void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study);
+
+/// A block at the same place with the same hand; nothing of it is recorded.
+RehearseOptions warmUpOptions(const RehearseOptions& main, const StudyTemplate& study);
+
+}  // namespace app

@@ -1,0 +1,31 @@
+// Who looks on at a rehearsal: sees each frame after it was drawn, may ask for its picture, and may end it. Main
+// thread, once a frame; what it costs is the onlooker's.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "haptics/loop/loop_statistics.h"
+#include "haptics/servo/tick.h"
+#include "render/image.h"
+
+namespace app {
+
+class Onlooker {
+ public:
+  struct Frame {
+    const haptics::Tick& newest;
+    std::optional<double> clearance_mm;  ///< of the tool to the nearest structure at risk
+    double rate_Hz = 1000.0;             ///< of the servo
+    /// Made at each call: some 10 µs; some milliseconds. The picture: of the surgeon, of one eye, as drawn last; none
+    /// where nothing was drawn.
+    const std::function<haptics::LoopFigures()>& servo;
+    const std::function<render::Image()>& picture;
+  };
+
+  virtual ~Onlooker() = default;
+  virtual void see(const Frame& frame) = 0;
+  virtual bool endsRehearsal() const = 0;
+};
+
+}  // namespace app

@@ -1,0 +1,44 @@
+// What is kept of a session: its events, in memory until the participant allows the log, then in its folder of the
+// study; tables made anew from them. Main thread; add() as session_log's.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/evaluation/study_template.h"
+#include "app/study/session_log.h"
+#include "app/study/study_folder.h"
+
+namespace app {
+
+class SessionBook {
+ public:
+  /// The next session of this participant in the study's folder, which need not be there yet.
+  SessionBook(std::string study_folder, const std::string& participant);
+
+  const StudySession& place() const { return place_; }
+  std::string folder() const;
+  std::string recording() const;
+
+  void keep(const LogEvent& event);
+  const std::vector<LogEvent>& events() const { return events_; }
+  /// The first so many events will survive what happens to this machine: they are on the disk, or nothing may be
+  /// written yet.
+  bool isSafe(std::size_t events) const;
+
+  /// Makes the folder, writes what was kept until now, and the template byte for byte. Throws UsageError.
+  void open(const std::string& template_text);
+  /// Over those that are there.
+  void writeTables(const StudyTemplate& study) const;
+
+ private:
+  std::string study_folder_;
+  StudySession place_;
+  std::vector<LogEvent> events_;
+  std::optional<SessionLogWriter> log_;
+  bool has_told_trouble_ = false;
+};
+
+}  // namespace app
