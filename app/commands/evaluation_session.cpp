@@ -146,7 +146,7 @@ class EvaluationSession {
     if (console_ != nullptr) {
       // The evaluator ends it, not before its time is over.
       console_->beginWarmUp(study_.warm_up_s);
-      block->onlooker = console_;
+      block->spectator = console_;
       block->seconds.reset();
     }
     if (rehearse(std::move(*block)) != 0 || wasInterrupted()) return false;
@@ -175,7 +175,7 @@ class EvaluationSession {
     plan.evaluation = &desk;
     if (console_ != nullptr) {
       console_->beginTasks(desk, seat ? &*seat : nullptr);
-      plan.onlooker = console_;
+      plan.spectator = console_;
     }
     const int status = rehearse(std::move(plan));
     if (console_ != nullptr) console_->endTasks();

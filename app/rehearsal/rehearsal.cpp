@@ -131,7 +131,7 @@ class Rehearsal {
       followTooth();
       followDemonstration();
       draw();
-      tellOnlooker();
+      tellSpectator();
       updateMeasures();
       status_reporter_->update(pace_.now(), state());
       router_.handleInstructorInput(status_reporter_->updateInstructor(state()), frame_);
@@ -238,7 +238,7 @@ class Rehearsal {
 
   bool isProcedureOver() const {
     return (plan_.procedure && plan_.procedure->isOver()) || (plan_.evaluation && plan_.evaluation->isOver()) ||
-           (plan_.onlooker && plan_.onlooker->endsRehearsal()) || (demonstration_ && demonstration_->isOver());
+           (plan_.spectator && plan_.spectator->endsRehearsal()) || (demonstration_ && demonstration_->isOver());
   }
 
   /// 1: the tooth could not be taken out.
@@ -513,12 +513,12 @@ class Rehearsal {
     if (view_.adaptQuality(in_stroke)) event_log_.note("quality", view_.qualityText());
   }
 
-  void tellOnlooker() {
-    if (!plan_.onlooker || !pace_.isRealTime()) return;
+  void tellSpectator() {
+    if (!plan_.spectator || !pace_.isRealTime()) return;
     std::optional<double> nearest_mm;
     for (const std::optional<double>& one : clearance_.now())
       if (one && (!nearest_mm || *one < *nearest_mm)) nearest_mm = one;
-    plan_.onlooker->see({newest_, nearest_mm, equipment_.rate_Hz(), servo_figures_, picture_});
+    plan_.spectator->see({newest_, nearest_mm, equipment_.rate_Hz(), servo_figures_, picture_});
   }
 
   RehearsalFigures finish(Ending ending) {

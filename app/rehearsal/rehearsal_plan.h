@@ -10,7 +10,7 @@
 #include "app/device/pose_source.h"
 #include "app/device/second_hand.h"
 #include "app/evaluation/evaluation_desk.h"
-#include "app/evaluation/onlooker.h"
+#include "app/evaluation/spectator.h"
 #include "app/procedure/coach/coach.h"
 #include "app/procedure/procedure.h"
 #include "app/procedure/steps/step_plan.h"
@@ -68,7 +68,7 @@ struct RehearsalPlan {
   std::string parameters;  ///< settings file, applied whenever it changes; `command` holds the keys it leaves out
   Procedure* procedure = nullptr;                 ///< leads where there is one
   EvaluationDesk* evaluation = nullptr;           ///< sets and follows tasks where there is one
-  Onlooker* onlooker = nullptr;                   ///< sees each frame of a rehearsal in real time
+  Spectator* spectator = nullptr;                 ///< sees each frame of a rehearsal in real time
   std::optional<ProcedureSteps> procedure_steps;  ///< followed where there is one
   DrawnPlan drawn;                                ///< by the surgeon before; empty: nothing is drawn
   std::optional<CoachRules> coach;                ///< none: it is silent

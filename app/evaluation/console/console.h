@@ -19,10 +19,10 @@
 #include "app/evaluation/console/page_pictures.h"
 #include "app/evaluation/console/page_state.h"
 #include "app/evaluation/console/pairing.h"
-#include "app/evaluation/onlooker.h"
 #include "app/evaluation/session_book.h"
 #include "app/evaluation/session_clock.h"
 #include "app/evaluation/session_people.h"
+#include "app/evaluation/spectator.h"
 
 namespace app {
 
@@ -34,7 +34,7 @@ struct ConsoleAddress {
   bool is_shared = false;
 };
 
-class Console : public SessionPeople, public Onlooker {
+class Console : public SessionPeople, public Spectator {
  public:
   struct Parts {
     const StudyTemplate& study;

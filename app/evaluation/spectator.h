@@ -1,5 +1,5 @@
 // Who looks on at a rehearsal: sees each frame after it was drawn, may ask for its picture, and may end it. Main
-// thread, once a frame; what it costs is the onlooker's.
+// thread, once a frame; what it costs is the spectator's.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace app {
 
-class Onlooker {
+class Spectator {
  public:
   struct Frame {
     const haptics::Tick& newest;
@@ -23,7 +23,7 @@ class Onlooker {
     const std::function<render::Image()>& picture;
   };
 
-  virtual ~Onlooker() = default;
+  virtual ~Spectator() = default;
   virtual void see(const Frame& frame) = 0;
   virtual bool endsRehearsal() const = 0;
 };
