@@ -45,7 +45,8 @@ Console::Console(Parts parts, const ConsoleAddress& address, std::string program
   link_.emplace(linkParts(address_, pictures_, pairing_, std::move(program)));
   printMessage("page for the evaluator: " + std::string(address.is_shared ? "https" : "http") + "://" +
                address_.text() + "/ and for the participant: /participant");
-  if (address.is_shared) printMessage("code for the page: " + pairing_.digits());
+  if (address.is_shared)
+    printMessage("code for the page: " + pairing_.digits() + "; its certificate: SHA-256 " + pairing_.fingerprint());
   tell();
 }
 
@@ -78,6 +79,8 @@ void Console::goOn(const PageEvent& said) {
   if (!why.empty()) return refuse(said, why);
   if (goes_on_) return refuse(said, "it goes on already");
   goes_on_ = true;
+  // Nothing follows on the log's end.
+  if (closing_) return settle(said, {});
   parts_.course.log({parts_.clock.now_ns(), {}}, "evaluator", "continue",
                     {{"from", std::string(kPhases[static_cast<std::size_t>(parts_.course.phase())])}});
   settle(said, {});
@@ -112,6 +115,7 @@ void Console::hear(const PageEvent& said, std::int64_t at_ns) {
   if (event.t_ns < at_ns - kLatest_ns) return refuse(said, "it is older than ten minutes, write it again");
   event.t_ns = std::clamp(event.t_ns, began_ns_, at_ns);
   if (event.type == "continue") return goOn(said);
+  if (closing_) return refuse(said, "the session is closed");
   if (event.source == "participant" && event.type != "consent" && event.type != "answer" && event.type != "submit")
     return refuse(said, "that is the evaluator's to say");
   event.data.emplace_back("rtt_ms", said.round_trip_ms);
@@ -136,11 +140,10 @@ void Console::acknowledge() {
     link_->answer(acknowledged(page, number));
 }
 
-/// Only what is kept may be told of in the log.
 void Console::tellLosses() {
   for (const std::string& why : link_->takeLosses()) {
     printMessage("the page's process was lost (" + why + "), another serves it");
-    parts_.course.log({parts_.clock.now_ns(), {}}, "system", "page.lost", {{"why", why}});
+    if (!closing_) parts_.course.log({parts_.clock.now_ns(), {}}, "system", "page.lost", {{"why", why}});
   }
 }
 

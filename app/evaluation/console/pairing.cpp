@@ -56,6 +56,7 @@ Pairing::Pairing(bool is_shared) : is_shared_(is_shared) {
   if (!is_shared_) return;
   digits_ = sixDigits();
   const std::string identity = selfMadeIdentity();
+  fingerprint_ = fingerprintOf(identity);
   identity_ = ::memfd_create("molar page identity", MFD_CLOEXEC);
   if (identity_ < 0 || ::write(identity_, identity.data(), identity.size()) != static_cast<ssize_t>(identity.size()))
     throw SessionError("--share: there is no memory for a certificate, close other programs");

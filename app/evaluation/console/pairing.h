@@ -27,6 +27,8 @@ class Pairing {
   Pairing& operator=(const Pairing&) = delete;
 
   const std::string& digits() const { return digits_; }
+  /// Of the certificate, as a browser shows it.
+  const std::string& fingerprint() const { return fingerprint_; }
   /// A line down: {"kind":"paired","request":…,"token":…} or "why".
   std::string answerTo(const PagePairs& asked);
   /// The tokens that are valid, for each page process; empty where it is not shared.
@@ -38,7 +40,7 @@ class Pairing {
  private:
   using Time = std::chrono::steady_clock::time_point;
   bool is_shared_;
-  std::string digits_;
+  std::string digits_, fingerprint_;
   int tries_ = 0, identity_ = -1;
   std::vector<std::pair<std::string, Time>> tokens_;  ///< until
 };

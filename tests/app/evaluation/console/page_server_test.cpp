@@ -189,7 +189,7 @@ TEST_F(PageServerTest, LyingClientsReachNobody) {
     if (number % 7 == 3)
       liar->sendBytes(text.substr(0, 40));
     else
-      liar->say(text, number % 11 == 5 ? 2 : 1);
+      liar->sayText(text, number % 11 == 5 ? 2 : 1);
     while (liar->hear(std::chrono::milliseconds(0))) continue;
     if (liar->isOpen()) return;
     ++dropped;
@@ -200,7 +200,7 @@ TEST_F(PageServerTest, LyingClientsReachNobody) {
   // Whoever sends a message that is too long is dropped; many that say nothing are not more than so many.
   RawPage loud(address_.port());
   ASSERT_TRUE(loud.open());
-  loud.say(std::string(200'000, 'x'));
+  loud.sayText(std::string(200'000, 'x'));
   EXPECT_TRUE(comesTrue([&] { return !loud.hear(std::chrono::milliseconds(20)) && !loud.isOpen(); }));
   {
     std::vector<std::unique_ptr<RawPage>> idle;

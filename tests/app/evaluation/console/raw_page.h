@@ -83,7 +83,7 @@ class RawPage {
     return upgrade(path, "http://" + host, host).starts_with("HTTP/1.1 101");
   }
 
-  void say(std::string_view text, int opcode = 1) {
+  void sayText(std::string_view text, int opcode = 1) {
     std::string frame(1, static_cast<char>(0x80 | opcode));
     if (text.size() < 126) {
       frame += static_cast<char>(0x80 | static_cast<int>(text.size()));
@@ -99,7 +99,7 @@ class RawPage {
     frame += text;
     sendBytes(frame);
   }
-  void say(const nlohmann::json& message) { say(message.dump()); }
+  void say(const nlohmann::json& message) { sayText(message.dump()); }
 
   struct Message {
     int opcode = 0;
@@ -112,7 +112,7 @@ class RawPage {
     for (;;) {
       if (auto message = taken()) {
         if (message->opcode == 9) {
-          say(message->bytes, 10);
+          sayText(message->bytes, 10);
           continue;
         }
         if (message->opcode == 8) is_open_ = false;
