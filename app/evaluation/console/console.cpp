@@ -50,7 +50,14 @@ Console::Console(Parts parts, const ConsoleAddress& address, std::string program
   tell();
 }
 
-Console::~Console() = default;
+/// What was said last is answered as well.
+Console::~Console() {
+  constexpr int kTries = 50;
+  for (int n = 0; n < kTries && known_.waits(); ++n) {
+    acknowledge();
+    std::this_thread::sleep_for(kAsking);
+  }
+}
 
 std::string Console::missing() const {
   const EvaluationCourse& course = parts_.course;

@@ -257,7 +257,8 @@ TEST_F(PageSession, GoesFromTheChecksToTheTablesAtTwoPages) {
   participant.untilPhase("questionnaires");
   EXPECT_EQ(evaluator.say("continue", json::object()).substr(0, 3),
             participant.state()["questionnaires"][0]["title"].get<std::string>().substr(0, 3));
-  for (const json& item : participant.state()["questionnaires"][0]["items"])
+  const json asked = participant.state()["questionnaires"][0]["items"];
+  for (const json& item : asked)
     EXPECT_EQ(participant.say("answer", {{"questionnaire", "sus"}, {"item", item["id"]}, {"value", 3}}), "");
   EXPECT_NE(participant.say("answer", {{"questionnaire", "sus"}, {"item", "S1"}, {"value", 9}}), "");
   EXPECT_EQ(participant.say("submit", {{"questionnaire", "sus"}}), "");
