@@ -1,7 +1,7 @@
 // Evaluator and participant at a page in a browser, served by a process beside the session (`molar page`): what they
 // say becomes the course's events, and a state tells the page all there is to see. Looks on at the rehearsals for their
 // picture and figures, and never waits for the page in one. Main thread; some 10 µs a frame, 0.2 ms where a state is
-// due, 3 ms where a page looks at the picture and one is due.
+// due, 3 to 5 ms where a page looks at the picture and one is due.
 #pragma once
 
 #include <chrono>

@@ -26,6 +26,20 @@ struct SharedPictures {
   std::array<Place, 3> places;
 };
 
+namespace {
+
+/// In groups of a fixed size, which the compiler adds together.
+void addTo(std::uint16_t* sums, const std::uint8_t* values, std::size_t count) {
+  constexpr std::size_t kTogether = 32;
+  std::size_t at = 0;
+  for (; at + kTogether <= count; at += kTogether)
+    for (std::size_t n = 0; n < kTogether; ++n)
+      sums[at + n] = static_cast<std::uint16_t>(sums[at + n] + values[at + n]);
+  for (; at < count; ++at) sums[at] = static_cast<std::uint16_t>(sums[at] + values[at]);
+}
+
+}  // namespace
+
 SmallPicture scaledToFit(const render::Image& image, int most_w, int most_h) {
   SmallPicture small;
   if (image.w <= 0 || image.h <= 0) return small;
@@ -33,23 +47,39 @@ SmallPicture scaledToFit(const render::Image& image, int most_w, int most_h) {
   small.w = std::clamp(static_cast<int>(image.w * shrink + 0.5), 1, most_w);
   small.h = std::clamp(static_cast<int>(image.h * shrink + 0.5), 1, most_h);
   small.rgb.resize(std::size_t{3} * static_cast<std::size_t>(small.w) * static_cast<std::size_t>(small.h));
-  const auto edge = [](int at, int of, int whole) { return static_cast<int>(std::int64_t{at} * whole / of); };
+  const auto edges = [](int of, int whole) {
+    std::vector<int> at(static_cast<std::size_t>(of) + 1);
+    for (int n = 0; n <= of; ++n) at[static_cast<std::size_t>(n)] = static_cast<int>(std::int64_t{n} * whole / of);
+    return at;
+  };
+  const std::vector<int> columns = edges(small.w, image.w), rows = edges(small.h, image.h);
+  // First the rows that a row covers, then of these sums its points: a division each would take as long as all the
+  // rest.
+  constexpr int kShift = 24;
+  const auto width = static_cast<std::size_t>(image.w) * 4;
+  std::vector<std::uint16_t> sums(width);                                                // of up to 257 rows
+  std::vector<std::uint64_t> share_of(static_cast<std::size_t>(image.w / small.w + 2));  ///< by columns, in a row
   std::uint8_t* out = small.rgb.data();
-  for (int y = 0; y < small.h; ++y) {
-    const int top = edge(y, small.h, image.h), bottom = std::max(top + 1, edge(y + 1, small.h, image.h));
-    for (int x = 0; x < small.w; ++x) {
-      const int left = edge(x, small.w, image.w), right = std::max(left + 1, edge(x + 1, small.w, image.w));
-      std::uint32_t red = 0, green = 0, blue = 0;
-      for (int v = top; v < bottom; ++v) {
-        const std::uint8_t* in =
-            image.rgba.data() + std::size_t{4} * (static_cast<std::size_t>(v) * static_cast<std::size_t>(image.w) +
-                                                  static_cast<std::size_t>(left));
-        for (int u = left; u < right; ++u, in += 4) red += in[0], green += in[1], blue += in[2];
+  for (std::size_t y = 0; y + 1 < rows.size(); ++y) {
+    std::fill(sums.begin(), sums.end(), std::uint16_t{0});
+    for (int v = rows[y]; v < rows[y + 1]; ++v) {
+      const std::uint8_t* const in = image.rgba.data() + width * static_cast<std::size_t>(v);
+      addTo(sums.data(), in, width);
+    }
+    for (std::size_t n = 1; n < share_of.size(); ++n) {
+      const std::uint64_t points = n * static_cast<std::uint64_t>(rows[y + 1] - rows[y]);
+      share_of[n] = ((std::uint64_t{1} << kShift) + points - 1) / points;
+    }
+    for (std::size_t x = 0; x + 1 < columns.size(); ++x) {
+      std::uint64_t red = 0, green = 0, blue = 0;
+      for (int u = columns[x]; u < columns[x + 1]; ++u) {
+        const std::uint16_t* const in = sums.data() + 4 * static_cast<std::size_t>(u);
+        red += in[0], green += in[1], blue += in[2];
       }
-      const auto points = static_cast<std::uint32_t>((right - left) * (bottom - top));
-      *out++ = static_cast<std::uint8_t>(red / points);
-      *out++ = static_cast<std::uint8_t>(green / points);
-      *out++ = static_cast<std::uint8_t>(blue / points);
+      const std::uint64_t share = share_of[static_cast<std::size_t>(columns[x + 1] - columns[x])];
+      *out++ = static_cast<std::uint8_t>(red * share >> kShift);
+      *out++ = static_cast<std::uint8_t>(green * share >> kShift);
+      *out++ = static_cast<std::uint8_t>(blue * share >> kShift);
     }
   }
   return small;
