@@ -1,6 +1,6 @@
 // The state of a session as its page shows it, one JSON text: a page is a pure function of the newest one. What stands
-// in the log stands here, and no word that is not kept. Made some five times a second; about 0.1 ms and the notes'
-// text. One thread.
+// in the log stands here, and no word that is not kept. Made some five times a second: 0.04 ms, 0.6 ms with 400 notes.
+// One thread.
 #pragma once
 
 #include <cstdint>
