@@ -36,6 +36,7 @@ void addStudy(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
 void addPieces(CommandLine& molar);
+void addFile(CommandLine& molar);
 void addLaws(CommandLine& molar);
 void addPsychophysics(CommandLine& molar);
 void addHelp(CommandLine& molar);
@@ -43,11 +44,11 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse,  addStart,  addImport,    addInspect,  addCheck,   addPlan,
-                                   addClearance, addFeel,   addCarve,     addSee,      addDisplay, addCalibrate,
-                                   addDevices,   addDoctor, addDebrief,   addReplay,   addMetrics, addReport,
-                                   addCompare,   addTrend,  addReference, addEvaluate, addStudy,   addSessions,
-                                   addExport,    addPieces, addLaws,      addSeat,     addPage,    addPsychophysics,
-                                   addHelp,      addManual, addCompletion};
+inline constexpr auto kCommands = {addRehearse,      addStart,  addImport,    addInspect,   addCheck,   addPlan,
+                                   addClearance,     addFeel,   addCarve,     addSee,       addDisplay, addCalibrate,
+                                   addDevices,       addDoctor, addDebrief,   addReplay,    addMetrics, addReport,
+                                   addCompare,       addTrend,  addReference, addEvaluate,  addStudy,   addSessions,
+                                   addExport,        addPieces, addFile,      addLaws,      addSeat,    addPage,
+                                   addPsychophysics, addHelp,   addManual,    addCompletion};
 
 }  // namespace app

@@ -5,7 +5,7 @@
 #   app: text < { case | report | session | sound } < { view | device } < station < options < controls < instructor
 #     < { procedure | study < evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics
 #     | start_screen | review | check_page }; before commands, after rehearsal and review: debrief.
-#   haptics: { device < safety < loop | bone, tool < body < { contact | ligament } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
+#   haptics: { device < safety < loop | bone, tool < body < { contact | ligament | file } } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
 
@@ -72,6 +72,8 @@ set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/body ${assets} haptics/bone/ haptics/tool/ haptics/body/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/body/ haptics/contact/)
 set(haptics/ligament ${assets} haptics/wrench.h haptics/bone/ haptics/tool/ haptics/body/ haptics/ligament/)
+# A file stands on the live wall alone.
+set(haptics/file ${assets} haptics/wrench.h haptics/bone/ haptics/contact/ haptics/file/)
 set(haptics/servo ${haptics})
 set(render ${assets} render/)
 set(render_words ${assets} render/frame.h render/image.h render/shaders/shared_constants.glsl

@@ -1,5 +1,5 @@
-# What the servo's thread can reach, read from the machine code: starting at Servo::step, at the tick of the loop with
-# its motor gate, at the virtual functions they call, and at the part of every device that runs on this thread (of a
+# What the servo's thread can reach, read from the machine code: starting at Servo::step, at the steps of a file, at the
+# tick of the loop with its motor gate, at the virtual functions they call, and at the part of every device that runs on this thread (of a
 # simulated Phantom all but its script, a function passed to it), all calls and references are followed through the
 # archives, and every symbol outside them must be on the short list below. So an allocation in a constructor passes and
 # one behind a rare branch fails, whether a test runs it or not. Calls through pointers cannot be followed: functions
@@ -34,7 +34,7 @@ set(admitted
 list(JOIN admitted "|" admitted)
 if(NOT DEFINED ROOTS)
   string(JOIN "," ROOTS
-    "^_ZN7haptics5Servo4stepE"
+    "^_ZN7haptics5Servo4stepE" "^_ZN7haptics11FileInCanal4stepE" "^_ZN7haptics8Rk4Chain4stepE"
     "^_ZN7haptics10DeviceLoop4tickE" "^_ZNK7haptics9MotorGate5admitE"
     "^_ZN7haptics10HapticLoop6answerE" "^_ZN7haptics10HapticLoop8answeredE" "^_ZN7haptics17InstrumentTracker6answerE"
     "^_ZN7haptics14HandleRecorder6answerE" "^_ZN3app17ConstantForceLoop6answerE" "^_ZN3app14PracticeStylus8exchangeE"
