@@ -3,7 +3,7 @@
 // direction. Steel: E 193, G 75 GPa; elastic to 3 % of strain, then keeps a set. Nickel-titanium: E 36, G 13.5 GPa, a
 // plateau at 450 MPa (superelastic, without the loss between loading and unloading), no set. Breaks in torsion at T =
 // 0.0735 tau D^3, tau 1.26 GPa (fits the least torques of ADA 28); in bending after N = (e_f/e)^2 turns of strain e.
-// Elastic moduli of nickel-titanium, plateau and e_f are unverified. MPa, mm, N mm. Pure; any thread.
+// Elastic moduli of nickel-titanium, plateau and e_f are unverified. N, mm. Pure; any thread.
 #pragma once
 
 #include "assets/instrument/k_file.h"
