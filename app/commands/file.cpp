@@ -184,7 +184,7 @@ void printShape(const FiledAnswer& answer) {
   std::printf("%5s %10s %9s %9s %9s\n", "node", "from mm", "across", "along", "D mm");
   for (std::size_t i = 0; i <= chain.links; ++i) {
     const glm::dvec3 p = shape.node_mm[i] - shape.node_mm[0];
-    std::printf("%5zu %10.3f %9.4f %9.4f %9.3f\n", i, static_cast<double>(i) * chain.link_mm, p.x, -p.z,
+    std::printf("%5zu %10.3f %9.4f %9.4f %9.3f\n", i, static_cast<double>(i) * chain.link_mm, p.x, 0.0 - p.z,
                 2.0 * chain.radius_mm[i]);
   }
 }
@@ -249,7 +249,6 @@ void printDamped(const KFileOptions& options, const assets::KFile& file) {
 
 int file(const KFileOptions& options) {
   const assets::KFile chosen = chosenFile(options);
-  if (!std::isfinite(options.force_N)) throw UsageError("--force: it is not a finite number, give newtons");
   if (options.canal.empty()) {
     if (options.depth_mm) throw UsageError("--depth: there is no canal to go into, give --canal too");
     if (options.solver == "rk4") {
@@ -302,6 +301,7 @@ void addFile(CommandLine& molar) {
       .oneOf({"steel", "niti"})
       .showsDefault();
   command.option("--force", o->force_N, "N across the handle's axis; with --canal: pushes until the hand bears it")
+      .from(-100.0, 100.0)
       .showsDefault();
   command.option("--at", o->at, "Node that the force acts on: tip, or 1 to the number of links").showsDefault();
   command.option("--nodes", o->nodes, "Links")
