@@ -250,7 +250,6 @@ void printDamped(const KFileOptions& options, const assets::KFile& file) {
 int file(const KFileOptions& options) {
   const assets::KFile chosen = chosenFile(options);
   if (options.canal.empty()) {
-    if (options.depth_mm) throw UsageError("--depth: there is no canal to go into, give --canal too");
     if (options.solver == "rk4") {
       printDamped(options, chosen);
       return 0;
