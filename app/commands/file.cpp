@@ -247,7 +247,7 @@ void printDamped(const KFileOptions& options, const assets::KFile& file) {
               tip_mm.y, damped.inertia_Nmm_s2(), settled_ms);
 }
 
-int file(const KFileOptions& options) {
+int bendFile(const KFileOptions& options) {
   const assets::KFile chosen = chosenFile(options);
   if (options.canal.empty()) {
     if (options.solver == "rk4") {
@@ -315,7 +315,7 @@ void addFile(CommandLine& molar) {
       .oneOf({"rest", "rk4"})
       .showsDefault();
   command.flag("--json", o->json, "For programs");
-  command.does([o] { return file(*o); });
+  command.does([o] { return bendFile(*o); });
 }
 
 }  // namespace app
