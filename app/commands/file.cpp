@@ -1,25 +1,21 @@
 // `molar file`: the shape of a root-canal file under a force, free or pushed into a canal; where it touches, what the
 // walls and the hand bear. As a table, or JSON for programs. Frame: the handle's axis points down -z, x across; mm, N.
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/file_run.h"
 #include "app/options/canal_text.h"
 #include "app/text/command_line.h"
-#include "app/text/list.h"
 #include "app/text/message.h"
-#include "app/text/parse_number.h"
-#include "app/text/usage_error.h"
-#include "haptics/bone/cubelets.h"
-#include "haptics/file/file_in_canal.h"
 #include "haptics/file/rk4_chain.h"
 
 namespace app {
@@ -27,111 +23,6 @@ namespace {
 
 using haptics::ChainShape;
 using haptics::FileChain;
-using haptics::FileInCanal;
-using haptics::FileTick;
-
-constexpr int kRestTicks = 400;
-constexpr double kPushStep_mm = 0.01, kFieldSpacing_mm = 0.04, kStartAbove_mm = 0.5;
-
-struct KFileOptions {
-  int size = 25, length_mm = 25, nodes = static_cast<int>(haptics::kUsualLinks);
-  std::string material = "steel", at = "tip", canal, solver = "rest";
-  double force_N = 0.0;
-  std::optional<double> depth_mm, uniform_N_mm2;
-  bool json = false;
-};
-
-struct FiledAnswer {
-  assets::KFile file;
-  FileInCanal rest;
-  FileTick tick;
-  int unsettled = 0;  ///< ticks
-};
-
-haptics::FilePose handAt(double z_mm) {
-  haptics::FilePose X_PT;
-  X_PT.translation_mm = {0.0, 0.0, z_mm};
-  return X_PT;
-}
-
-assets::KFile chosenFile(const KFileOptions& options) {
-  const auto list = [](const auto& values) { return joined(values, [](int n) { return std::to_string(n); }); };
-  const auto metal = options.material == "niti" ? assets::KFileMetal::nickel_titanium : assets::KFileMetal::steel;
-  if (const auto file = assets::kFile(options.size, options.length_mm, metal)) return *file;
-  const bool is_size = assets::kFile(options.size, assets::kKFileLengths_mm[0], metal).has_value();
-  if (is_size)
-    throw UsageError(
-        fmt::format("--length {}: K-files are made in {} mm", options.length_mm, list(assets::kKFileLengths_mm)));
-  throw UsageError(
-      fmt::format("--size {}: ISO 3630-1 has no such size, choose {}", options.size, list(assets::kKFileSizes)));
-}
-
-FileChain chosenChain(const KFileOptions& options, const assets::KFile& file) {
-  const auto links = static_cast<std::size_t>(options.nodes);
-  if (!options.uniform_N_mm2) return haptics::fileChain(file, links);
-  return haptics::uniformChain(file.length_mm, *options.uniform_N_mm2, 0.5 * file.tip_mm(), links);
-}
-
-std::size_t loadedNode(const KFileOptions& options) {
-  if (options.at == "tip") return static_cast<std::size_t>(options.nodes);
-  const auto node = parseNumber<int>(options.at);
-  if (!node || *node < 1 || *node > options.nodes)
-    throw UsageError(fmt::format("--at {}: it is no node, give tip or 1 to {}", options.at, options.nodes));
-  return static_cast<std::size_t>(*node);
-}
-
-/// Held at its handle, drawn across at a node, until nothing moves.
-FiledAnswer freeFile(const KFileOptions& options, const assets::KFile& file) {
-  const FileChain chain = chosenChain(options, file);
-  haptics::FileLaw law;
-  law.drag_N_per_mm2 = 0.0;
-  const haptics::FilePose hand = handAt(0.0);
-  haptics::PerNode<glm::dvec3> pull_N{};
-  pull_N[loadedNode(options)].x = options.force_N;
-  haptics::FileScene scene;
-  scene.pull_P_N = &pull_N;
-  FiledAnswer answer{file, FileInCanal(chain, law, {true, 0.0}, hand), {}, 0};
-  double moved_mm = 1.0;
-  for (int n = 0; n < kRestTicks && moved_mm > 1e-9; ++n) {
-    const glm::dvec3 tip_mm = answer.rest.state().shape.node_mm[chain.links];
-    answer.tick = answer.rest.step(hand, scene);
-    moved_mm = glm::length(answer.rest.state().shape.node_mm[chain.links] - tip_mm);
-    if (answer.tick.broken_link) break;
-  }
-  answer.unsettled = answer.tick.unsettled ? 1 : 0;
-  return answer;
-}
-
-double insertedTo(const KFileOptions& options, const assets::RootCanal& canal) {
-  return options.depth_mm.value_or(canal.length_mm() - 0.5);
-}
-
-/// Pushed from above the orifice along the handle's axis, to its depth or until the hand bears the force.
-FiledAnswer pushedFile(const KFileOptions& options, const assets::KFile& file, const assets::RootCanal& canal) {
-  const assets::CanalField field = assets::canalField(canal, kFieldSpacing_mm);
-  const haptics::Cubelets cubelets(field.grid, field.solid, {});
-  const haptics::SolidField wall = cubelets.field();
-  const FileChain chain = chosenChain(options, file);
-  const double top_mm = file.length_mm + kStartAbove_mm;
-  FiledAnswer answer{file, FileInCanal(chain, {}, {true, 0.0}, handAt(top_mm)), {}, 0};
-  haptics::FileScene scene;
-  scene.wall = &wall;
-
-  const int ticks = static_cast<int>(std::lround((insertedTo(options, canal) + kStartAbove_mm) / kPushStep_mm));
-  haptics::FilePose hand = handAt(top_mm);
-  for (int n = 0; n < ticks && !answer.tick.broken_link; ++n) {
-    hand.translation_mm.z -= kPushStep_mm;
-    answer.tick = answer.rest.step(hand, scene);
-    if (options.force_N > 0.0 && answer.tick.on_hand.force_N.xyz.z >= options.force_N) break;
-  }
-  // Where the hand stays the file comes to rest.
-  for (int n = 0; n < kRestTicks && !answer.tick.broken_link; ++n) {
-    answer.tick = answer.rest.step(hand, scene);
-    if (n > 20 && !answer.tick.unsettled && answer.tick.steps == 1) break;
-  }
-  answer.unsettled = answer.tick.unsettled ? 1 : 0;
-  return answer;
-}
 
 nlohmann::json listOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -160,7 +51,7 @@ nlohmann::json jsonOf(const KFileOptions& options, const FiledAnswer& answer, co
                        {"colour", answer.file.colour()},
                        {"tip_mm", answer.file.tip_mm()},
                        {"nodes", chain.links}}},
-                     {"settled", answer.unsettled == 0},
+                     {"settled", !answer.unsettled},
                      {"tip", {{"across_mm", tip_mm.x}, {"along_mm", -tip_mm.z}}},
                      {"on_hand",
                       {{"force_N", listOf(answer.tick.on_hand.force_N.xyz)},
@@ -174,6 +65,9 @@ nlohmann::json jsonOf(const KFileOptions& options, const FiledAnswer& answer, co
     all["tip"]["depth_mm"] = canal->nearest_mm(shape.node_mm[chain.links]);
     all["wall_N"] = answer.tick.normal_N;
     all["contacts"] = contacts;
+    all["turned"] = {{"torque_Nmm", answer.torque_Nmm}, {"of_breaking", answer.torque_share}};
+    all["worn"] = {{"due_mm3", answer.due_mm3}, {"removed_mm3", answer.removed_mm3}};
+    if (answer.rest.fragment()) all["broken_from_tip_mm"] = answer.rest.fragment()->from_tip_mm;
   }
   return all;
 }
@@ -214,6 +108,12 @@ void printFile(const KFileOptions& options, const FiledAnswer& answer, const ass
     printShape(answer);
   const glm::dvec3 &F = answer.tick.on_hand.force_N.xyz, &M = answer.tick.on_hand.torque_Nmm.xyz;
   std::printf("on the hand %.4f, %.4f, %.4f N; %.4f, %.4f, %.4f N mm\n", F.x, F.y, F.z, M.x, M.y, M.z);
+  if (options.turn_deg != 0.0)
+    std::printf("turned %g degrees: at most %.4f N mm, %.0f %% of what breaks it\n", options.turn_deg,
+                answer.torque_Nmm, 100.0 * answer.torque_share);
+  if (options.strokes > 0)
+    std::printf("%d strokes: %.5f mm3 from the walls, %.5f due by the law\n", options.strokes, answer.removed_mm3,
+                answer.due_mm3);
   std::printf("largest strain %.2f %% %.1f mm from the tip\n", 100.0 * answer.tick.strain,
               answer.tick.strain_from_tip_mm);
 }
@@ -249,41 +149,20 @@ void printDamped(const KFileOptions& options, const assets::KFile& file) {
 
 int bendFile(const KFileOptions& options) {
   const assets::KFile chosen = chosenFile(options);
-  if (options.canal.empty()) {
-    if (options.solver == "rk4") {
-      printDamped(options, chosen);
-      return 0;
-    }
-  } else if (options.solver == "rk4") {
-    throw UsageError("--solver rk4: it knows no walls, leave out --canal");
+  const std::optional<assets::RootCanal> canal = chosenCanal(options, chosen);
+  if (options.solver == "rk4") {
+    printDamped(options, chosen);
+    return 0;
   }
-
-  std::optional<assets::RootCanal> canal;
-  if (!options.canal.empty()) canal = canalFrom(options.canal);
-  if (canal) {
-    const double orifice_mm = 2.0 * canal->orifice_radius_mm, depth_mm = insertedTo(options, *canal);
-    if (options.at != "tip")
-      throw UsageError("--at: the hand pushes the file into the canal, leave it out with --canal");
-    if (options.force_N < 0.0)
-      throw UsageError("--force: the hand pushes, give a positive number of newtons with --canal");
-    if (chosen.tip_mm() >= orifice_mm)
-      throw UsageError(
-          fmt::format("--size {}: its tip of {:.2f} mm is wider than the orifice of {:.2f} mm, choose a smaller one",
-                      chosen.size, chosen.tip_mm(), orifice_mm));
-    if (!std::isfinite(depth_mm) || depth_mm <= 0.0 || depth_mm > canal->length_mm() + 2.0)
-      throw UsageError(fmt::format("--depth: out of range, give 0.1 to {:.1f} mm", canal->length_mm() + 2.0));
-    if (depth_mm > chosen.length_mm)
-      throw UsageError(fmt::format("--depth: the file is {:g} mm long, give less or a longer file", chosen.length_mm));
-  }
-
   const FiledAnswer answer = canal ? pushedFile(options, chosen, *canal) : freeFile(options, chosen);
   if (options.json)
     std::printf("%s\n", jsonOf(options, answer, canal ? &*canal : nullptr).dump(2).c_str());
   else
     printFile(options, answer, canal ? &*canal : nullptr);
-  if (answer.tick.broken_link) printMessage("the file broke");
-  if (answer.unsettled > 0) printMessage("the file has not come to rest: what is printed is not its solution");
-  return answer.unsettled > 0 ? 1 : 0;
+  if (const auto& left = answer.rest.fragment())
+    printMessage(fmt::format("the file broke {:.1f} mm from its tip", left->from_tip_mm));
+  if (answer.unsettled) printMessage("the file has not come to rest: what is printed is not its solution");
+  return answer.unsettled ? 1 : 0;
 }
 
 }  // namespace
@@ -308,6 +187,19 @@ void addFile(CommandLine& molar) {
       .showsDefault();
   Option canal = command.option("--canal", o->canal, "Pushed into: " + canalForms() + " (" + builtInCanalNames() + ")");
   command.option("--depth", o->depth_mm, "How far the tip goes in, mm; else to 0.5 mm from the apex").needs(canal);
+  command.option("--working-length", o->working_mm, "A rubber stop that far from the tip meets the orifice's plane, mm")
+      .from(1.0, 30.0)
+      .needs(canal);
+  command.option("--prebend", o->prebend_deg, "The last 3 mm bent beforehand, degrees towards x")
+      .from(-90.0, 90.0)
+      .showsDefault();
+  command.option("--turn", o->turn_deg, "Then turned, degrees, clockwise positive").from(-3600.0, 3600.0).needs(canal);
+  command.option("--strokes", o->strokes, "Then drawn out by 1.5 mm and pushed in, so often, wearing the walls")
+      .wholeFrom(0, 200)
+      .needs(canal);
+  command.option("--wear", o->wear, "By force and slip, or by counters along the file or its flutes")
+      .oneOf({"wear", "counters", "counters-helical"})
+      .showsDefault();
   command.option("--uniform", o->uniform_N_mm2, "The same bending stiffness everywhere, N mm2: for closed forms")
       .from(1e-3, 1e5)
       .excludes(canal);
