@@ -64,6 +64,7 @@ nlohmann::json jsonOf(const KFileOptions& options, const FiledAnswer& answer, co
                     {"schneider_deg", canal->schneider_rad() * 180.0 / std::numbers::pi}};
     all["tip"]["depth_mm"] = canal->nearest_mm(shape.node_mm[chain.links]);
     all["wall_N"] = answer.tick.normal_N;
+    all["entered"] = answer.entered;
     all["contacts"] = contacts;
     all["turned"] = {{"torque_Nmm", answer.torque_Nmm}, {"of_breaking", answer.torque_share}};
     all["worn"] = {{"due_mm3", answer.due_mm3}, {"removed_mm3", answer.removed_mm3}};
@@ -162,7 +163,9 @@ int bendFile(const KFileOptions& options) {
   if (const auto& left = answer.rest.fragment())
     printMessage(fmt::format("the file broke {:.1f} mm from its tip", left->from_tip_mm));
   if (answer.unsettled) printMessage("the file has not come to rest: what is printed is not its solution");
-  return answer.unsettled ? 1 : 0;
+  if (!answer.entered)
+    printMessage("the tip has not entered the canal, or left it again: bend it less or push it less deep");
+  return answer.unsettled || !answer.entered ? 1 : 0;
 }
 
 }  // namespace

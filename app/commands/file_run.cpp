@@ -15,6 +15,7 @@
 namespace app {
 namespace {
 
+using haptics::ChainShape;
 using haptics::FileChain;
 using haptics::FileInCanal;
 
@@ -47,7 +48,17 @@ class PushedRun {
         hand_(handAt(file.length_mm + kStartAbove_mm)),
         answer_{file, FileInCanal(chosenChain(options, file), {}, {true, 0.0}, hand_), {}} {
     answer_.rest.prebend(kPrebent_mm, options.prebend_deg * std::numbers::pi / 180.0, 0.0);
+    if (options.prebend_deg != 0.0) overOrifice();
     if (options.working_mm) stop_ = haptics::RubberStop{*options.working_mm, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  }
+
+  /// A bent tip is held over the orifice, not its handle.
+  void overOrifice() {
+    for (int n = 0; n < kRestTicks; ++n) {
+      const ChainShape& shape = answer_.rest.state().shape;
+      if (n == kRestTicks / 2) hand_.translation_mm.x -= shape.node_mm[answer_.rest.chain().links].x;
+      move(0.0, 0.0);
+    }
   }
 
   bool goesOn() const { return !answer_.rest.fragment(); }
@@ -166,7 +177,11 @@ FiledAnswer pushedFile(const KFileOptions& options, const assets::KFile& file, c
   for (int stroke = 0; stroke < options.strokes; ++stroke)
     for (const double way_mm : {-kStrokeStep_mm, kStrokeStep_mm})
       for (int n = 0; n < kStrokeTicks && run.goesOn(); ++n) run.file(way_mm);
-  return run.atRest();
+  FiledAnswer answer = run.atRest();
+  const glm::dvec3 tip_mm = answer.rest.state().shape.node_mm[answer.rest.chain().links];
+  const double along_mm = canal.nearest_mm(tip_mm);
+  answer.entered = tip_mm.z < 0.0 && glm::length(tip_mm - canal.at(along_mm).p_mm) < canal.radius_mm(along_mm);
+  return answer;
 }
 
 }  // namespace app

@@ -23,6 +23,7 @@ struct FiledAnswer {
   haptics::FileInCanal rest;
   haptics::FileTick tick;
   bool unsettled = false;
+  bool entered = true;                          ///< the tip lies in the canal, or there is none
   double torque_Nmm = 0.0, torque_share = 0.0;  ///< the largest while it was turned
   double due_mm3 = 0.0, removed_mm3 = 0.0;      ///< by strokes
 };

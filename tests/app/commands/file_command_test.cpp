@@ -37,6 +37,25 @@ TEST_F(FileCommand, SaysWhereItTouchesABentCanal) {
   EXPECT_NE(table.out.find("walls bear"), std::string::npos) << table.out;
 }
 
+TEST_F(FileCommand, TurnsAndFilesInTheCanal) {
+  const auto turned = answer("--size 20 --length 21 --canal arc:5,45 --turn 180");
+  EXPECT_GT(turned["turned"]["torque_Nmm"].get<double>(), 0.1);
+  EXPECT_LT(turned["turned"]["of_breaking"].get<double>(), 1.0);
+  const auto filed = answer("--size 20 --length 21 --canal arc:5,45 --strokes 2");
+  const double removed_mm3 = filed["worn"]["removed_mm3"].get<double>();
+  EXPECT_GT(removed_mm3, 1e-3);
+  EXPECT_NEAR(removed_mm3 / filed["worn"]["due_mm3"].get<double>(), 1.0, 0.01);
+  const auto stopped = answer("--size 10 --length 21 --canal straight:0.5 --depth 12 --working-length 11.9");
+  EXPECT_NEAR(stopped["tip"]["depth_mm"].get<double>(), 12.0, 0.2);
+}
+
+TEST_F(FileCommand, SaysThatABentTipPassesAndThatTooBentATipDoesNot) {
+  const auto bent = answer("--size 15 --length 21 --canal arc:5,45 --prebend 15");
+  EXPECT_TRUE(bent["entered"].get<bool>());
+  const auto loose = answer("--prebend 30");
+  EXPECT_GT(loose["tip"]["across_mm"].get<double>(), 0.5) << "without a load";
+}
+
 TEST_F(FileCommand, ComparesWithTheDampedChain) {
   const auto rest = answer("--size 25 --force 0.05"), damped = answer("--size 25 --force 0.05 --solver rk4");
   EXPECT_NEAR(rest["tip"]["across_mm"].get<double>(), damped["tip"]["across_mm"].get<double>(), 1e-6);
