@@ -246,7 +246,8 @@ void Console::endTasks() {
 }
 
 void Console::see(const Frame& frame) {
-  if (desk_ == nullptr) poll();
+  // Also where the servo makes no ticks.
+  poll();
   const auto now = ConsoleTime::now();
   if (now - figured_at_ > kBetweenFigures) {
     figured_at_ = now;
