@@ -1,7 +1,8 @@
 // Pictures on their way from the rehearsal to the page's process: three places in shared memory, each picture over the
 // oldest; none is queued. The writer never waits, and reads nothing there but whether one is wanted: a reader that dies
 // or writes nonsense changes nothing. A reader copies a picture and looks whether it was written over meanwhile. RGB,
-// rows top first, at most 960 x 540. One writer, one reader; 1.5 to 2.4 ms of processor to scale and write one of 1280 x 800 to 1920 x 1080.
+// rows top first, at most 960 x 540. One writer, one reader; 1.5 to 2.4 ms of processor to scale and write one of 1280
+// x 800 to 1920 x 1080.
 #pragma once
 
 #include <cstdint>
