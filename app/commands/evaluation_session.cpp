@@ -28,6 +28,7 @@
 #include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
 #include "calibration/record/sha256.h"
+#include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
 
 namespace app {
@@ -99,6 +100,12 @@ class EvaluationSession {
     people_ = std::move(console);
   }
 
+  /// With the day of the calendar; where the ticks are the clock, two runs give the same log.
+  std::vector<std::pair<std::string, LogValue>> timed(std::vector<std::pair<std::string, LogValue>> data) const {
+    if (!clock_.steps()) data.emplace_back("utc", calibration::nowUtc());
+    return data;
+  }
+
   bool prepare(const RehearsalPlan& plan) {
     const std::vector<Check> checks = evaluationChecks(plan, options_.out);
     for (const Check& check : checks)
@@ -107,7 +114,7 @@ class EvaluationSession {
                                  check.light == CheckLight::red ? "red: not begun" : "amber"));
     if (!course_->prepare(checks, now())) return false;
     course_->log(now(), "system", "template",
-                 {{"title", study_.title}, {"sha256", calibration::sha256Of(template_text_)}});
+                 timed({{"title", study_.title}, {"sha256", calibration::sha256Of(template_text_)}}));
     people_->ask(Phase::prepare);
     return !wasInterrupted();
   }
@@ -213,7 +220,7 @@ class EvaluationSession {
     for (const LogEvent& event : book_->events()) {
       if (!event.tick || (event.type != "note" && event.type != "bookmark" && event.type != "problem")) continue;
       const char* const key = event.type == "note" ? "text" : event.type == "problem" ? "title" : "label";
-      const std::string* const words = event.text(key);
+      const std::string* const words = book_->isSealed() ? nullptr : event.text(key);
       bookmarks.set(static_cast<double>(*event.tick) / rate_Hz_,
                     event.type + (words != nullptr && !words->empty() ? ": " + *words : std::string()));
     }
@@ -243,7 +250,7 @@ class EvaluationSession {
                   {"rules_deviate", static_cast<std::int64_t>(rules.deviate.size())}});
     book_->writeTables(study_);
     course_->log(now(), "system", "session.stop",
-                 {{"retention_days", static_cast<std::int64_t>(study_.retention_days)}});
+                 timed({{"retention_days", static_cast<std::int64_t>(study_.retention_days)}}));
     if (console_ != nullptr) console_->close(replay.verified(), rules.fired, rules.deviate.size());
     printMessage(book_->folder() + ": done; all of them together: molar study " + options_.out);
     return replay.verified() && rules.deviate.empty() ? 0 : 1;

@@ -10,6 +10,8 @@
 #include <fmt/core.h>
 
 #include "app/commands/command.h"
+#include "app/commands/study_key.h"
+#include "app/commands/study_owner.h"
 #include "app/study/questionnaire.h"
 #include "app/study/study_data.h"
 #include "app/study/study_export.h"
@@ -27,13 +29,14 @@ namespace {
 struct StudyOptions {
   std::string folder, questionnaire, answers, tasks, problems, html, csv, json, blank, sheet;
   int participants = 0;
+  StudyKeyOption key;
   bool force = false;
 };
 
 int listQuestionnaires() {
   for (const std::string& name : shippedQuestionnaires()) {
     const Questionnaire questionnaire = questionnaireNamed(name);
-    std::printf("%-10s  %2zu items  %s\n", name.c_str(), questionnaire.items.size(), questionnaire.title.c_str());
+    std::printf("%-12s  %2zu items  %s\n", name.c_str(), questionnaire.items.size(), questionnaire.title.c_str());
   }
   std::printf(
       "\nmolar study --questionnaire %s --sheet SHEET.html   to print\n"
@@ -65,7 +68,9 @@ std::string blankTable(const StudyOptions& options) {
 StudyInput inputOf(const StudyOptions& options) {
   StudyInput input;
   if (!options.folder.empty()) {
-    StudyFolder folder = readStudyFolder(options.folder, options.answers.empty() ? options.questionnaire : "");
+    const auto owner = options.key.openedFor(options.folder);
+    StudyFolder folder = readStudyFolder(options.folder, options.answers.empty() ? options.questionnaire : "",
+                                         owner ? &*owner : nullptr);
     for (const std::string& remark : folder.remarks) printMessage(remark);
     input = std::move(folder.input);
   }
@@ -141,12 +146,14 @@ void addStudy(CommandLine& molar) {
       .valueNamed("FILE.csv");
   command.option("--sheet", options->sheet, "Writes the questionnaire to be printed and filled in by hand")
       .valueNamed("FILE.html");
+  options->key.addTo(command, "Private key of the study: opens words and answers that are sealed (molar study keys)");
   command.flag("--force", options->force, "Replace outputs that exist");
   command.footer(
       "Participants and raters are codes, P07 or E1, never names. Without options: the shipped questionnaires. Below "
       "five answers there is no standard deviation; two groups, or two sessions of the same participants, are compared "
       "by exact rank tests.");
   command.does([options] { return runStudy(*options); });
+  addStudyOwnerCommands(command);
 }
 
 }  // namespace app

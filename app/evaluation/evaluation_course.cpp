@@ -213,16 +213,17 @@ std::optional<std::string> EvaluationCourse::takeAnswer(const LogEvent& event) {
   if (phase_ != (questionnaire.isOfWords() ? Phase::debrief : Phase::questionnaires))
     return questionnaire.isOfWords() ? "it is asked in the debrief" : "it is asked after the debrief";
   if (locked_.contains(questionnaire.id)) return "it was submitted, answers do not change any more";
-  if (std::ranges::find(questionnaire.items, event.textOr("item"), &QuestionItem::id) == questionnaire.items.end())
-    return "item: give one of " + joined(questionnaire.items, &QuestionItem::id);
+  const auto item = std::ranges::find(questionnaire.items, event.textOr("item"), &QuestionItem::id);
+  if (item == questionnaire.items.end()) return "item: give one of " + joined(questionnaire.items, &QuestionItem::id);
   LogEvent kept = event;
   if (questionnaire.isOfWords()) {
     // Words of the participant are for who may be quoted.
     if (!allows("quotes")) std::erase_if(kept.data, [](const auto& datum) { return datum.first == "words"; });
   } else if (const auto value = event.number("value")) {
-    if (!(*value >= questionnaire.low && *value <= questionnaire.high) || *value != std::floor(*value))
-      return "value: give a whole number from " + std::to_string(questionnaire.low) + " to " +
-             std::to_string(questionnaire.high) + ", or leave it out";
+    const int low = questionnaire.lowOf(*item), high = questionnaire.highOf(*item);
+    if (!(*value >= low && *value <= high) || *value != std::floor(*value))
+      return "value: give a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+             ", or leave it out";
   }
   sink_(kept);
   return {};

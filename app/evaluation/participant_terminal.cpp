@@ -21,6 +21,14 @@ void askStream(EvaluationCourse& course, const std::string& stream, const ClockN
   }
 }
 
+/// " 1 Effort, 2 Frustration".
+std::string choicesOf(const QuestionItem& item) {
+  std::string text;
+  for (std::size_t n = 0; n < item.choices.size(); ++n)
+    text += (n == 0 ? " " : ", ") + std::to_string(n + 1) + " " + item.choices[n];
+  return text;
+}
+
 }  // namespace
 
 void askConsentAtTerminal(EvaluationCourse& course, const std::string& text, const ClockNs& now_ns) {
@@ -35,7 +43,7 @@ void askAtTerminal(EvaluationCourse& course, const Questionnaire& questionnaire,
                  questionnaire.high, questionnaire.scale.back().c_str());
   for (const QuestionItem& item : questionnaire.items)
     for (bool is_taken = false; !is_taken;) {
-      const auto line = askedAtTerminal(item.says + ":");
+      const auto line = askedAtTerminal(item.says + choicesOf(item) + ":");
       if (!line) return;
       LogEvent answer{now_ns(), {}, "participant", "answer", {{"questionnaire", questionnaire.id}, {"item", item.id}}};
       if (questionnaire.isOfWords()) {

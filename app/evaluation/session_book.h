@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/evaluation/study_template.h"
+#include "app/study/privacy/session_seal.h"
 #include "app/study/session_log.h"
 #include "app/study/study_folder.h"
 
@@ -30,14 +31,21 @@ class SessionBook {
 
   /// Makes the folder, writes what was kept until now, and the template byte for byte. Throws UsageError.
   void open(const std::string& template_text);
-  /// Over those that are there.
+  /// The study has keys: what people say stands sealed in the folder.
+  bool isSealed() const { return seal_.has_value(); }
+  /// For sound; null: the study has no keys.
+  SessionSeal* seal() { return seal_ ? &*seal_ : nullptr; }
+  /// Over those that are there; of a sealed session those without words.
   void writeTables(const StudyTemplate& study) const;
 
  private:
+  void write(std::size_t row);
+
   std::string study_folder_;
   StudySession place_;
   std::vector<LogEvent> events_;
   std::optional<SessionLogWriter> log_;
+  std::optional<SessionSeal> seal_;  ///< none: the study has no keys
   bool has_told_trouble_ = false;
 };
 

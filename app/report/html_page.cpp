@@ -54,8 +54,10 @@ void HtmlPage::section(std::string_view title_words, const std::string& content_
 }
 
 std::string HtmlPage::text(std::string_view note_words) const {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title_ +
-         "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body_ + "<p class=\"quiet\">" +
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "img-src data:\">\n<title>" +
+         title_ + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body_ + "<p class=\"quiet\">" +
          escaped(note_words) + "</p>\n</body>\n</html>\n";
 }
 

@@ -47,12 +47,25 @@ void readScale(assets::TomlReader& keys, Questionnaire& made) {
     keys.refuse("", "scale", "give the words of both ends, or of all " + std::to_string(steps) + " steps");
 }
 
+/// Every item with every one after it: the column "mental-effort".
+void addComparisons(Questionnaire& made) {
+  const std::vector<QuestionItem> scales = made.items;
+  for (std::size_t a = 0; a < scales.size(); ++a)
+    for (std::size_t b = a + 1; b < scales.size(); ++b)
+      made.items.push_back(
+          {scales[a].id + "-" + scales[b].id,
+           "",
+           "Which of the two added more to the workload, " + scales[a].name + " or " + scales[b].name + "?",
+           "",
+           {scales[a].name, scales[b].name}});
+}
+
 Questionnaire questionnaireFrom(assets::TomlReader keys) {
   Questionnaire made;
   made.id = idFrom(keys, "");
   made.title = wordsFrom(keys, "", "title");
   made.source = wordsFrom(keys, "", "source");
-  made.scoring = static_cast<Scoring>(keys.choice("", "scoring", {"categories", "sus", "mean", "words"}));
+  made.scoring = static_cast<Scoring>(keys.choice("", "scoring", {"categories", "sus", "mean", "words", "weighted"}));
   if (!made.isOfWords()) readScale(keys, made);
   const std::size_t count = keys.tables("item", 1, kMostItems);
   std::set<std::string> known{"participant", "group", "session"};
@@ -63,6 +76,7 @@ Questionnaire questionnaireFrom(assets::TomlReader keys) {
     if (!known.insert(item.id).second) keys.refuse(table, "id", "another column has this head, give each item its own");
     item.category = keys.text(table, "category", "");
     item.says = wordsFrom(keys, table, "says");
+    if (made.scoring == Scoring::weighted) item.name = wordsFrom(keys, table, "name");
     if (made.scoring == Scoring::categories && item.category.empty())
       keys.refuse(table, "category", "an item that is scored by category needs one");
     made.items.push_back(std::move(item));
@@ -70,6 +84,7 @@ Questionnaire questionnaireFrom(assets::TomlReader keys) {
   if (made.scoring == Scoring::sus && (count != 10 || made.low != 1 || made.high != 5))
     keys.refuse("", "scoring", "SUS has ten items from 1 to 5");
   keys.refuseUnknownKeys();
+  if (made.scoring == Scoring::weighted) addComparisons(made);
   return made;
 }
 
@@ -100,9 +115,31 @@ std::optional<double> scoreOf(const Questionnaire& questionnaire, const std::vec
     }
     return 2.5 * sum;
   }
+  if (questionnaire.scoring == Scoring::weighted) {
+    const auto weights = weightsOf(questionnaire, answers);
+    if (!weights || missing > 0) return {};
+    double pairs = 0.0;
+    for (std::size_t n = 0; n < weights->size(); ++n) sum += (*weights)[n] * *answers[n], pairs += (*weights)[n];
+    return pairs > 0.0 ? std::optional(sum / pairs) : std::nullopt;
+  }
   if (questionnaire.scoring != Scoring::mean || missing > 0 || answers.empty()) return {};
   for (const std::optional<double>& answer : answers) sum += *answer;
   return sum / static_cast<double>(answers.size());
+}
+
+std::optional<std::vector<double>> weightsOf(const Questionnaire& questionnaire,
+                                             const std::vector<std::optional<double>>& answers) {
+  const auto scales = static_cast<std::size_t>(
+      std::ranges::count_if(questionnaire.items, [](const QuestionItem& item) { return item.choices.empty(); }));
+  if (scales == questionnaire.items.size() || answers.size() != questionnaire.items.size()) return {};
+  std::vector<double> weights(scales, 0.0);
+  std::size_t at = scales;
+  for (std::size_t a = 0; a < scales; ++a)
+    for (std::size_t b = a + 1; b < scales; ++b, ++at) {
+      if (!answers[at]) return {};
+      weights[*answers[at] < 1.5 ? a : b] += 1.0;
+    }
+  return weights;
 }
 
 std::vector<std::string> shippedQuestionnaires() {

@@ -12,6 +12,8 @@ struct QuestionItem {
   std::string id;        ///< the head of its column: "V1"
   std::string category;  ///< empty: none
   std::string says;
+  std::string name;                  ///< short, "Effort"; empty: none
+  std::vector<std::string> choices;  ///< of a comparison: 1 for the first, 2 for the second; empty: on the scale
 };
 
 enum class Scoring {
@@ -19,6 +21,7 @@ enum class Scoring {
   sus,         ///< Brooke 1996: odd items x - low, even ones high - x; 2.5 times the sum
   mean,        ///< of all items: the raw NASA task load index
   words,       ///< answers are sentences
+  weighted,    ///< and every pair of items compared: each item times how often it was chosen, over the pairs
 };
 
 struct Questionnaire {
@@ -28,14 +31,24 @@ struct Questionnaire {
   Scoring scoring = Scoring::categories;
   std::vector<QuestionItem> items;
 
+  /// What an item may be answered with.
+  int lowOf(const QuestionItem& item) const { return item.choices.empty() ? low : 1; }
+  int highOf(const QuestionItem& item) const {
+    return item.choices.empty() ? high : static_cast<int>(item.choices.size());
+  }
   /// In the order of the items.
   std::vector<std::string> categories() const;
   bool isOfWords() const { return scoring == Scoring::words; }
 };
 
 /// Score of one participant's answers, in the order of the items; none: too many are missing (SUS more than one, whose
-/// place the middle of the scale takes; the mean and words any).
+/// place the middle of the scale takes; the others any).
 std::optional<double> scoreOf(const Questionnaire& questionnaire, const std::vector<std::optional<double>>& answers);
+
+/// How often each item on the scale was chosen before another, 0 to one less than there are; none: not of comparisons,
+/// or one is missing.
+std::optional<std::vector<double>> weightsOf(const Questionnaire& questionnaire,
+                                             const std::vector<std::optional<double>>& answers);
 
 std::vector<std::string> shippedQuestionnaires();
 /// A shipped one by name, or the file of a name that ends in .toml. Throws UsageError for another name, LoadError for

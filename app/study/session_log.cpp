@@ -1,6 +1,7 @@
 #include "app/study/session_log.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,6 +51,17 @@ std::string textOf(const ordered_json& line) {
 
 std::string digestOf(const std::string& before, const std::string& line) {
   return calibration::sha256Of(before + line);
+}
+
+struct ChainedLine {
+  std::string bytes, digest;
+};
+
+ChainedLine lineAfter(const std::string& before, const LogEvent& event, std::uint64_t number) {
+  ordered_json line = jsonOf(event, number);
+  std::string digest = digestOf(before, textOf(line));
+  line["digest"] = digest;
+  return {textOf(line) + "\n", std::move(digest)};
 }
 
 /// None: not an event.
@@ -136,10 +148,7 @@ SessionLogWriter::~SessionLogWriter() {
 void SessionLogWriter::add(const LogEvent& event) {
   Impl& log = *impl_;
   if (log.trouble) return;
-  ordered_json line = jsonOf(event, log.number);
-  const std::string digest = digestOf(log.digest, textOf(line));
-  line["digest"] = digest;
-  const std::string bytes = textOf(line) + "\n";
+  const auto [bytes, digest] = lineAfter(log.digest, event, log.number);
   if (write(log.file, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) {
     log.trouble = std::string("the event log has ended: ") + std::strerror(errno) + ", make room on the disk";
     return;
@@ -176,9 +185,29 @@ SessionLog readSessionLog(const std::string& path) {
       break;
     }
     log.events.push_back(std::move(*event));
+    log.digest = digest;
   }
   log.is_closed = !log.damage && !log.events.empty() && log.events.back().type == "session.stop";
   return log;
+}
+
+void appendToLog(const std::string& path, const LogEvent& event) {
+  constexpr mode_t kOwnerAlone = 0600;
+  const auto refuse = [&] {
+    throw calibration::CalibrationError(path + ": cannot be written (" + std::strerror(errno) + "), make room for it");
+  };
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kOwnerAlone);
+  if (file < 0) refuse();
+  const std::unique_ptr<const int, void (*)(const int*)> closes(&file, [](const int* one) { close(*one); });
+  flock(file, LOCK_EX);
+  const SessionLog log = readSessionLog(path);
+  if (log.damage) throw assets::LoadError(*log.damage + ": put it aside, a new one is begun");
+  const std::string bytes = lineAfter(log.digest, event, log.events.size()).bytes;
+  // What a kill left of a line is no line.
+  const off_t end = static_cast<off_t>(assets::readSmallFile(path, kMostLogBytes).rfind('\n') + 1);
+  if (ftruncate(file, end) != 0 || write(file, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()) ||
+      fsync(file) != 0)
+    refuse();
 }
 
 }  // namespace app

@@ -56,9 +56,14 @@ struct SessionLog {
   std::vector<LogEvent> events;
   std::optional<std::string> damage;  ///< one line: where the chain breaks; what stands before is in `events`
   bool is_closed = false;             ///< its last event is session.stop
+  std::string digest;                 ///< of the last whole line; empty: there is none
 };
 
 /// Throws LoadError: no such file, or larger than 64 MiB.
 SessionLog readSessionLog(const std::string& path);
+
+/// One more line of a log that is not open, or of none yet, on the disk when it returns. One program at a time: the
+/// others wait. Throws LoadError: the chain is broken; CalibrationError: it cannot be written.
+void appendToLog(const std::string& path, const LogEvent& event);
 
 }  // namespace app

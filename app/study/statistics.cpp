@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <map>
 #include <numeric>
 
 #include <boost/math/distributions/binomial.hpp>
@@ -66,6 +65,42 @@ double normalTwoSided(double distance, double variance) {
   if (variance <= 0.0) return 1.0;
   return 2.0 *
          boost::math::cdf(boost::math::complement(boost::math::normal(), std::abs(distance) / std::sqrt(variance)));
+}
+
+/// Ways to each sum of `chosen` (any number where it is none) of the ranks 1..count.
+std::vector<double> waysOfRanks(std::size_t count, std::optional<std::size_t> chosen) {
+  const std::size_t width = count * (count + 1) / 2 + 1, rows = chosen.value_or(0) + 1;
+  std::vector<std::vector<double>> ways(rows, std::vector<double>(width, 0.0));
+  ways[0][0] = 1.0;
+  for (std::size_t rank = 1; rank <= count; ++rank)
+    for (std::size_t row = rows; row-- > (chosen ? 1U : 0U);)
+      for (std::size_t sum = width; sum-- > rank;) ways[row][sum] += ways[chosen ? row - 1 : row][sum - rank];
+  return ways.back();
+}
+
+/// From the k-th smallest to the k-th largest, of as large a k as leaves 2.5 % at each end; `lowest`: the sum of the
+/// first of `ways` that there is.
+std::optional<ValueRange> orderInterval(std::vector<double> values, const std::vector<double>& ways,
+                                        std::size_t lowest) {
+  const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
+  std::size_t k = 0;
+  for (double below = 0.0; 2 * (k + 1) <= values.size() && lowest + k < ways.size(); ++k) {
+    below += ways[lowest + k];
+    if (below > kTail * all) break;
+  }
+  if (k == 0) return {};
+  std::ranges::sort(values);
+  return ValueRange{values[k - 1], values[values.size() - k]};
+}
+
+/// The same by the normal distribution.
+std::optional<ValueRange> orderInterval(std::vector<double> values, double variance) {
+  const double z = boost::math::quantile(boost::math::complement(boost::math::normal(), kTail));
+  const double place = std::floor(0.5 * static_cast<double>(values.size()) - z * std::sqrt(variance));
+  if (place < 1.0) return {};
+  const auto k = static_cast<std::size_t>(place);
+  std::ranges::sort(values);
+  return ValueRange{values[k - 1], values[values.size() - k]};
 }
 
 }  // namespace
@@ -158,6 +193,10 @@ std::optional<RankTest> signedRankTest(std::span<const double> differences) {
   std::vector<double> means;
   for (std::size_t a = 0; a < differences.size(); ++a)
     for (std::size_t b = a; b < differences.size(); ++b) means.push_back(0.5 * (differences[a] + differences[b]));
+  const auto count = differences.size();
+  const auto n = static_cast<double>(count);
+  test.shift_interval = count <= kMostCounted ? orderInterval(means, waysOfRanks(count, {}), 0)
+                                              : orderInterval(means, n * (n + 1.0) * (2.0 * n + 1.0) / 24.0);
   test.shift = medianOf(std::move(means));
   return test;
 }
@@ -201,6 +240,11 @@ std::optional<RankTest> rankSumTest(std::span<const double> first, std::span<con
       above += b > a ? 1.0 : b < a ? -1.0 : 0.0;
     }
   test.rank_biserial = above / static_cast<double>(differences.size());
+  const std::size_t second_count = second.size(), both_count = both.size();
+  test.shift_interval =
+      test.is_exact
+          ? orderInterval(differences, waysOfRanks(both_count, second_count), second_count * (second_count + 1) / 2)
+          : orderInterval(differences, static_cast<double>(first.size() * second_count * (both_count + 1)) / 12.0);
   test.shift = medianOf(std::move(differences));
   return test;
 }
@@ -215,42 +259,6 @@ std::vector<double> holmAdjusted(std::vector<double> p) {
     p[order[n]] = so_far;
   }
   return p;
-}
-
-std::optional<double> ordinalAgreement(const std::vector<std::vector<std::optional<int>>>& ratings) {
-  if (ratings.empty()) return {};
-  // Coincidences of every pair of values that one unit was given.
-  std::map<int, std::map<int, double>> together;
-  for (std::size_t unit = 0; unit < ratings.front().size(); ++unit) {
-    std::vector<int> values;
-    for (const auto& rater : ratings)
-      if (rater[unit]) values.push_back(*rater[unit]);
-    if (values.size() < 2) continue;
-    for (std::size_t a = 0; a < values.size(); ++a)
-      for (std::size_t b = 0; b < values.size(); ++b)
-        if (a != b) together[values[a]][values[b]] += 1.0 / static_cast<double>(values.size() - 1);
-  }
-  std::map<int, double> total;
-  double all = 0.0;
-  for (const auto& [value, others] : together)
-    for (const auto& [other, ways] : others) total[value] += ways, all += ways;
-  if (total.size() < 2 || all < 2.0) return {};
-  // Squared distance of two ranks: what lies between them, with half of both ends.
-  const auto apart = [&](int a, int b) {
-    double between = 0.0;
-    for (const auto& [value, count] : total)
-      if (value >= std::min(a, b) && value <= std::max(a, b)) between += count;
-    return std::pow(between - 0.5 * (total[a] + total[b]), 2);
-  };
-  double observed = 0.0, expected = 0.0;
-  for (const auto& [a, count_a] : total)
-    for (const auto& [b, count_b] : total) {
-      if (a == b) continue;
-      const double distance = apart(a, b);
-      observed += together[a][b] * distance;
-      expected += count_a * count_b * distance;
-    }
-  return 1.0 - (all - 1.0) * observed / expected;
 }
 
 std::optional<Discovery> discoveryOf(std::span<const std::size_t> met_by, std::size_t participants) {

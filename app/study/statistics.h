@@ -1,4 +1,4 @@
-// The statistics of a small study: summaries, intervals, rank tests that are exact with ties, agreement of raters, and
+// The statistics of a small study: summaries, intervals, rank tests that are exact with ties, and
 // how many problems are still to be found. Distributions by Boost.Math; the rest is counted here. Nothing is told of
 // too few values: an absent result says so. Pure; any thread; a rank test of 60 values takes 20 ms.
 #pragma once
@@ -37,6 +37,9 @@ struct RankTest {
   double shift = 0.0;          ///< Hodges and Lehmann's
   double rank_biserial = 0.0;  ///< -1..1
   std::size_t left_out = 0;    ///< pairs without a difference
+  /// Of the shift, at 95 % or more, by order statistics (Hollander and Wolfe 1999, 3.3 and 4.3), which ties only widen;
+  /// none below six pairs, or where two groups are as small.
+  std::optional<ValueRange> shift_interval = {};
 };
 /// Wilcoxon's signed ranks of differences; zeros are left out. None where no difference is left.
 std::optional<RankTest> signedRankTest(std::span<const double> differences);
@@ -45,10 +48,6 @@ std::optional<RankTest> rankSumTest(std::span<const double> first, std::span<con
 
 /// Holm 1979: adjusted p values in the order given.
 std::vector<double> holmAdjusted(std::vector<double> p);
-
-/// Krippendorff's alpha for ordered values (2011): rows are raters, columns what was rated, none: not rated. None where
-/// fewer than two values can be paired, or all are equal.
-std::optional<double> ordinalAgreement(const std::vector<std::vector<std::optional<int>>>& ratings);
 
 /// How well problems were found by `participants` people (Nielsen and Landauer 1993), with the chance to meet one
 /// corrected for few people (Lewis 2001).

@@ -101,7 +101,7 @@ std::vector<AnswerSheet> answersFrom(const CsvTable& table, const Questionnaire&
       if (questionnaire.isOfWords())
         sheet.words.push_back(cells.optional(item.id, kLongestSentence));
       else
-        sheet.values.push_back(cells.number(item.id, questionnaire.low, questionnaire.high));
+        sheet.values.push_back(cells.number(item.id, questionnaire.lowOf(item), questionnaire.highOf(item)));
     }
     const bool has_session = !sheet.session.empty();
     if (!sheets.empty() && has_session == sheets.front().session.empty())
@@ -134,7 +134,7 @@ std::vector<TaskRun> tasksFrom(const CsvTable& table) {
 }
 
 std::vector<ProblemSeen> problemsFrom(const CsvTable& table) {
-  requireKnownHeads(table, {"problem", "title", "participant", "task", "rater", "severity", "moment"});
+  requireKnownHeads(table, {"problem", "title", "participant", "task", "rater", "severity", "moment", "merged_into"});
   std::vector<ProblemSeen> evidence;
   std::map<std::string, std::string> title_of;
   for (const CsvRow& row : table.rows) {
@@ -148,6 +148,7 @@ std::vector<ProblemSeen> problemsFrom(const CsvTable& table) {
     if (!one.rater.empty() && !isAnonymousId(one.rater)) cells.refuse("rater", "give a code as E1, never a name");
     one.severity = cells.count("severity", 0, 4);
     one.moment = cells.optional("moment", kLongestName);
+    one.merged_into = cells.optional("merged_into", kLongestName);
     if (title_of.try_emplace(one.problem, one.title).first->second != one.title)
       cells.refuse("title", "problem " + one.problem + " has another title above");
     evidence.push_back(std::move(one));

@@ -32,13 +32,14 @@ struct ProblemSeen {
   std::string problem, title, participant, task, rater;
   std::optional<int> severity;  ///< 0 none, 1 cosmetic, 2 minor, 3 major, 4 catastrophe
   std::string moment;           ///< session and time, for the link
+  std::string merged_into;      ///< the problem that it is; empty: itself
 };
 
 /// Columns: participant, [group], [session], and any of the items; empty: not answered. Throws LoadError.
 std::vector<AnswerSheet> answersFrom(const CsvTable& table, const Questionnaire& questionnaire);
 /// Columns: participant, task, result (success, partly, failed), [time_s], [helps].
 std::vector<TaskRun> tasksFrom(const CsvTable& table);
-/// Columns: problem, title, participant, [task], [rater], [severity], [moment].
+/// Columns: problem, title, participant, [task], [rater], [severity], [moment], [merged_into].
 std::vector<ProblemSeen> problemsFrom(const CsvTable& table);
 
 /// The heads of such a table, with a line to write over.

@@ -36,6 +36,22 @@ ordered_json jsonOf(const std::vector<AnswerRow>& rows) {
   return list;
 }
 
+ordered_json jsonOf(const SeverityAgreement& found) {
+  ordered_json json{{"alpha_nominal", jsonOf(found.nominal)},
+                    {"alpha_ordinal", jsonOf(found.ordinal)},
+                    {"alpha_ordinal_95", jsonOf(found.ordinal_interval)},
+                    {"alpha_interval", jsonOf(found.interval)},
+                    {"samples", kAlphaSamples},
+                    {"seed", SeverityAgreement::seed},
+                    {"icc_2_1", nullptr},
+                    {"icc_3_1", nullptr}};
+  if (!found.intraclass) return json;
+  json["icc_2_1"] = found.intraclass->agreement, json["icc_3_1"] = found.intraclass->consistency;
+  json["icc_2_1_95"] = jsonOf(found.intraclass->agreement_interval);
+  json["icc_3_1_95"] = jsonOf(found.intraclass->consistency_interval);
+  return json;
+}
+
 /// Rows of the long table.
 class LongTable {
  public:
@@ -84,6 +100,7 @@ std::string studyJson(const StudyResult& result) {
                            {"paired", difference.is_paired},
                            {"n", difference.count},
                            {"shift", difference.test.shift},
+                           {"shift_95", jsonOf(difference.test.shift_interval)},
                            {"rank_biserial", difference.test.rank_biserial},
                            {"p", difference.test.p},
                            {"exact", difference.test.is_exact},
@@ -99,15 +116,21 @@ std::string studyJson(const StudyResult& result) {
                      {"time_s", jsonOf(row.time_s)},
                      {"time_95_s", jsonOf(row.time_interval_s)},
                      {"helps", row.helps}});
-  for (const ProblemRow& row : result.problems)
+  for (const ProblemRow& row : result.problems) {
+    ordered_json tasks_met = ordered_json::array(), per_task = ordered_json::object();
+    for (const MetInTask& one : row.tasks) tasks_met.push_back(one.task), per_task[one.task] = one.met_by;
     problems.push_back({{"problem", row.problem},
                         {"title", row.title},
                         {"severity", jsonOf(row.severity)},
                         {"met_by", row.met_by},
                         {"could_meet", row.could_meet},
                         {"share_95", jsonOf(row.share)},
-                        {"tasks", row.tasks},
+                        {"tasks", tasks_met},
+                        {"met_by_task", per_task},
+                        {"participants", row.participants},
+                        {"also", row.also},
                         {"moments", row.moments}});
+  }
   for (const SaidAnswer& one : result.said)
     said.push_back({{"item", one.item}, {"participant", one.participant}, {"words", one.words}});
   ordered_json discovery = nullptr;
@@ -126,7 +149,9 @@ std::string studyJson(const StudyResult& result) {
                            {"tasks", tasks},
                            {"problems", problems},
                            {"discovery", discovery},
-                           {"severity_alpha", jsonOf(result.agreement)}};
+                           {"severity_alpha", jsonOf(result.agreement.ordinal)},
+                           {"severity_agreement", jsonOf(result.agreement)},
+                           {"raters_awaited", result.awaited}};
   return whole.dump(2) + "\n";
 }
 
@@ -138,6 +163,7 @@ std::string studyCsv(const StudyResult& result) {
   for (const Difference& difference : result.differences) {
     const std::vector<std::string> names{"difference", difference.id, difference.words(), ""};
     table.add(names, "shift", difference.test.shift);
+    table.addRange(names, "shift_95", difference.test.shift_interval);
     table.add(names, "p", difference.test.p);
     table.add(names, "p_holm", difference.holm_p);
   }

@@ -7,6 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "app/study/log_tables.h"
+#include "app/study/sealed_events.h"
 #include "app/study/session_log.h"
 #include "app/text/anonymous_id.h"
 #include "app/text/list.h"
@@ -44,17 +46,6 @@ std::optional<StudySession> sessionNamed(const std::string& folder) {
   return session;
 }
 
-/// The last attempt of each visit.
-std::vector<StudySession> thoseThatCount(const std::vector<StudySession>& sessions) {
-  std::vector<StudySession> last;
-  for (const StudySession& session : sessions) {
-    if (!last.empty() && last.back().participant == session.participant && last.back().visit == session.visit)
-      last.pop_back();
-    last.push_back(session);
-  }
-  return last;
-}
-
 /// Numbers before words; of shipped questionnaires, as others are known by their files alone.
 std::string firstWithScores(const std::vector<std::string>& ids) {
   const std::vector<std::string> shipped = shippedQuestionnaires();
@@ -82,6 +73,16 @@ std::vector<StudySession> sessionsIn(const std::string& study) {
   return sessions;
 }
 
+std::vector<StudySession> thoseThatCount(const std::vector<StudySession>& sessions) {
+  std::vector<StudySession> last;
+  for (const StudySession& session : sessions) {
+    if (!last.empty() && last.back().participant == session.participant && last.back().visit == session.visit)
+      last.pop_back();
+    last.push_back(session);
+  }
+  return last;
+}
+
 StudySession nextSession(const std::vector<StudySession>& sessions, const std::string& participant) {
   StudySession next;
   next.participant = participant;
@@ -95,8 +96,36 @@ StudySession nextSession(const std::vector<StudySession>& sessions, const std::s
   return next;
 }
 
-StudyFolder readStudyFolder(const std::string& study, const std::string& questionnaire) {
-  const std::vector<StudySession> sessions = sessionsIn(study);
+std::map<std::string, CsvTable> tablesOf(const std::string& study, const StudySession& session,
+                                         const PrivateStudyKeys* owner, std::vector<std::string>& remarks) {
+  std::map<std::string, CsvTable> tables;
+  const fs::path place = fs::path(study) / session.folder;
+  const std::string log = (place / kSessionLogName).string();
+  const std::vector<LogEvent> events = readSessionLog(log).events;
+  if (openedEvents(events, nullptr, log).sealed > 0) {
+    std::optional<OpenedSession> opened;
+    if (owner != nullptr) opened.emplace(*owner, place.string(), session.folder);
+    const OpenedEvents said = openedEvents(events, opened ? &*opened : nullptr, log);
+    if (said.sealed > 0)
+      remarks.push_back(session.folder + ": words and answers of " + std::to_string(said.sealed) + " rows are closed" +
+                        (owner == nullptr ? ", give --key FILE" : ": withdrawn, or sealed to another study"));
+    if (owner != nullptr)
+      for (const SessionTable& table : logTables(said.events, session.folder))
+        tables.emplace(table.name, csvTableFrom(table.text, log + ", " + table.name));
+  }
+  for (const auto& entry : fs::directory_iterator(place)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "tasks.csv" || name == "problems.csv" || (name.starts_with(kAnswers) && name.ends_with(kTable)))
+      tables.insert_or_assign(name, csvTableOf(entry.path().string()));
+  }
+  return tables;
+}
+
+StudyFolder readStudyFolder(const std::string& study, const std::string& questionnaire, const PrivateStudyKeys* owner,
+                            const std::vector<std::string>& only) {
+  std::vector<StudySession> sessions = sessionsIn(study);
+  if (!only.empty())
+    std::erase_if(sessions, [&](const StudySession& one) { return std::ranges::find(only, one.folder) == only.end(); });
   if (sessions.empty()) throw assets::LoadError(study + ": holds no session of an evaluation, see molar evaluate");
   StudyFolder folder;
   const std::vector<StudySession> counted = thoseThatCount(sessions);
@@ -113,22 +142,23 @@ StudyFolder readStudyFolder(const std::string& study, const std::string& questio
   std::set<std::string> participants;
   for (const StudySession& session : counted) {
     participants.insert(session.participant);
-    const fs::path place = fs::path(study) / session.folder;
-    if (const fs::path tasks = place / "tasks.csv"; fs::exists(tasks))
-      for (TaskRun& run : tasksFrom(csvTableOf(tasks.string()))) {
-        // Sessions are never pooled.
-        if (session.visit > 1) run.task += " (session " + std::to_string(session.visit) + ")";
-        input.tasks.push_back(std::move(run));
-      }
-    if (const fs::path problems = place / "problems.csv"; fs::exists(problems))
-      for (ProblemSeen& one : problemsFrom(csvTableOf(problems.string()))) input.problems.push_back(std::move(one));
-    for (const auto& entry : fs::directory_iterator(place)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with(kAnswers) && name.ends_with(kTable))
+    for (auto& [name, table] : tablesOf(study, session, owner, folder.remarks)) {
+      if (name == "tasks.csv") {
+        for (TaskRun& run : tasksFrom(table)) {
+          // Sessions are never pooled.
+          if (session.visit > 1) run.task += " (session " + std::to_string(session.visit) + ")";
+          input.tasks.push_back(std::move(run));
+        }
+      } else if (name == "problems.csv") {
+        for (ProblemSeen& one : problemsFrom(table)) input.problems.push_back(std::move(one));
+      } else {
         answers[name.substr(kAnswers.size(), name.size() - kAnswers.size() - kTable.size())].push_back(
-            csvTableOf(entry.path().string()));
+            std::move(table));
+      }
     }
   }
+  input.merged = mergedIn(study);
+  input.ratings = ratingsIn(study);
   input.participants = participants.size();
   std::vector<std::string> ids;
   for (const auto& [id, tables] : answers) ids.push_back(id);
@@ -141,7 +171,7 @@ StudyFolder readStudyFolder(const std::string& study, const std::string& questio
   for (const CsvTable& table : found->second)
     for (AnswerSheet& sheet : answersFrom(table, *input.questionnaire)) input.answers.push_back(std::move(sheet));
   std::erase(ids, input.questionnaire->id);
-  if (!ids.empty()) folder.remarks.push_back("answered as well, see --questionnaire: " + joined(ids));
+  if (!ids.empty()) folder.remarks.push_back(kAlsoAnswered + joined(ids));
   return folder;
 }
 

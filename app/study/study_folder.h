@@ -3,9 +3,11 @@
 // was interrupted and begun anew the later one counts. Start-up; milliseconds a session.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "app/study/privacy/study_keys.h"
 #include "app/study/study_data.h"
 #include "app/study/study_result.h"
 
@@ -22,16 +24,29 @@ struct StudySession {
 /// folder.
 std::vector<StudySession> sessionsIn(const std::string& study);
 
+/// The last attempt of each visit.
+std::vector<StudySession> thoseThatCount(const std::vector<StudySession>& sessions);
+
 /// Name of the next session of a participant: the visit is one more than those that were closed.
 StudySession nextSession(const std::vector<StudySession>& sessions, const std::string& participant);
+
+/// How the remark on other questionnaires begins.
+inline constexpr char kAlsoAnswered[] = "answered as well, see --questionnaire: ";
 
 struct StudyFolder {
   StudyInput input;
   std::vector<std::string> remarks;  ///< one line each: interrupted, changed, other questionnaires
 };
 
-/// `questionnaire`: whose answers are read; empty: the first with scores that was answered. Throws LoadError with file,
-/// line and column; UsageError where nobody answered it.
-StudyFolder readStudyFolder(const std::string& study, const std::string& questionnaire);
+/// `questionnaire`: whose answers are read; empty: the first with scores that was answered. `owner`: opens the words
+/// and answers of sealed sessions; null: they stay closed. Throws LoadError with file, line and column; UsageError
+/// where nobody answered it.
+StudyFolder readStudyFolder(const std::string& study, const std::string& questionnaire,
+                            const PrivateStudyKeys* owner = nullptr, const std::vector<std::string>& only = {});
+
+/// A session's tables by name ("problems.csv"): as they stand in its folder; of a sealed one those that are not there
+/// as its log tells, for its owner. Adds a remark where something stays closed.
+std::map<std::string, CsvTable> tablesOf(const std::string& study, const StudySession& session,
+                                         const PrivateStudyKeys* owner, std::vector<std::string>& remarks);
 
 }  // namespace app

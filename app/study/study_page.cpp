@@ -39,7 +39,7 @@ std::string groupText(const AnswerRow& row) {
 std::string valuesText(const std::vector<double>& values) {
   std::string list;
   for (const double value : values) list += (list.empty() ? "" : ", ") + assets::numberText(value);
-  return list;
+  return list.empty() ? "no answer" : list;
 }
 
 std::string pText(double p) { return p < 0.001 ? "< 0.001" : fixedText(p, 3); }
@@ -104,19 +104,22 @@ std::string saidSection(const StudyResult& result) {
 }
 
 std::string differencesSection(const StudyResult& result) {
-  if (result.differences.empty()) return "";
+  if (result.differences.empty())
+    return result.groups.size() != 2 && result.sessions.size() != 2
+               ? ""
+               : "<p>Nothing is compared: each side needs five values, and some pair has to differ.</p>\n";
   Rows rows;
   for (const Difference& difference : result.differences)
     rows.push_back({difference.id, difference.words(), std::to_string(difference.count),
-                    signedText(difference.test.shift, 2), signedText(difference.test.rank_biserial, 2),
-                    pText(difference.test.p), pText(difference.holm_p)});
+                    signedText(difference.test.shift, 2), rangeText(difference.test.shift_interval, 2),
+                    signedText(difference.test.rank_biserial, 2), pText(difference.test.p), pText(difference.holm_p)});
   const char* test = result.differences.front().is_paired ? "Wilcoxon's signed ranks" : "Mann and Whitney's rank sums";
   return "<p>" +
          escaped(
              fmt::format("{}, two-sided, exact with ties up to 60 values; {} tests, adjusted by Holm. Shift: Hodges "
                          "and Lehmann's.",
                          test, result.differences.size())) +
-         "</p>\n" + tableMarkup({"Item", "", "N", "Shift", "Rank-biserial", "p", "p, adjusted"}, rows);
+         "</p>\n" + tableMarkup({"Item", "", "N", "Shift", "Shift, 95 %", "Rank-biserial", "p", "p, adjusted"}, rows);
 }
 
 std::string taskTable(const StudyResult& result) {
@@ -132,12 +135,20 @@ std::string taskTable(const StudyResult& result) {
                             "<p class=\"quiet\">Time: geometric mean of those who succeeded.</p>\n";
 }
 
+/// "trough 3, open 1": participants who met it there.
+std::string tasksText(const ProblemRow& row) {
+  return joined(row.tasks, [](const MetInTask& one) { return one.task + " " + std::to_string(one.met_by); });
+}
+
 std::string problemTable(const StudyResult& result) {
   Rows rows;
   for (const ProblemRow& row : result.problems)
-    rows.push_back({row.title, fixedOr(row.severity, 1), fmt::format("{} of {}", row.met_by, row.could_meet),
-                    percentRange(row.share), joined(row.tasks), joined(row.moments)});
-  return rows.empty() ? "" : tableMarkup({"Problem", "Severity", "Met by", "Share, 95 %", "Tasks", "Moments"}, rows);
+    rows.push_back({row.title + (row.also.empty() ? "" : " (also " + joined(row.also) + ")"), fixedOr(row.severity, 1),
+                    fmt::format("{} of {}", row.met_by, row.could_meet), percentRange(row.share),
+                    joined(row.participants), tasksText(row), joined(row.moments)});
+  return rows.empty()
+             ? ""
+             : tableMarkup({"Problem", "Severity", "Met by", "Share, 95 %", "Participants", "Tasks", "Moments"}, rows);
 }
 
 std::string discoveryWords(const StudyResult& result) {
@@ -153,25 +164,41 @@ std::string discoveryWords(const StudyResult& result) {
 }
 
 std::string agreementWords(const StudyResult& result) {
-  return result.agreement ? "Agreement of raters on severity: Krippendorff's alpha " + fixedText(*result.agreement, 2) +
-                                (*result.agreement < 0.667 ? ", too low to rely on." : ".")
-                          : "";
+  if (!result.awaited.empty())
+    return joined(result.awaited) + ": not all problems are rated yet; severities are shown once they are.";
+  const SeverityAgreement& found = result.agreement;
+  if (!found.ordinal)
+    return found.raters < 2 ? "" : "Agreement of raters on severity: too little to say, or all severities are equal.";
+  std::string words =
+      fmt::format("Agreement of raters on severity: Krippendorff's alpha {} ({}; {} samples, seed {}){}",
+                  fixedText(*found.ordinal, 2), rangeText(found.ordinal_interval, 2), kAlphaSamples,
+                  SeverityAgreement::seed, *found.ordinal < 0.667 ? ", too low to rely on." : ".");
+  if (found.intraclass)
+    words +=
+        fmt::format(" Intraclass correlation ICC(2,1) {} ({}), ICC(3,1) {} ({}).",
+                    fixedText(found.intraclass->agreement, 2), rangeText(found.intraclass->agreement_interval, 2),
+                    fixedText(found.intraclass->consistency, 2), rangeText(found.intraclass->consistency_interval, 2));
+  return words;
 }
 
 std::string paragraph(const std::string& words) { return words.empty() ? "" : "<p>" + escaped(words) + "</p>\n"; }
 
 }  // namespace
 
-std::string studyPage(const StudyResult& result) {
-  HtmlPage page(result.title.empty() ? "Study" : result.title,
-                escaped(fmt::format("{} participant{}{}", result.participants, result.participants == 1 ? "" : "s",
-                                    result.groups.empty() ? "" : ", groups: " + joined(result.groups))));
+void addResults(HtmlPage& page, const StudyResult& result) {
   page.section("Problems",
                problemTable(result) + paragraph(discoveryWords(result)) + paragraph(agreementWords(result)));
   page.section("Tasks", taskTable(result));
   page.section("Answers", answersSections(result));
   page.section("In their words", saidSection(result));
   page.section("Compared", differencesSection(result));
+}
+
+std::string studyPage(const StudyResult& result) {
+  HtmlPage page(result.title.empty() ? "Study" : result.title,
+                escaped(fmt::format("{} participant{}{}", result.participants, result.participants == 1 ? "" : "s",
+                                    result.groups.empty() ? "" : ", groups: " + joined(result.groups))));
+  addResults(page, result);
   page.section("Limits", paragraph(std::string(kLimits)) + paragraph(std::string(kNoDeviation)) +
                              paragraph(result.source.empty() ? "" : "Questionnaire: " + result.source + "."));
   return page.text("Made by molar study; numbers by its --json and --csv.");
@@ -237,13 +264,17 @@ std::string questionnaireSheet(const Questionnaire& questionnaire) {
   for (const std::string& category : categories) {
     Rows rows;
     for (const QuestionItem& item : questionnaire.items) {
-      if (item.category != category) continue;
+      if (item.category != category || !item.choices.empty()) continue;
       std::vector<std::string> cells{item.says};
       cells.resize(heads.size(), is_wide ? "______" : "☐");
       rows.push_back(std::move(cells));
     }
     page.section(category.empty() ? "Please answer each line" : category, tableMarkup(heads, rows));
   }
+  Rows pairs;
+  for (const QuestionItem& item : questionnaire.items)
+    if (!item.choices.empty()) pairs.push_back({"☐ " + item.choices[0], "☐ " + item.choices[1]});
+  if (!pairs.empty()) page.section("Which of the two added more to the workload?", tableMarkup({"1", "2"}, pairs));
   return page.text(questionnaire.source);
 }
 

@@ -8,8 +8,12 @@
 
 namespace app {
 
+class HtmlPage;
+
 /// One file without script or request; prints on A4.
 std::string studyPage(const StudyResult& result);
+/// Its sections but the limits: problems, tasks, answers, words, what is compared.
+void addResults(HtmlPage& page, const StudyResult& result);
 std::string studyLines(const StudyResult& result);
 
 /// To be printed and filled in by hand.

@@ -41,9 +41,11 @@ class AnswerTables {
     if (questionnaire_.isOfWords()) return list();
     for (std::size_t n = 0; n < questionnaire_.items.size(); ++n) {
       const QuestionItem& item = questionnaire_.items[n];
+      if (!item.choices.empty()) continue;
       add({item.id, item.says, item.category, "", "", {}, 0, {}, {}, {}}, result_.items,
           [n](const AnswerSheet& sheet) { return sheet.values[n]; });
     }
+    if (questionnaire_.scoring == Scoring::weighted) addWeights();
     for (const std::string& category : questionnaire_.categories())
       add({category, category, category, "", "", {}, 0, {}, {}, {}}, result_.categories,
           [&](const AnswerSheet& sheet) { return meanGiven(questionnaire_, sheet, category); });
@@ -54,6 +56,19 @@ class AnswerTables {
   }
 
  private:
+  /// What the comparisons made of each scale.
+  void addWeights() {
+    for (std::size_t n = 0; n < questionnaire_.items.size(); ++n) {
+      const QuestionItem& item = questionnaire_.items[n];
+      if (!item.choices.empty()) continue;
+      add({item.id + ".weight", item.name + ", how often chosen", "Weights", "", "", {}, 0, {}, {}, {}}, result_.items,
+          [this, n](const AnswerSheet& sheet) -> std::optional<double> {
+            const auto weights = weightsOf(questionnaire_, sheet.values);
+            return weights ? std::optional((*weights)[n]) : std::nullopt;
+          });
+    }
+  }
+
   void list() {
     for (std::size_t n = 0; n < questionnaire_.items.size(); ++n)
       for (const AnswerSheet& sheet : sheets_)
@@ -150,32 +165,64 @@ std::vector<TaskRow> taskRows(const std::vector<TaskRun>& runs) {
 std::size_t couldMeet(const ProblemRow& problem, const StudyInput& input, std::size_t participants) {
   std::set<std::string> met_the_task;
   for (const TaskRun& run : input.tasks)
-    if (std::ranges::find(problem.tasks, run.task) != problem.tasks.end()) met_the_task.insert(run.participant);
+    if (std::ranges::find(problem.tasks, run.task, &MetInTask::task) != problem.tasks.end())
+      met_the_task.insert(run.participant);
   return std::max(met_the_task.empty() ? participants : met_the_task.size(), problem.met_by);
 }
 
-std::vector<ProblemRow> problemRows(const StudyInput& input, std::size_t participants) {
+/// The worst that each rater gave each problem, evidence and sheets alike.
+using WorstByRater = std::map<std::string, std::map<std::string, int>>;
+WorstByRater worstByRater(const StudyInput& input) {
+  WorstByRater worst;
+  const auto add = [&](const std::string& problem, const std::string& rater, const std::optional<int>& severity) {
+    if (!severity) return;
+    int& kept = worst[lastOf(input.merged, problem)].try_emplace(rater, *severity).first->second;
+    kept = std::max(kept, *severity);
+  };
+  for (const ProblemSeen& one : input.problems) add(one.problem, one.rater, one.severity);
+  for (const Rating& one : input.ratings) add(one.problem, one.rater, one.severity);
+  return worst;
+}
+
+/// Two raters see each other only after both have rated.
+std::vector<std::string> awaitedRaters(const std::vector<Rating>& ratings) {
+  std::set<std::string> awaited;
+  for (const Rating& one : ratings)
+    if (!one.severity) awaited.insert(one.rater);
+  return {awaited.begin(), awaited.end()};
+}
+
+void addOnce(std::vector<std::string>& list, const std::string& one) {
+  if (!one.empty() && std::ranges::find(list, one) == list.end()) list.push_back(one);
+}
+
+std::vector<ProblemRow> problemRows(const StudyInput& input, std::size_t participants, const WorstByRater& rated) {
   std::vector<ProblemRow> rows;
-  std::map<std::string, std::set<std::string>> met_by;
-  std::map<std::string, std::map<std::string, int>> rated;  // the worst that each rater saw
+  std::map<std::string, std::map<std::string, std::set<std::string>>> met_in;  // problem, task: participants
   for (const ProblemSeen& one : input.problems) {
-    auto row = std::ranges::find(rows, one.problem, &ProblemRow::problem);
-    if (row == rows.end()) row = rows.insert(rows.end(), ProblemRow{one.problem, one.title, {}, {}, 0, 0, {}, {}, 0.0});
-    met_by[one.problem].insert(one.participant);
-    if (!one.task.empty() && std::ranges::find(row->tasks, one.task) == row->tasks.end())
-      row->tasks.push_back(one.task);
-    if (!one.moment.empty() && std::ranges::find(row->moments, one.moment) == row->moments.end())
-      row->moments.push_back(one.moment);
-    if (!one.severity) continue;
-    int& worst = rated[one.problem].try_emplace(one.rater, *one.severity).first->second;
-    worst = std::max(worst, *one.severity);
+    const std::string problem = lastOf(input.merged, one.problem);
+    auto row = std::ranges::find(rows, problem, &ProblemRow::problem);
+    if (row == rows.end()) {
+      row = rows.insert(rows.end(), ProblemRow());
+      row->problem = problem, row->title = one.title;
+    }
+    if (one.problem == problem)
+      row->title = one.title;
+    else
+      addOnce(row->also, one.problem);
+    addOnce(row->participants, one.participant);
+    addOnce(row->moments, one.moment);
+    if (!one.task.empty()) met_in[problem][one.task].insert(one.participant);
   }
   for (ProblemRow& row : rows) {
-    row.met_by = met_by[row.problem].size();
+    for (const auto& [task, people] : met_in[row.problem]) row.tasks.push_back({task, people.size()});
+    std::ranges::sort(row.participants);
+    row.met_by = row.participants.size();
     row.could_meet = couldMeet(row, input, participants);
     row.share = shareInterval(row.met_by, row.could_meet);
     std::vector<double> severities;
-    for (const auto& [rater, severity] : rated[row.problem]) severities.push_back(severity);
+    if (const auto found = rated.find(row.problem); found != rated.end())
+      for (const auto& [rater, severity] : found->second) severities.push_back(severity);
     row.severity = summaryOf(severities).median;
     row.weight = row.severity.value_or(1.0) * static_cast<double>(row.met_by) / static_cast<double>(row.could_meet);
   }
@@ -183,30 +230,36 @@ std::vector<ProblemRow> problemRows(const StudyInput& input, std::size_t partici
   return rows;
 }
 
-std::optional<double> agreementOf(const std::vector<ProblemSeen>& problems) {
-  std::vector<std::string> raters, units;
-  const auto place_of = [](std::vector<std::string>& names, const std::string& name) {
-    const auto found = std::ranges::find(names, name);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    names.push_back(name);
-    return names.size() - 1;
-  };
-  std::map<std::pair<std::size_t, std::size_t>, int> worst;
-  for (const ProblemSeen& one : problems) {
-    if (!one.severity || one.rater.empty()) continue;
-    const std::pair key{place_of(raters, one.rater), place_of(units, one.problem)};
-    int& kept = worst.try_emplace(key, *one.severity).first->second;
-    kept = std::max(kept, *one.severity);
+SeverityAgreement agreementOf(const WorstByRater& rated) {
+  std::set<std::string> raters;
+  for (const auto& [problem, by_rater] : rated)
+    for (const auto& [rater, severity] : by_rater)
+      if (!rater.empty()) raters.insert(rater);
+  SeverityAgreement found;
+  found.raters = raters.size();
+  if (raters.size() < 2) return found;
+  Ratings ratings;
+  for (const std::string& rater : raters) {
+    std::vector<std::optional<int>>& row = ratings.emplace_back();
+    for (const auto& [problem, by_rater] : rated) {
+      const auto one = by_rater.find(rater);
+      row.push_back(one == by_rater.end() ? std::nullopt : std::optional(one->second));
+    }
   }
-  if (raters.size() < 2) return {};
-  std::vector<std::vector<std::optional<int>>> ratings(raters.size(), std::vector<std::optional<int>>(units.size()));
-  for (const auto& [key, severity] : worst) ratings[key.first][key.second] = severity;
-  return ordinalAgreement(ratings);
+  found.nominal = krippendorffAlpha(ratings, RatingScale::nominal);
+  found.ordinal = krippendorffAlpha(ratings, RatingScale::ordinal);
+  found.interval = krippendorffAlpha(ratings, RatingScale::interval);
+  if (found.ordinal) found.ordinal_interval = alphaInterval(ratings, RatingScale::ordinal, SeverityAgreement::seed);
+  found.intraclass = intraclassCorrelation(ratings);
+  return found;
 }
 
 }  // namespace
 
-StudyResult studyResult(const StudyInput& input) {
+StudyResult studyResult(const StudyInput& given) {
+  StudyInput input = given;
+  for (const ProblemSeen& one : given.problems)
+    if (!one.merged_into.empty()) input.merged.try_emplace(one.problem, one.merged_into);
   StudyResult result;
   std::set<std::string> participants;
   for (const AnswerSheet& sheet : input.answers) participants.insert(sheet.participant);
@@ -218,11 +271,13 @@ StudyResult studyResult(const StudyInput& input) {
     AnswerTables(*input.questionnaire, input.answers, result).fill();
   }
   result.tasks = taskRows(input.tasks);
-  result.problems = problemRows(input, result.participants);
+  result.awaited = awaitedRaters(input.ratings);
+  const WorstByRater rated = result.awaited.empty() ? worstByRater(input) : WorstByRater();
+  result.problems = problemRows(input, result.participants, rated);
   std::vector<std::size_t> met_by;
   for (const ProblemRow& row : result.problems) met_by.push_back(row.met_by);
   result.discovery = discoveryOf(met_by, result.participants);
-  result.agreement = agreementOf(input.problems);
+  result.agreement = agreementOf(rated);
   return result;
 }
 

@@ -2,10 +2,13 @@
 // and how common they are. Pure; any thread; a second for 60 participants.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/study/agreement.h"
+#include "app/study/problem_files.h"
 #include "app/study/statistics.h"
 #include "app/study/study_data.h"
 
@@ -46,18 +49,35 @@ struct TaskRow {
   std::optional<ValueRange> time_interval_s;  ///< at 95 %
 };
 
+/// How many participants met a problem in one task.
+struct MetInTask {
+  std::string task;
+  std::size_t met_by = 0;
+};
+
 struct ProblemRow {
   std::string problem, title;
-  std::vector<std::string> tasks, moments;
-  std::size_t met_by = 0, could_meet = 0;  ///< participants
-  std::optional<ValueRange> share;         ///< at 95 %
-  std::optional<double> severity;          ///< median of raters
-  double weight = 0.0;                     ///< severity (1 where it is not rated) times share
+  std::vector<MetInTask> tasks;
+  std::vector<std::string> participants, moments;  ///< who met it: codes
+  std::vector<std::string> also;                   ///< problems that were merged into it
+  std::size_t met_by = 0, could_meet = 0;          ///< participants
+  std::optional<ValueRange> share;                 ///< at 95 %
+  std::optional<double> severity;                  ///< median of raters; none while one of them has not rated all
+  double weight = 0.0;                             ///< severity (1 where it is not rated) times share
 };
 
 /// A sentence that somebody answered with.
 struct SaidAnswer {
   std::string item, participant, words;
+};
+
+/// Of raters on severity: each one's worst of a problem.
+struct SeverityAgreement {
+  std::size_t raters = 0;
+  std::optional<double> nominal, ordinal, interval;  ///< Krippendorff's alpha
+  std::optional<ValueRange> ordinal_interval;        ///< by samples from `seed`
+  std::optional<IntraclassCorrelation> intraclass;   ///< where each rated all
+  static constexpr std::uint64_t seed = 1;
 };
 
 struct StudyResult {
@@ -70,7 +90,8 @@ struct StudyResult {
   std::vector<TaskRow> tasks;
   std::vector<ProblemRow> problems;    ///< the heaviest first
   std::optional<Discovery> discovery;  ///< of problems
-  std::optional<double> agreement;     ///< of raters on severity
+  SeverityAgreement agreement;
+  std::vector<std::string> awaited;  ///< raters who have not rated all: severities are hidden until then
 };
 
 struct StudyInput {
@@ -78,9 +99,11 @@ struct StudyInput {
   std::vector<AnswerSheet> answers;
   std::vector<TaskRun> tasks;
   std::vector<ProblemSeen> problems;
+  MergedProblems merged;
+  std::vector<Rating> ratings;   ///< beside those of the evidence
   std::size_t participants = 0;  ///< as many took part, at least; who met no problem is in no table of problems
 };
 
-StudyResult studyResult(const StudyInput& input);
+StudyResult studyResult(const StudyInput& given);
 
 }  // namespace app

@@ -1,6 +1,7 @@
 // Commands and options as data, from which help, manual pages and shell completion are generated.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct CommandHelp {
   std::vector<CommandExample> examples;
   std::vector<OptionHelp> options;
   std::vector<CommandHelp> commands;
+
+  /// It has commands, and does something without them, too.
+  bool mayGoWithout() const { return !commands.empty() && std::ranges::any_of(options, &OptionHelp::is_positional); }
 };
 
 }  // namespace app

@@ -199,6 +199,8 @@ void CommandLine::refuseUnknownCommand(int argc, const char* const* argv) const 
       names.push_back(command->app_.get_name());
       if (names.back() == argv[n]) next = command.get();
     }
+    // It takes words of its own beside commands.
+    if (next == nullptr && at->action_) return;
     if (next == nullptr) {
       const std::string suggestion = didYouMean(argv[n], names);
       throw UsageError(std::string(argv[n]) + ": no such command" + (suggestion.empty() ? "," : suggestion) + " see " +
@@ -223,7 +225,7 @@ void CommandLine::refuseParse(const std::string& what, const std::vector<std::st
     throw UsageError(subject + option + ": no such option" + (suggestion.empty() ? "," : suggestion) + see);
   }
   if (!unexpected.empty()) throw UsageError(subject + unexpected.front() + ": one word too many," + see);
-  if (!command.commands_.empty())
+  if (!command.commands_.empty() && !command.action_)
     throw UsageError((subject.empty() ? name : subject.substr(0, subject.size() - 1)) + ": a command is missing," +
                      see);
   throw UsageError(subject + what + "," + see);

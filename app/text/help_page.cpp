@@ -63,7 +63,7 @@ void addTo(Groups& groups, const std::string& group, const std::string& text) {
 
 std::string usage(const std::string& name, const CommandHelp& command) {
   std::string line = name;
-  if (!command.commands.empty()) line += " COMMAND";
+  if (!command.commands.empty()) line += command.mayGoWithout() ? " [COMMAND]" : " COMMAND";
   for (const OptionHelp& option : command.options)
     if (!option.is_positional && option.is_required) line += " " + option.names + " " + option.value;
   line += " [OPTIONS]";

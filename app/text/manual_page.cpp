@@ -47,7 +47,8 @@ std::string synopsis(const std::string& name, const CommandHelp& command) {
   for (const OptionHelp& option : command.options)
     if (option.is_positional)
       line += option.is_required ? " " + italic(upper(option.names)) : " [" + italic(upper(option.names)) + "]";
-  if (!command.commands.empty()) line += " " + italic("COMMAND");
+  if (!command.commands.empty())
+    line += command.mayGoWithout() ? " [" + italic("COMMAND") + "]" : " " + italic("COMMAND");
   return line + "\n";
 }
 

@@ -181,9 +181,11 @@ std::string PageState::text(const PageNow& now) const {
     for (const QuestionItem& item : of.items) {
       PageJson row{{"id", item.id}, {"say", item.says}};
       if (!of.isOfWords()) {
-        row["from"] = of.low, row["to"] = of.high;
-        row["low"] = of.scale.empty() ? "" : of.scale.front(), row["high"] = of.scale.empty() ? "" : of.scale.back();
-        row["scale"] = of.scale;
+        const std::vector<std::string>& words = item.choices.empty() ? of.scale : item.choices;
+        row["from"] = of.lowOf(item), row["to"] = of.highOf(item);
+        row["low"] = words.empty() ? "" : words.front(), row["high"] = words.empty() ? "" : words.back();
+        row["scale"] = words;
+        if (!item.choices.empty()) row["choices"] = item.choices;
       }
       items.push_back(std::move(row));
     }

@@ -98,7 +98,8 @@ std::optional<std::string> fromBase64(std::string_view text) {
       end != text.data() + text.size())
     return {};
   bytes.resize(length);
-  return bytes;
+  // One spelling alone: libsodium takes letters with a high bit for others.
+  return base64Of(bytes) == text ? std::optional(bytes) : std::nullopt;
 }
 
 }  // namespace app

@@ -62,15 +62,6 @@ class KeyFile {
   json json_;
 };
 
-std::string publicText(const PublicStudyKeys& keys) {
-  return ordered_json{{"kind", kPublicKind},
-                      {"version", 1},
-                      {"seal_x25519", base64Of(keys.seal)},
-                      {"sign_ed25519", base64Of(keys.sign)}}
-             .dump(2) +
-         "\n";
-}
-
 /// Argon2id of the passphrase.
 SecretKey lockOf(std::string_view passphrase, std::string_view salt, const PassphraseCost& cost) {
   SecretKey key;
@@ -105,9 +96,18 @@ bool liesWithin(const std::string& file, const std::string& folder) {
 
 }  // namespace
 
+std::string textOf(const PublicStudyKeys& keys) {
+  return ordered_json{{"kind", kPublicKind},
+                      {"version", 1},
+                      {"seal_x25519", base64Of(keys.seal)},
+                      {"sign_ed25519", base64Of(keys.sign)}}
+             .dump(2) +
+         "\n";
+}
+
 std::string PublicStudyKeys::fingerprint() const {
   constexpr std::size_t kDigits = 16;
-  return calibration::sha256Of(publicText(*this)).substr(0, kDigits);
+  return calibration::sha256Of(textOf(*this)).substr(0, kDigits);
 }
 
 PrivateStudyKeys::PrivateStudyKeys(const SecretKey& secret) {
@@ -165,7 +165,7 @@ PublicStudyKeys createStudyKeys(const std::string& study, const std::string& key
   const PublicStudyKeys keys = PrivateStudyKeys(secret).publicKeys();
   std::string salt(kSaltBytes, '\0');
   randombytes_buf(salt.data(), salt.size());
-  const std::string known = publicText(keys);
+  const std::string known = textOf(keys);
   const SecretKey lock = lockOf(passphrase, salt, cost);
   const std::string locked = sealedWith(lock, {keys.fingerprint(), kPrivateKind, 1},
                                         {reinterpret_cast<const char*>(secret.data()), SecretKey::kBytes});

@@ -1,6 +1,6 @@
 // The keys of a study. STUDY/study_keys.json holds the public halves: X25519, to which every session's keys are sealed,
 // and Ed25519, by which a bundle is proved. The private half is one secret of 32 bytes in a file that the owner takes
-// away, locked by a passphrase (Argon2id, 256 MiB, 3 passes: about a second a guess). Any thread; microseconds but for
+// away, locked by a passphrase (Argon2id, 256 MiB, 3 passes: half a second a guess). Any thread; microseconds but for
 // the passphrase. Bad files: LoadError; what cannot be written: CalibrationError.
 #pragma once
 
@@ -56,6 +56,8 @@ PublicStudyKeys createStudyKeys(const std::string& study, const std::string& key
                                 const PassphraseCost& cost = {});
 /// None: the study has no keys. Throws LoadError.
 std::optional<PublicStudyKeys> publicKeysOf(const std::string& study);
+/// The public halves as they stand in the file, and read from it.
+std::string textOf(const PublicStudyKeys& keys);
 PublicStudyKeys publicKeysFrom(std::string_view text, const std::string& where);
 
 /// Throws LoadError: no such file, or another passphrase.

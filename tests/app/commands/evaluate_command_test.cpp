@@ -72,6 +72,79 @@ TEST_F(EvaluateCommand, TheSameSessionTwiceIsTheSameLog) {
   EXPECT_EQ(read("study/P03-1/tasks.csv"), tasks);
 }
 
+/// A session of a study with keys, and what its owner does with it.
+TEST_F(EvaluateCommand, WithKeysWordsAreSealedForTheOwnerAlone) {
+  const std::string owner = " --key " + at("owner.key") + " --passphrase-file " +
+                            write("passphrase", "eight words nobody else would ever say\n");
+  const ProgramOutput made = molar("study keys " + at("study") + owner);
+  ASSERT_EQ(made.status, 0) << made.err;
+  const ProgramOutput first = molar(session("P01"));
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(first.err.find("has no keys"), std::string::npos);
+  // Times and kinds are open, words and answers are not; the rules fired as ever.
+  const std::string log_text = read("study/P01-1/events.jsonl");
+  for (const char* said : {"looks for the pedal", "\"value\":", "\"title\":\"The"})
+    EXPECT_EQ(log_text.find(said), std::string::npos) << said;
+  EXPECT_FALSE(ofType(log("P01-1"), "note").empty());
+  EXPECT_EQ(ofType(log("P01-1"), "verified").at(0)["data"]["rules_deviate"], 0);
+  EXPECT_FALSE(std::filesystem::exists(at("study/P01-1/problems.csv")));
+  EXPECT_TRUE(std::filesystem::exists(at("study/P01-1/tasks.csv")));
+  EXPECT_EQ(read("study/P01-1/session.bookmarks.json").find("looks for"), std::string::npos);
+
+  const ProgramOutput closed = molar("study " + at("study"));
+  EXPECT_NE(closed.err.find("rows are closed, give --key FILE"), std::string::npos) << closed.err;
+  const ProgramOutput opened = molar("study " + at("study") + owner + " --questionnaire sus --json -");
+  ASSERT_EQ(opened.status, 0) << opened.err;
+  const auto study = nlohmann::json::parse(opened.out);
+  EXPECT_FALSE(study["problems"].empty());
+  EXPECT_EQ(study["scores"].size(), 1u);
+
+  // Handed on, checked, one byte changed.
+  ASSERT_EQ(molar("study export " + at("study") + " --out " + at("F.zip") + owner).status, 0);
+  const ProgramOutput whole = molar("study check " + at("F.zip") + " --study " + at("study"));
+  EXPECT_EQ(whole.status, 0) << whole.out << whole.err;
+  EXPECT_NE(whole.out.find("signed by the study's key " + made.out.substr(0, 16)), std::string::npos) << whole.out;
+  std::string bytes = read("F.zip");
+  bytes[bytes.find("sessions/P01-1/session.molar") + 5000] ^= 1;
+  const ProgramOutput changed = molar("study check " + write("G.zip", bytes));
+  EXPECT_EQ(changed.status, 1);
+  EXPECT_EQ(changed.out, "sessions/P01-1/session.molar was changed\n");
+
+  // Taken back: the chain and the recording stay.
+  EXPECT_EQ(molar("study withdraw " + at("study") + " P01 --stream words --dry-run").out,
+            "P01-1/keys/words.key\nP01-1/session.bookmarks.json\n");
+  ASSERT_EQ(molar("study withdraw " + at("study") + " P01 --stream words").status, 0);
+  EXPECT_EQ(read("study/P01-1/events.jsonl"), log_text);
+  EXPECT_EQ(molar("replay " + at("study/P01-1/session.molar") + " --verify").status, 0);
+  const ProgramOutput after = molar("study " + at("study") + owner + " --questionnaire sus --json -");
+  EXPECT_TRUE(nlohmann::json::parse(after.out)["problems"].empty());
+  EXPECT_EQ(nlohmann::json::parse(after.out)["scores"].size(), 1u) << "answers are another stream";
+
+  // After a year and a day, and a clock that goes back.
+  EXPECT_EQ(molar("study retain " + at("study") + " --dry-run").out, "");
+  EXPECT_NE(molar("study retain " + at("study") + " --today 2199-01-01").out.find("P01-1  ended"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(at("study/P01-1")));
+  expectRefusal("study retain " + at("study"), "set the clock");
+  EXPECT_NE(read("study/audit.jsonl").find("\"type\":\"retain\""), std::string::npos);
+}
+
+TEST_F(EvaluateCommand, TheStudysCommandsRefuseInOneLine) {
+  std::filesystem::create_directory(at("study"));
+  const std::string passphrase = " --passphrase-file " + write("passphrase", "short\n");
+  expectRefusal("study keys " + at("study") + passphrase, "give --key FILE");
+  expectRefusal("study keys " + at("study") + " --key " + at("owner.key") + passphrase, "fewer than 12");
+  expectRefusal("study " + at("study") + passphrase, "of which --key");
+  expectRefusal("study withdraw " + at("study") + " Anna --stream all", "never a name");
+  expectRefusal("study withdraw " + at("study") + " P01 --stream smell", "--stream");
+  expectRefusal("study withdraw " + at("study") + " P01 --stream all", "P01 is in no session");
+  expectRefusal("study retain " + at("study") + " --today tomorrow", "--today tomorrow");
+  expectRefusal("study export " + at("study") + " --out " + at("F.tar"), "name it .zip");
+  expectRefusal("study export " + at("study") + " --out " + at("F.zip"), "no session that was closed");
+  expectRefusal("study check " + write("F.zip", "PK"), "is no bundle");
+  expectRefusal("study unmerge " + at("study") + " pedal", "is not merged");
+  EXPECT_FALSE(std::filesystem::exists(at("owner.key")));
+}
+
 TEST_F(EvaluateCommand, WithoutTheLogNothingIsKept) {
   std::string script;
   for (const char* stream : {"log", "audio", "picture", "quotes", "reuse"})

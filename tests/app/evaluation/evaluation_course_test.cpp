@@ -165,6 +165,33 @@ TEST_F(EvaluationCourseTest, AnswersAreStoredAsGivenAndLockedBySubmit) {
   EXPECT_NE(say("submit", {{"questionnaire", std::string("sus")}}), "");
 }
 
+TEST(WeightedLoadIndex, AComparisonIsAnsweredByOneOrTwo) {
+  std::string text = kTemplate;
+  text.replace(text.find("use = \"sus\""), 11, "use = \"tlx-weighted\"");
+  const StudyTemplate study = studyTemplateFrom(text, "t.toml");
+  std::vector<LogEvent> events;
+  EvaluationCourse course(study, {"P07", "surgeon", 1, "E2"}, [&](const LogEvent& event) { events.push_back(event); });
+  course.prepare({}, {});
+  course.enter(Phase::questionnaires, {});
+  const auto answer = [&](const char* item, std::int64_t value) {
+    return course
+        .take({0,
+               {},
+               "participant",
+               "answer",
+               {{"questionnaire", std::string("tlx-weighted")}, {"item", std::string(item)}, {"value", value}}})
+        .value_or("");
+  };
+  EXPECT_EQ(answer("effort", 85), "");
+  EXPECT_EQ(answer("mental-effort", 2), "");
+  EXPECT_EQ(answer("mental-effort", 3), "value: give a whole number from 1 to 2, or leave it out");
+  EXPECT_NE(answer("mental-effort", 0), "");
+  EXPECT_NE(answer("effort-mental", 1), "") << "each pair once, in the order of the scales";
+  const auto tables = sessionTables(study, events, "P07-1");
+  const auto sheets = answersFrom(csvTableFrom(tables.back().text, "A"), questionnaireNamed("tlx-weighted"));
+  EXPECT_EQ(sheets.at(0).values.at(9), 2.0);
+}
+
 TEST_F(EvaluationCourseTest, ItsTablesAreThoseThatAStudyReads) {
   consentTo();
   course_.enter(Phase::tasks, at(100));

@@ -11,6 +11,7 @@
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 #include "tests/scratch_folder.h"
 
 namespace app {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr PassphraseCost kCheap{1, 8192};
 constexpr char kWords[] = "eight words nobody else would ever say";
 
-std::string bytesOf(const std::string& path) {
+std::string contentOf(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
@@ -63,7 +64,7 @@ TEST(Sealing, Base64IsThatOfTheStandard) {
   EXPECT_EQ(base64Of("foob"), "Zm9vYg==");
   EXPECT_EQ(fromBase64("Zm9vYg=="), "foob");
   EXPECT_EQ(fromBase64(""), "");
-  for (const char* wrong : {"Zm9vYg=", "Zm9vYg", "Zm9v Yg==", "Zm9vYg==x", "ä"})
+  for (const char* wrong : {"Zm9vYg=", "Zm9vYg", "Zm9v Yg==", "Zm9vYg==x", "ä", "Zm9v\xd9g=="})
     EXPECT_EQ(fromBase64(wrong), std::nullopt);
 }
 
@@ -108,7 +109,7 @@ TEST_F(StudyKeysTest, SignWhatTheyKnow) {
 
 TEST_F(StudyKeysTest, MutantsOfBothFilesAreRefusedOrRead) {
   const std::string path = folder_.file("mutant");
-  const std::vector<std::string> good{bytesOf(study_ + "/" + kStudyKeysName), bytesOf(key_)};
+  const std::vector<std::string> good{contentOf(study_ + "/" + kStudyKeysName), contentOf(key_)};
   std::size_t refused = 0, tried = 0;
   mutants::forEachMutant(good, 2000, [&](const std::string& mutant, std::size_t which, std::uint64_t) {
     ++tried;
@@ -170,7 +171,7 @@ TEST_F(SealedEventsTest, WordsStandEncryptedInAWholeLog) {
     SessionLogWriter log(path);
     for (const LogEvent& event : sealed(seal)) log.add(event);
   }
-  const std::string text = bytesOf(path);
+  const std::string text = contentOf(path);
   EXPECT_EQ(text.find("gryphon"), std::string::npos);
   EXPECT_EQ(text.find("\"value\""), std::string::npos);
   EXPECT_NE(text.find("the time was over"), std::string::npos) << "the program's own word";
@@ -210,6 +211,20 @@ TEST_F(SealedEventsTest, WordsThatWereMovedAreFound) {
   std::swap(log[1], log[2]);
   const OpenedSession owner(openStudyKeys(key_, kWords), session_, "P07-1");
   EXPECT_THROW(openedEvents(log, &owner, "log"), assets::LoadError);
+}
+
+TEST_F(SealedEventsTest, MutantsOfSealedWordsAreRefused) {
+  const SessionSeal seal(keys_, session_, "P07-1");
+  const OpenedSession owner(openStudyKeys(key_, kWords), session_, "P07-1");
+  const LogEvent note = sealedEvent(seal, said_[1], 0);
+  mutants::forEachMutant({*note.text("sealed")}, 2000, [&](const std::string& mutant, std::size_t, std::uint64_t) {
+    LogEvent changed = note;
+    for (auto& [key, value] : changed.data)
+      if (key == "sealed") value = mutant;
+    const bool is_same = mutant == *note.text("sealed");
+    const std::string said = tests::refusalOf<assets::LoadError>([&] { openedEvents({changed}, &owner, "log"); });
+    EXPECT_EQ(said == "accepted", is_same);
+  });
 }
 
 TEST_F(SealedEventsTest, WithdrawnInMidSessionNothingMoreIsSealed) {

@@ -15,7 +15,8 @@ namespace app {
 namespace {
 
 TEST(Questionnaire, ShippedOnesAreWhole) {
-  EXPECT_EQ(shippedQuestionnaires(), (std::vector<std::string>{"vhu-7", "gajananan", "sus", "tlx-raw", "debrief-5"}));
+  EXPECT_EQ(shippedQuestionnaires(),
+            (std::vector<std::string>{"vhu-7", "gajananan", "sus", "tlx-raw", "tlx-weighted", "debrief-5"}));
   for (const std::string& name : shippedQuestionnaires()) {
     const Questionnaire questionnaire = questionnaireNamed(name);
     EXPECT_EQ(questionnaire.id, name);
@@ -49,6 +50,31 @@ TEST(Questionnaire, ScoresByTheirAuthorsRules) {
   EXPECT_FALSE(scoreOf(tlx, {10, 20, 30, 40, 50, {}}));
 }
 
+TEST(Questionnaire, TheWeightedLoadIndexComparesFifteenPairs) {
+  const Questionnaire tlx = questionnaireNamed("tlx-weighted");
+  ASSERT_EQ(tlx.items.size(), 21u);
+  EXPECT_EQ(tlx.items[6].id, "mental-physical");
+  EXPECT_EQ(tlx.items[20].id, "effort-frustration");
+  EXPECT_EQ(tlx.items[20].choices, (std::vector<std::string>{"Effort", "Frustration"}));
+  EXPECT_EQ(tlx.highOf(tlx.items[5]), 100);
+  EXPECT_EQ(tlx.lowOf(tlx.items[6]), 1);
+  EXPECT_EQ(tlx.highOf(tlx.items[6]), 2);
+  // The first of each pair: weights 5 4 3 2 1 0, so (50 + 80 + 90 + 80 + 50 + 0) / 15.
+  std::vector<std::optional<double>> answers{10, 20, 30, 40, 50, 60};
+  answers.resize(21, 1.0);
+  EXPECT_EQ(*weightsOf(tlx, answers), (std::vector<double>{5, 4, 3, 2, 1, 0}));
+  EXPECT_NEAR(*scoreOf(tlx, answers), 350.0 / 15.0, 1e-12);
+  // The second of each: 0 1 2 3 4 5, so (20 + 60 + 120 + 200 + 300) / 15.
+  for (std::size_t n = 6; n < 21; ++n) answers[n] = 2.0;
+  EXPECT_NEAR(*scoreOf(tlx, answers), 700.0 / 15.0, 1e-12);
+  // Effort before mental demand alone: 4 for mental, 2 for effort.
+  for (std::size_t n = 6; n < 21; ++n) answers[n] = tlx.items[n].id == "mental-effort" ? 2.0 : 1.0;
+  EXPECT_EQ(*weightsOf(tlx, answers), (std::vector<double>{4, 4, 3, 2, 2, 0}));
+  answers[9] = {};
+  EXPECT_FALSE(scoreOf(tlx, answers)) << "one comparison is missing";
+  EXPECT_FALSE(weightsOf(questionnaireNamed("tlx-raw"), {10, 20, 30, 40, 50, 60}));
+}
+
 TEST(Questionnaire, AWrongFileIsRefusedWithItsLine) {
   const on_disk::Folder folder;
   const std::string head =
@@ -61,6 +87,7 @@ TEST(Questionnaire, AWrongFileIsRefusedWithItsLine) {
   EXPECT_EQ(refusal(head + "scoring = \"categories\"\n" + item), "accepted");
   for (const std::string& text : {
            head + "scoring = \"sum\"\n" + item,
+           head + "scoring = \"weighted\"\n" + item,
            head + "scoring = \"sus\"\n" + item,
            head + "scoring = \"categories\"\n" + item + item,
            head + "scoring = \"categories\"\n[[item]]\nid = \"A\"\nsays = \"Good\"\n",

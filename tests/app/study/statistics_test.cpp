@@ -35,7 +35,6 @@ TEST(Statistics, SaysNothingOfTooFew) {
   EXPECT_FALSE(signedRankTest(Values{0.0, 0.0}));
   EXPECT_FALSE(rankSumTest({}, Values{1.0}));
   EXPECT_FALSE(discoveryOf(std::array<std::size_t, 2>{1, 2}, 3));
-  EXPECT_FALSE(ordinalAgreement({{3, 3}, {3, 3}})) << "all equal";
 }
 
 TEST(Statistics, IntervalsOfTextbooks) {
@@ -156,13 +155,51 @@ TEST(Statistics, HolmStepsDown) {
 }
 
 // Krippendorff, Computing Krippendorff's alpha-reliability (2011): four observers, twelve units, ordinal 0.815.
-TEST(Statistics, AgreementOfFourObserversIsThePublishedOne) {
-  const auto none = std::optional<int>();
-  const std::vector<std::vector<std::optional<int>>> ratings{{1, 2, 3, 3, 2, 1, 4, 1, 2, none, none, none},
-                                                             {1, 2, 3, 3, 2, 2, 4, 1, 2, 5, none, 3},
-                                                             {none, 3, 3, 3, 2, 3, 4, 2, 2, 5, 1, none},
-                                                             {1, 2, 3, 3, 2, 4, 4, 1, 2, 5, 1, none}};
-  EXPECT_NEAR(*ordinalAgreement(ratings), 0.815, 5e-4);
+// The interval is what a two-sided test at 5 % does not refuse.
+TEST(Statistics, TheIntervalOfAShiftIsWhereTheTestTurns) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> value(0.0, 3.0);
+  constexpr double kStep = 1e-7, kLimit = 0.05;
+  for (int round = 0; round < 30; ++round) {
+    Values first, second, differences;
+    for (int n = 0; n < 6 + round % 5; ++n) first.push_back(value(random)), differences.push_back(value(random));
+    for (int n = 0; n < 5 + round % 4; ++n) second.push_back(value(random) + 1.0);
+    const auto less = [](Values values, double by) {
+      for (double& one : values) one -= by;
+      return values;
+    };
+    const auto paired = signedRankTest(differences)->shift_interval;
+    ASSERT_TRUE(paired);
+    EXPECT_LE(signedRankTest(less(differences, paired->low - kStep))->p, kLimit);
+    EXPECT_GT(signedRankTest(less(differences, paired->low + kStep))->p, kLimit);
+    EXPECT_LE(signedRankTest(less(differences, paired->high + kStep))->p, kLimit);
+    EXPECT_GT(signedRankTest(less(differences, paired->high - kStep))->p, kLimit);
+    const auto apart = rankSumTest(first, second)->shift_interval;
+    ASSERT_TRUE(apart);
+    EXPECT_LE(rankSumTest(first, less(second, apart->low - kStep))->p, kLimit);
+    EXPECT_GT(rankSumTest(first, less(second, apart->low + kStep))->p, kLimit);
+    EXPECT_LE(rankSumTest(first, less(second, apart->high + kStep))->p, kLimit);
+    EXPECT_GT(rankSumTest(first, less(second, apart->high - kStep))->p, kLimit);
+  }
+}
+
+TEST(Statistics, TheIntervalOfAShiftByHand) {
+  // Six pairs: 2 / 64 is less than 5 %, so from the smallest mean of two to the largest.
+  const auto six = signedRankTest(Values{1, 2, 3, 4, 5, 7});
+  EXPECT_EQ(six->shift_interval->low, 1.0);
+  EXPECT_EQ(six->shift_interval->high, 7.0);
+  EXPECT_FALSE(signedRankTest(Values{1, 2, 3, 4, 5})->shift_interval) << "2 / 32 is more";
+  // Four and four: 2 / 70; three and three: 2 / 20.
+  const auto four = rankSumTest(Values{1, 2, 3, 4}, Values{11, 12, 13, 14});
+  EXPECT_EQ(four->shift_interval->low, 7.0);
+  EXPECT_EQ(four->shift_interval->high, 13.0);
+  EXPECT_FALSE(rankSumTest(Values{1, 2, 3}, Values{7, 8, 9})->shift_interval);
+  // By the normal distribution: 70 pairs, k = 1242.5 - 1.96 sqrt(70 * 71 * 141 / 24), the 907th of 2485 means.
+  Values many;
+  for (int n = 1; n <= 70; ++n) many.push_back(n);
+  const auto normal = signedRankTest(many)->shift_interval;
+  EXPECT_NEAR(normal->low + normal->high, 71.0, 1e-9);
+  EXPECT_NEAR(normal->high - normal->low, 10.0, 3.0);
 }
 
 // Lewis 2001's correction: four people, chance 0.5, three of ten problems met by one person alone.

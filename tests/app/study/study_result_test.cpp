@@ -126,6 +126,20 @@ TEST(StudyResult, ComparesTwoGroupsAndTwoSessions) {
   EXPECT_NEAR(of_sessions.differences.front().test.p, 2.0 / 64.0, 1e-12);
 }
 
+TEST(StudyResult, TheWeightedLoadIndexHasWeightsAndAScore) {
+  std::string heads = "participant", first = "P1", second = "P2";
+  for (const QuestionItem& item : questionnaireNamed("tlx-weighted").items) {
+    heads += "," + item.id;
+    first += item.choices.empty() ? ",30" : ",1", second += item.choices.empty() ? ",50" : ",2";
+  }
+  const StudyResult result = resultOf("tlx-weighted", heads + "\n" + first + "\n" + second + "\n");
+  ASSERT_EQ(result.items.size(), 12u) << "six scales and their weights; comparisons alone say nothing";
+  EXPECT_EQ(result.items[6].id, "mental.weight");
+  EXPECT_EQ(result.items[6].values, (std::vector<double>{0, 5}));
+  ASSERT_EQ(result.scores.size(), 1u);
+  EXPECT_NEAR(*result.scores[0].summary.mean, 40.0, 1e-12) << "equal ratings have the same index whatever the weights";
+}
+
 TEST(StudyResult, TasksAndProblemsByHowBadAndHowCommon) {
   StudyInput input;
   input.tasks =
@@ -150,11 +164,45 @@ TEST(StudyResult, TasksAndProblemsByHowBadAndHowCommon) {
   EXPECT_EQ(*result.problems[1].severity, 1.5);
   EXPECT_NEAR(result.problems[1].weight, 1.5 * 0.75, 1e-12);
   EXPECT_NEAR(result.problems[2].weight, 1.0, 1e-12);
-  ASSERT_TRUE(result.agreement);
+  ASSERT_TRUE(result.agreement.ordinal);
   ASSERT_TRUE(result.discovery);
   input.participants = 9;
   EXPECT_EQ(studyResult(input).participants, 9u);
   EXPECT_LT(studyResult(input).discovery->chance, result.discovery->chance);
+}
+
+/// Nobody, one, all alike, all missing, in one group and in two, in one session and in two.
+TEST(StudyResult, OfTooLittleItSaysSoAndNeverNoNumber) {
+  for (const std::string& name : shippedQuestionnaires()) {
+    const Questionnaire questionnaire = questionnaireNamed(name);
+    for (const char* answer : {"", "1"})
+      for (const int people : {0, 1, 2, 6, 12})
+        for (const bool has_groups : {false, true})
+          for (const bool has_sessions : {false, true}) {
+            std::string csv = "participant,group,session";
+            for (const QuestionItem& item : questionnaire.items) csv += "," + item.id;
+            csv += "\n";
+            for (int n = 0; n < people; ++n)
+              for (int session = 1; session <= (has_sessions ? 2 : 1); ++session) {
+                csv += "P" + std::to_string(n) + "," + (has_groups && n % 2 == 0 ? "a" : "b") + "," +
+                       (has_sessions ? std::to_string(session) : "");
+                for (std::size_t item = 0; item < questionnaire.items.size(); ++item) csv += std::string(",") + answer;
+                csv += "\n";
+              }
+            const StudyResult result = resultOf(name, csv);
+            const std::string page = studyPage(result), json = studyJson(result),
+                              all = page + json + studyCsv(result) + studyLines(result);
+            for (const char* word : {"nan", "NaN", "inf,", ": inf", "Infinity"})
+              EXPECT_EQ(all.find(word), std::string::npos) << name << " " << answer << people << word;
+            EXPECT_FALSE(nlohmann::json::parse(json).is_discarded());
+            if (people > 0 && *answer == '\0' && !questionnaire.isOfWords()) {
+              EXPECT_NE(page.find("no answer"), std::string::npos);
+            }
+            if (has_sessions && people > 0 && !questionnaire.isOfWords()) {
+              EXPECT_NE(page.find("Nothing is compared"), std::string::npos) << "no pair differs";
+            }
+          }
+  }
 }
 
 TEST(StudyData, RefusesWithFileLineAndColumn) {

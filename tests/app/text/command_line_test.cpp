@@ -41,6 +41,29 @@ TEST(CommandLine, RefusesAValueWithTheOnesThatArePossibleAndTheCommandsHelp) {
     EXPECT_THAT(refusalOf({"close", "stitch", "--most", bad}), HasSubstr("give a whole number from 1 to 20")) << bad;
 }
 
+TEST(CommandLine, ACommandMayTakeWordsOfItsOwnBesideCommands) {
+  const auto said = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "molar");
+    CommandLine program("An operation", "1.2");
+    CommandLine& ward = program.command("ward", "A ward");
+    std::string of, bed, did;
+    ward.option("WARD", of, "Which");
+    ward.does([&] { return did = "looked at " + of, 0; });
+    CommandLine& clean = ward.command("clean", "Cleans");
+    clean.option("BED", bed, "Which").required();
+    clean.does([&] { return did = "cleaned " + bed, 0; });
+    program.run(static_cast<int>(words.size()), words.data());
+    EXPECT_THAT(helpPage("molar ward", ward.help(), {.width = 80, .coloured = false}),
+                HasSubstr("molar ward [COMMAND] [OPTIONS] [WARD]"));
+    return did;
+  };
+  EXPECT_EQ(said({"ward"}), "looked at ");
+  EXPECT_EQ(said({"ward", "north"}), "looked at north");
+  EXPECT_EQ(said({"ward", "clean", "7"}), "cleaned 7");
+  EXPECT_THAT(tests::refusalOf<UsageError>([&] { said({"ward", "north", "south"}); }), HasSubstr("one word too many"));
+  EXPECT_THAT(tests::refusalOf<UsageError>([&] { said({"ward", "clean"}); }), Not(HasSubstr("command is missing")));
+}
+
 TEST(HelpPage, ListsExamplesGroupsRangesAndDefaultsInPlainWords) {
   CommandLine program("An operation", "1.2");
   CommandLine& cut = program.command("cut", "Cuts");
