@@ -52,7 +52,7 @@ function banner(app) {
       "p",
       { key: "banner", class: "banner amber" },
       "Another page writes; this one only sees. ",
-      h("button", { onclick: () => app.send({ kind: "take-over" }) }, h("kbd", {}, "T"), " take over"),
+      h("button", { onclick: () => app.send({ kind: "take-over" }) }, "Take over"),
     );
   const others = outbox.of_other_sessions;
   if (others.length > 0)

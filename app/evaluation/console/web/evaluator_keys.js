@@ -45,7 +45,6 @@ function act(app, does, when) {
   if (does === "sheet") app.sheet = !app.sheet;
   if (does === "continue" && state?.may_continue && state.writer) app.say("continue", {}, when);
   if (does === "participant") location.assign("/participant");
-  if (does === "take-over" && state && !state.writer) app.send({ kind: "take-over" });
   app.show();
 }
 
@@ -85,14 +84,18 @@ export function listenAsEvaluator(app) {
     const own_line = target.id === "line";
     if (app.sheet && (key === "Escape" || key === "?")) return take(event, () => ((app.sheet = false), app.show()));
     if (isText(app.line) && (own_line || !isField(target))) return inLine(event, key, own_line);
-    if (isField(target)) return;
+    if (isField(target)) {
+      // Out of the field, to the keys again.
+      if (key === "Escape") target.blur();
+      return;
+    }
     // Enter and space press the button that has the focus.
     if ((key === "Enter" || key === " ") && target.closest("button, a, summary")) return;
     if (event.shiftKey && /^[0-9]$/.test(key)) return;
     if (!app.line && steered(app, key)) return event.preventDefault();
     if (event.repeat && /^[0-9]$/.test(key)) return event.preventDefault();
     if (!app.line) former = document.activeElement;
-    if (/^[0-9?tT]$/.test(key) || ["Escape", "Enter", "ArrowUp", "ArrowDown"].includes(key)) {
+    if (/^[0-9?]$/.test(key) || ["Escape", "Enter", "ArrowUp", "ArrowDown"].includes(key)) {
       if (["ArrowUp", "ArrowDown"].includes(key) && target.closest(".scrolls")) return;
       take(event, () => pressed(app, key, app.at(event)));
     }

@@ -65,7 +65,6 @@ export function keySheet(app) {
     ["space", "debrief: play, stand"],
     [", .", "debrief: mark before, after"],
     ["− +", "debrief: slower, faster"],
-    ["T", "take over from another page"],
   ];
   return h(
     "section",

@@ -55,7 +55,7 @@ function pressedFree(key, at, context, nothing) {
   if (key in lines) return { ...nothing, line: fresh(lines[key]) };
   if (key === "3" && context.prompt) return { ...nothing, said: { type: "prompt", data: { prompt: context.prompt }, at } };
   if (key === "4") return { ...nothing, said: { type: "bookmark", data: { label: "" }, at } };
-  const does = { 9: "continue", 0: "participant", t: "take-over", T: "take-over", "?": "sheet" };
+  const does = { 9: "continue", 0: "participant", "?": "sheet" };
   does.ArrowUp = "mark-former";
   does.ArrowDown = "mark-next";
   return { ...nothing, does: does[key] ?? null };
