@@ -68,6 +68,8 @@ export async function until(what, words, limit_ms = 60_000) {
   }
 }
 
+for (const signal of ["SIGTERM", "SIGINT"]) process.on(signal, () => process.exit(1));
+
 export class Station {
   #process;
   #folder;
@@ -84,6 +86,8 @@ export class Station {
     const options = ["evaluate", path.join(folder, "template.toml"), "--participant", participant, "--out", path.join(folder, "study")];
     options.push("--page", "127.0.0.1:0", "--device", "scripted", "--headless", "--seconds", "900");
     station.#process = spawn(process.env.MOLAR_PROGRAM, options, { stdio: ["ignore", "ignore", "pipe"] });
+    // Also where the tests are ended from outside.
+    process.on("exit", () => station.#process.kill("SIGKILL"));
     station.#process.stderr.on("data", (bytes) => (station.words += bytes));
     station.ended = new Promise((resolve) => station.#process.on("exit", (code) => resolve(code)));
     let is_over = false;
