@@ -18,6 +18,7 @@ export class Link {
   #began_ms = now_ms();
   #burst_ms = -Infinity;
   #wait_ms = 250;
+  #beat_ms = now_ms();
 
   /** `take` = { text(message, arrived_ms), picture(buffer), opened() }. */
   constructor(role, take) {
@@ -83,8 +84,11 @@ export class Link {
     if (!socket) return;
     const t_ms = now_ms();
     const patience_ms = 2 * kSilent_ms;
+    // A page that stood still itself hears what has come meanwhile before it judges.
+    const stood = t_ms - this.#beat_ms > 3 * kBeat_ms;
+    this.#beat_ms = t_ms;
     // A cut cable closes nothing: what is silent for long is given up and tried anew.
-    if (t_ms - Math.max(this.#heard_ms, socket.began_ms) > patience_ms) {
+    if (!stood && t_ms - Math.max(this.#heard_ms, socket.began_ms) > patience_ms) {
       socket.close();
       return this.#again(socket);
     }
