@@ -32,6 +32,7 @@ void addReference(CommandLine& molar);
 void addEvaluate(CommandLine& molar);
 void addSeat(CommandLine& molar);
 void addPage(CommandLine& molar);
+void addVoice(CommandLine& molar);
 void addStudy(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
@@ -44,11 +45,11 @@ void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
-inline constexpr auto kCommands = {addRehearse,      addStart,  addImport,    addInspect,   addCheck,   addPlan,
-                                   addClearance,     addFeel,   addCarve,     addSee,       addDisplay, addCalibrate,
-                                   addDevices,       addDoctor, addDebrief,   addReplay,    addMetrics, addReport,
-                                   addCompare,       addTrend,  addReference, addEvaluate,  addStudy,   addSessions,
-                                   addExport,        addPieces, addFile,      addLaws,      addSeat,    addPage,
-                                   addPsychophysics, addHelp,   addManual,    addCompletion};
+inline constexpr auto kCommands = {
+    addRehearse, addStart,  addImport,   addInspect,       addCheck,     addPlan,    addClearance,
+    addFeel,     addCarve,  addSee,      addDisplay,       addCalibrate, addDevices, addDoctor,
+    addDebrief,  addReplay, addMetrics,  addReport,        addCompare,   addTrend,   addReference,
+    addEvaluate, addStudy,  addSessions, addExport,        addPieces,    addFile,    addLaws,
+    addSeat,     addPage,   addVoice,    addPsychophysics, addHelp,      addManual,  addCompletion};
 
 }  // namespace app

@@ -38,6 +38,12 @@ void addEvaluate(CommandLine& molar) {
       .valueNamed("ADDRESS:PORT");
   command.flag("--share", options->share,
                "The page may be reached by other machines: encrypted, with a code of six digits");
+  command
+      .option(
+          "--microphone", options->microphone,
+          "Where voice is recorded from, if the participant allows it: default, none, file:F.wav (48 kHz), as if it "
+          "were heard, file:F.wav,realtime")
+      .showsDefault();
   addRehearseOptions(command, options->rehearsal);
   command.does([options] { return runEvaluation(*options); });
 }

@@ -30,14 +30,14 @@ Check diskCheck(const std::string& folder) {
 
 }  // namespace
 
-std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const std::string& folder) {
+std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const std::string& folder, const std::string& voice) {
   std::vector<Check> checks;
   checks.push_back({"case", CheckLight::green, plan.patient.title});
   checks.push_back({"device", CheckLight::green, plan.device});
   checks.push_back(diskCheck(folder));
   if (!plan.recording) checks.push_back({"recording", CheckLight::red, "there is no data folder to record into"});
   for (const std::string& remark : plan.remarks) checks.push_back({"rig", CheckLight::amber, remark});
-  checks.push_back({"voice", CheckLight::green, "is not recorded"});
+  checks.push_back({"voice", CheckLight::green, voice});
   return checks;
 }
 

@@ -10,7 +10,7 @@
 
 namespace app {
 
-/// `folder`: of the study; it need not be there yet.
-std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const std::string& folder);
+/// `folder`: of the study; it need not be there yet. `voice`: words on what is recorded of it.
+std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const std::string& folder, const std::string& voice);
 
 }  // namespace app

@@ -20,6 +20,7 @@
 #include "app/evaluation/seat/seat_link.h"
 #include "app/evaluation/session_book.h"
 #include "app/evaluation/terminal_people.h"
+#include "app/evaluation/voice/voice_desk.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/session/input_feed.h"
 #include "app/session/replay.h"
@@ -55,6 +56,8 @@ class EvaluationSession {
     book_.emplace(options.out, options.participant);
     const Participant participant{options.participant, options.group, book_->place().visit, options.evaluator};
     course_.emplace(study_, participant, [this](const LogEvent& event) { book_->keep(event); });
+    voice_.emplace(VoiceDesk::Parts{*course_, microphoneFrom(options.microphone), study_.silence_s, clock_.steps(),
+                                    played_.descriptor()});
     if (script)
       people_ = std::make_unique<ScriptPeople>(std::move(*script), *course_, clock_);
     else if (options.page.empty())
@@ -78,6 +81,7 @@ class EvaluationSession {
     const int recorded = doTasks(std::move(*plan));
     if (wasInterrupted()) return interrupted();
     if (!course_->allows("log")) {
+      voice_->finish(now());
       printMessage("the log is not allowed any more: the session ends; what was kept until then lies in " +
                    book_->folder());
       return 1;
@@ -94,7 +98,9 @@ class EvaluationSession {
 
   void openConsole() {
     auto console = std::make_unique<Console>(
-        Console::Parts{study_, *course_, clock_, *book_, consent_text_, [] { return wasInterrupted(); }},
+        Console::Parts{study_, *course_, clock_, *book_, consent_text_, [] { return wasInterrupted(); },
+                       [this] { voice_->follow(now()); }, [this] { return voice_->state(clock_.now_ns()); },
+                       [this] { return voice_->missing(); }},
         ConsoleAddress{options_.page, options_.share});
     console_ = console.get();
     people_ = std::move(console);
@@ -107,7 +113,7 @@ class EvaluationSession {
   }
 
   bool prepare(const RehearsalPlan& plan) {
-    const std::vector<Check> checks = evaluationChecks(plan, options_.out);
+    const std::vector<Check> checks = evaluationChecks(plan, options_.out, voice_->plan());
     for (const Check& check : checks)
       if (check.light != CheckLight::green)
         printMessage(fmt::format("{}: {} ({})", check.name, check.words,
@@ -138,6 +144,7 @@ class EvaluationSession {
       return false;
     }
     book_->open(template_text_);
+    voice_->begin(book_->folder(), book_->seal(), now());
     return true;
   }
 
@@ -149,6 +156,7 @@ class EvaluationSession {
     plan.opened.reset();
     std::optional<RehearsalPlan> block = composeRehearsal(warm);
     if (!block) return false;
+    block->played = &played_;
     block->instruction = "warm-up: try the hand, and say aloud what you think";
     if (console_ != nullptr) {
       // The evaluator ends it, not before its time is over.
@@ -159,6 +167,12 @@ class EvaluationSession {
     if (rehearse(std::move(*block)) != 0 || wasInterrupted()) return false;
     constexpr double kSecond_ns = 1e9;
     if (clock_.steps()) clock_.moveTo(clock_.now_ns() + static_cast<std::int64_t>(study_.warm_up_s * kSecond_ns));
+    voice_->follow(now());
+    if (const std::string missing = voice_->missing(); !missing.empty()) {
+      course_->log(now(), "system", "check",
+                   {{"name", std::string("voice")}, {"light", std::string("amber")}, {"words", missing}});
+      printMessage("voice: " + missing + " (amber)");
+    }
     if (haptics::isDeviceAddress(plan.device)) plan.opened = haptics::openDevice(plan.device, plan.device_options);
     return true;
   }
@@ -178,6 +192,9 @@ class EvaluationSession {
       plan.recording->tap = &feed.emplace();
       parts.bone = &seat.emplace(*feed, std::move(ids));
     }
+    parts.each_frame = [this](const Moment& at) { voice_->follow(at); };
+    parts.reminder = [this](std::int64_t at_ns) { return voice_->reminder(at_ns); };
+    plan.played = &played_;
     EvaluationDesk desk(std::move(parts));
     plan.evaluation = &desk;
     if (console_ != nullptr) {
@@ -211,6 +228,7 @@ class EvaluationSession {
     enter(phase);
     if (phase == Phase::debrief) printMessage("to look at moments: molar debrief " + book_->recording());
     people_->ask(phase);
+    voice_->follow(now());
     book_->writeTables(study_);
   }
 
@@ -228,6 +246,7 @@ class EvaluationSession {
   }
 
   int interrupted() {
+    voice_->finish(now());
     course_->log(now(), "system", "session.interrupted", {});
     printMessage(book_->folder() + ": interrupted; the same participant again begins the session anew");
     return 1;
@@ -240,6 +259,7 @@ class EvaluationSession {
       course_->log(now(), "system", "script.left", {{"where", one.where}});
       printMessage(one.where + ": " + one.during + " had ended before, it was not said");
     }
+    voice_->finish(now());
     const ReplayReport replay = verify(book_->recording());
     const RuleCheck rules = checkRules(study_, book_->events(), book_->recording());
     for (const std::string& line : rules.deviate) printMessage(line);
@@ -263,6 +283,8 @@ class EvaluationSession {
   SessionClock clock_;
   std::optional<SessionBook> book_;
   std::optional<EvaluationCourse> course_;
+  PlayedSound played_;
+  std::optional<VoiceDesk> voice_;
   std::unique_ptr<SessionPeople> people_;
   Console* console_ = nullptr;  ///< they, where they are at a page
   double rate_Hz_ = 1000.0;

@@ -9,7 +9,7 @@
 namespace app {
 
 struct EvaluateOptions {
-  std::string study_template, participant, group, evaluator = "E1", out, script, page;
+  std::string study_template, participant, group, evaluator = "E1", out, script, page, microphone = "default";
   bool share = false;
   RehearseOptions rehearsal;
 };

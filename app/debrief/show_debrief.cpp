@@ -17,6 +17,7 @@
 #include "app/debrief/debrief_panel.h"
 #include "app/debrief/debrief_plan.h"
 #include "app/debrief/debrief_scene.h"
+#include "app/debrief/debrief_voice.h"
 #include "app/instructor/instructor_panel.h"
 #include "app/text/clock_text.h"
 #include "app/text/elapsed.h"
@@ -24,6 +25,7 @@
 #include "app/text/message.h"
 #include "app/view/renderer_choice.h"
 #include "app/view/snapshot.h"
+#include "assets/load_error.h"
 #include "calibration/output_file.h"
 #include "calibration/png_file.h"
 #include "render/gpu/gpu_error.h"
@@ -90,6 +92,7 @@ class DebriefWindow {
         prepare(begun);
       else
         state_.transport.advance(passed_s);
+      followVoice();
       draw(now, passed_s);
     }
     tellJumps();
@@ -112,8 +115,25 @@ class DebriefWindow {
                              keyframes, static_cast<double>(bytes) / 1e6));
     state_.transport.setLength(scene_.length_s());
     state_.transport.goTo(first_s_);
+    openVoice();
     shown_.reset();
     updateRuns();
+  }
+
+  /// Of the first session.
+  void openVoice() {
+    const DebriefRun& run = *scene_.runs().front();
+    try {
+      voice_.emplace(run.path(), run.moments().start().dt_s);
+    } catch (const assets::LoadError& damage) {
+      printMessage(damage.what());
+    }
+  }
+  void followVoice() {
+    const Transport& transport = state_.transport;
+    if (voice_)
+      voice_->follow(transport.position_s(),
+                     transport.isPlaying() && !transport.isBackwards() && transport.speed() == 1.0);
   }
 
   void updateRuns() {
@@ -458,6 +478,7 @@ class DebriefWindow {
   bool on_processor_ = false;
   std::optional<render::QualityLadder> ladder_;
   DebriefPanelState state_;
+  std::optional<DebriefVoice> voice_;
   std::optional<Shown> shown_;
   Clock::time_point drawn_at_{}, said_at_{};
   std::optional<Clock::time_point> jump_at_;

@@ -126,6 +126,7 @@ void EvaluationDesk::follow(std::span<const haptics::Tick> ticks, const haptics:
   if (parts_.clock_ns) takeSaid();
   begin();
   tellBoneNews();
+  if (parts_.each_frame) parts_.each_frame(now());
   // Ticks of one command are enough of it.
   constexpr std::size_t kMostCommands = 64;
   if (commands_.size() > kMostCommands) commands_.erase(commands_.begin());
@@ -180,11 +181,15 @@ bool EvaluationDesk::allows(const ControlRequest& request) {
 }
 
 std::string EvaluationDesk::toSurgeon() const {
+  if (const std::string reminder = reminded(); !reminder.empty()) return reminder;
   if (watched_ != nullptr) return watched_->say;
   return parts_.course.areTasksDone() ? "all tasks are done" : "the next task will be told";
 }
 
+std::string EvaluationDesk::reminded() const { return parts_.reminder ? parts_.reminder(now().t_ns) : ""; }
+
 std::string EvaluationDesk::toEvaluator() const {
+  if (const std::string reminder = reminded(); !reminder.empty()) return reminder;
   const std::size_t place = parts_.course.outcomes().size(), all = parts_.course.order().size();
   if (watched_ == nullptr) return fmt::format("{} of {} tasks done: 5 5 begins the next", place, all);
   const std::string measures = watch_ ? watch_->line() : "";

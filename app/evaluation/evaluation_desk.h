@@ -35,6 +35,8 @@ class EvaluationDesk {
     std::function<std::int64_t()> clock_ns;  ///< none where the ticks are the clock (fast)
     std::int64_t begun_ns = 0;               ///< of the log, at the first tick: where the ticks are the clock
     BoneSource* bone = nullptr;              ///< for rules that need it; null: what they name has no value
+    std::function<void(const Moment&)> each_frame = {};             ///< once the ticks of a frame are followed
+    std::function<std::string(std::int64_t now_ns)> reminder = {};  ///< to be shown before the task; empty: nothing
   };
   /// Borrows all. The next task begins by itself where the people lead so, else when the evaluator says so.
   explicit EvaluationDesk(Parts parts);
@@ -83,6 +85,7 @@ class EvaluationDesk {
   bool isKnown(const haptics::Tick& tick) const;
   void lookAtRules();
   void tellBoneNews();
+  std::string reminded() const;
 
   Parts parts_;
   const assets::RiskStructures* structures_ = nullptr;

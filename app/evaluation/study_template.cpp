@@ -141,6 +141,7 @@ StudyTemplate studyTemplateFrom(std::string_view text, const std::string& where)
   made.order = static_cast<OrderKind>(keys.choice("", "order", {"as-written", "latin-square", "shuffled"}, 0));
   made.seed = static_cast<std::uint64_t>(keys.integer("", "seed", 0, 1'000'000'000, 1));
   made.retention_days = static_cast<int>(keys.integer("", "retention_days", 1, 36'500, made.retention_days));
+  made.silence_s = keys.number("", "silence_s", {5.0, 600.0, "s"}, made.silence_s);
   readWarmUp(keys, made);
   if (keys.has("may_change")) {
     made.law_may_change = keys.boolean("may_change", "law", false);

@@ -50,6 +50,7 @@ struct StudyTemplate {
   OrderKind order = OrderKind::as_written;
   std::uint64_t seed = 1;  ///< of the order
   int retention_days = 365;
+  double silence_s = 20.0;    ///< quiet for so long, the participant is asked what he does
   std::string warm_up_block;  ///< a practice block; empty: no warm-up
   double warm_up_s = 0.0;
   bool law_may_change = false, layers_may_change = true;  ///< during a task; each change is logged

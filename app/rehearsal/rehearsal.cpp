@@ -204,7 +204,7 @@ class Rehearsal {
       head_up_.say("assessment: nothing helps, everything is recorded");
     }
     if (steps_) steps_->start();
-    if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace();
+    if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace(plan_.played);
   }
 
   /// Where the work is seen from: of one picture for both eyes, from between them.

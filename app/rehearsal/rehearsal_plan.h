@@ -16,6 +16,7 @@
 #include "app/procedure/steps/step_plan.h"
 #include "app/session/drawn_plan_event.h"
 #include "app/session/step_event.h"
+#include "app/sound/played_sound.h"
 #include "app/station/workstation.h"
 #include "app/view/display_windows.h"
 #include "assets/patient.h"
@@ -82,6 +83,7 @@ struct RehearsalPlan {
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;
   bool sound = true;                        ///< in real time with a window
+  PlayedSound* played = nullptr;            ///< gets the sound as the card does
   bool head_up_line = true;                 ///< shown to begin with
   bool summary = true;                      ///< printed at the end; else only where it was recorded
   bool verbose = false;                     ///< words for engineers on the terminal; force laws by key

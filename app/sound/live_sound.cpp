@@ -33,7 +33,7 @@ struct LiveSound::Player {
     Clock::time_point taken{};  ///< by the frame, from the servo
   };
 
-  Player() : pieces(kWaiting) {
+  explicit Player(PlayedSound* heard_by) : played(heard_by), pieces(kWaiting) {
     waiting.reserve(2 * kWaiting);  // half of it, and all that a full ring holds
     search = std::thread([this] {
       auto found = std::make_unique<SoundCard>([this](double rate_Hz) { return prepare(rate_Hz); },
@@ -56,6 +56,7 @@ struct LiveSound::Player {
 
   /// On the card's thread.
   void fill(std::span<float> samples) {
+    const std::span<const float> all = samples;
     if (next == waiting.size()) waiting.clear(), next = 0;
     if (waiting.size() < waiting.capacity() / 2) pieces.drainInto(waiting);
     if (waiting.size() - next > kMostWaiting) next = waiting.size() - kKept;
@@ -69,6 +70,7 @@ struct LiveSound::Player {
       if (muted.load(std::memory_order_relaxed)) std::ranges::fill(samples.first(count), 0.0F);
       samples = samples.subspan(count);
     }
+    if (played != nullptr) played->add(all, synth->rate_Hz(), Clock::now().time_since_epoch().count());
   }
 
   void takeNext() {
@@ -85,6 +87,7 @@ struct LiveSound::Player {
     if (dry_s > kSilentAfter_s) current.control = {};
   }
 
+  PlayedSound* played;
   haptics::SpscRing<Piece> pieces;
   // Main thread.
   SoundScore score;
@@ -105,7 +108,7 @@ struct LiveSound::Player {
   std::thread search;
 };
 
-LiveSound::LiveSound() : player_(std::make_unique<Player>()) {}
+LiveSound::LiveSound(PlayedSound* played) : player_(std::make_unique<Player>(played)) {}
 LiveSound::~LiveSound() = default;
 
 void LiveSound::follow(std::span<const haptics::Tick> ticks, const haptics::Command& in_force,

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "app/sound/played_sound.h"
 #include "app/sound/work_sound.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
@@ -15,7 +16,8 @@ namespace app {
 
 class LiveSound {
  public:
-  LiveSound();
+  /// `played`: gets all that the card gets, where it is given.
+  explicit LiveSound(PlayedSound* played = nullptr);
   ~LiveSound();
   LiveSound(const LiveSound&) = delete;
   LiveSound& operator=(const LiveSound&) = delete;

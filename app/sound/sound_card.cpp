@@ -1,30 +1,14 @@
 #include "app/sound/sound_card.h"
 
-#include <dlfcn.h>
 #include <portaudio.h>
 
+#include "app/sound/silence_libraries.h"
+
 namespace app {
-namespace {
-
-void dropReport(const char*, int, const char*, int, const char*, ...) {}
-void dropLine(const char*) {}
-
-/// Sound libraries report every card that they do not find. They are asked to be silent, by their names, so that no
-/// header of theirs is needed; stderr itself stays open for the lines of other threads.
-void silenceLibraries() {
-  using Report = void (*)(const char*, int, const char*, int, const char*, ...);
-  using Line = void (*)(const char*);
-  if (void* const set = dlsym(RTLD_DEFAULT, "snd_lib_error_set_handler"))
-    reinterpret_cast<int (*)(Report)>(set)(dropReport);
-  for (const char* name : {"jack_set_error_function", "jack_set_info_function"})
-    if (void* const set = dlsym(RTLD_DEFAULT, name)) reinterpret_cast<void (*)(Line)>(set)(dropLine);
-}
-
-}  // namespace
 
 struct SoundCard::Stream {
   Stream(const std::function<Fill(double)>& make, const std::function<void(const std::string&)>& report) {
-    silenceLibraries();
+    silenceSoundLibraries();
     PaError error = Pa_Initialize();
     is_initialised = error == paNoError;
     const PaDeviceIndex device = is_initialised ? Pa_GetDefaultOutputDevice() : paNoDevice;

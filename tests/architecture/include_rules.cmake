@@ -55,7 +55,7 @@ set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
 foreach(room pattern doctor calibrate psychophysics start_screen study review check_page)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
-set(app/debrief ${seen} app/procedure/ app/rehearsal/ app/review/ app/debrief/)
+set(app/debrief ${seen} app/procedure/ app/study/ app/evaluation/ app/rehearsal/ app/review/ app/debrief/)
 set(app/commands ${floors} app/)
 set(app_root ${floors} app/commands/ app/text/command_line.h app/text/message.h app/text/version.h)
 set(tests ${floors} app/ tests/)
@@ -102,6 +102,7 @@ set(third_parties
   "sodium|zip\\.h" "app/study"
   "boost/(asio|beast)|turbojpeg" "app/evaluation"
   "libusb" "haptics"
+  "webrtc/" "app/evaluation"
   "GLFW/" "render|app"
   "embree3/" "render"
   "epoxy/" "render"

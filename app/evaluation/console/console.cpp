@@ -67,7 +67,8 @@ std::string Console::missing() const {
     case Phase::consent:
       return course.isConsentComplete() ? "" : "each stream needs a yes or no";
     case Phase::warm_up:
-      return warm_up_end_ns_ && parts_.clock.now_ns() >= *warm_up_end_ns_ ? "" : "the warm-up's time is not over";
+      if (!warm_up_end_ns_ || parts_.clock.now_ns() < *warm_up_end_ns_) return "the warm-up's time is not over";
+      return parts_.voice_missing ? parts_.voice_missing() : "";
     case Phase::tasks:
       return course.areTasksDone() ? "" : "not all tasks are done";
     case Phase::questionnaires:
@@ -155,6 +156,7 @@ void Console::tellLosses() {
 }
 
 void Console::poll() {
+  if (desk_ == nullptr && parts_.follow_voice) parts_.follow_voice();
   for (const PageLink::Heard& heard : link_->take()) {
     if (const auto* said = std::get_if<PageEvent>(&heard.word)) hear(*said, heard.at_ns);
     if (const auto* asked = std::get_if<PagePairs>(&heard.word)) pair(*asked);
@@ -205,6 +207,7 @@ PageNow Console::now() {
     const double rate_Hz = servo_ ? servo_->rate_Hz : 1000.0;
     now.seat_lag_ms = 1000.0 * static_cast<double>(made - std::min(made, seat_->followed())) / rate_Hz;
   }
+  if (parts_.voice) now.voice = parts_.voice();
   now.closing = closing_;
   return now;
 }

@@ -43,6 +43,10 @@ class Console : public SessionPeople, public Spectator {
     const SessionBook& book;
     const std::string& consent_text;
     std::function<bool()> is_cancelled;
+    /// Of the voice: followed while no tasks are done, how it stands, what the warm-up misses of it. May be empty.
+    std::function<void()> follow_voice = {};
+    std::function<std::optional<VoiceState>()> voice = {};
+    std::function<std::string()> voice_missing = {};
   };
   /// Borrows all. Prints the address. Throws UsageError: it cannot be opened.
   Console(Parts parts, const ConsoleAddress& address, std::string program = "/proc/self/exe");

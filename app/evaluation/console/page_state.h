@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/evaluation/evaluation_course.h"
+#include "app/evaluation/voice/voice_state.h"
 
 namespace app {
 
@@ -39,6 +40,7 @@ struct PageNow {
   std::optional<Servo> servo;  ///< none: no rehearsal goes on
   bool is_recording = false;
   std::optional<double> seat_lag_ms;
+  std::optional<VoiceState> voice;  ///< none: it is not recorded
   struct Closing {
     bool is_done = false, is_verified = false;
     std::size_t rules = 0, deviate = 0;

@@ -1,17 +1,14 @@
 #include "app/evaluation/seat/seat.h"
 
 #include <poll.h>
-#include <sched.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <optional>
 
+#include "app/evaluation/child_process.h"
 #include "app/evaluation/seat/follower.h"
 #include "app/evaluation/seat/seat_keeper.h"
 #include "app/evaluation/seat/seat_words.h"
@@ -23,32 +20,8 @@
 namespace app {
 namespace {
 
-constexpr int kNice = 10;
 constexpr int kBetweenLooks_ms = 4;
 constexpr std::size_t kBetweenBeats = 50, kBetweenThroughs = 250;  ///< ticks
-
-void stepAside() {
-  ::setpriority(PRIO_PROCESS, 0, kNice);
-  // The servo takes the last core, where it is given one (haptics/loop/realtime).
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  if (::sched_getaffinity(0, sizeof cores, &cores) != 0 || CPU_COUNT(&cores) < 2) return;
-  int last = CPU_SETSIZE - 1;
-  while (!CPU_ISSET(last, &cores)) --last;
-  CPU_CLR(last, &cores);
-  ::sched_setaffinity(0, sizeof cores, &cores);
-}
-
-/// Devices and windows of the rehearsal are not this one's to hold open.
-void closeAllBut(std::array<int, 3> kept) {
-  std::ranges::sort(kept);
-  unsigned first = 3;
-  for (const int one : kept) {
-    if (static_cast<unsigned>(one) > first) ::close_range(first, static_cast<unsigned>(one) - 1, 0);
-    first = static_cast<unsigned>(one) + 1;
-  }
-  ::close_range(first, ~0U, 0);
-}
 
 /// A recording takes its final name some time after it was begun.
 StoredStart startOf(int recording) {
@@ -175,8 +148,7 @@ class Seat {
 }  // namespace
 
 int runSeat(const SeatOptions& options) {
-  closeAllBut({options.recording, options.feed, options.words});
-  stepAside();
+  stepAside({options.recording, options.feed, options.words});
   return Seat(options).run();
 }
 

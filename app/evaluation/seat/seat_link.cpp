@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,9 +11,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "app/evaluation/child_process.h"
 #include "app/evaluation/seat/seat_keeper.h"
-
-extern char** environ;
 
 namespace app {
 namespace {
@@ -57,39 +54,19 @@ void SeatLink::launch() {
     return;
   }
   words_ = ends[0];
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  // The same number: it stays open in the program.
-  for (const int one : {recording_, feed_.descriptor(), ends[1]}) ::posix_spawn_file_actions_adddup2(&files, one, one);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  // A group of its own: an interrupt at the terminal is the rehearsal's to answer.
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  ::posix_spawnattr_setpgroup(&attributes, 0);
   std::vector<std::string> words{"molar",       "seat",
                                  "--recording", std::to_string(recording_),
                                  "--feed",      std::to_string(feed_.descriptor()),
                                  "--words",     std::to_string(ends[1])};
   if (!book_.ids().empty()) words.insert(words.end(), {"--measures", joinedIds(book_.ids())});
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t process = 0;
-  const int error = ::posix_spawn(&process, program_.c_str(), &files, &attributes, arguments.data(), environ);
-  ::posix_spawnattr_destroy(&attributes);
-  ::posix_spawn_file_actions_destroy(&files);
+  process_ = startBeside(program_, std::move(words), std::array{recording_, feed_.descriptor(), ends[1]});
   ::close(ends[1]);
-  process_ = error == 0 ? process : 0;
-  if (error != 0) giveUp();
+  if (process_ == 0) giveUp();
 }
 
-/// The whole group, which no other process can have while its first has not been waited for.
 void SeatLink::end() {
   if (words_ >= 0) ::close(std::exchange(words_, -1));
-  if (process_ <= 0) return;
-  ::kill(-process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
-  process_ = 0;
+  endBeside(std::exchange(process_, 0));
 }
 
 void SeatLink::begin(std::string why) {

@@ -29,6 +29,11 @@ class SessionSeal {
   /// As bytes; `table` and `row` say where it belongs. Empty where the stream was destroyed.
   std::string seal(SealedStream stream, std::string_view table, std::uint64_t row, std::string_view plain) const;
   bool holds(SealedStream stream) const { return keys_[static_cast<std::size_t>(stream)].has_value(); }
+  /// For a process of the session that seals itself; null: the stream was destroyed.
+  const SecretKey* key(SealedStream stream) const {
+    const auto& key = keys_[static_cast<std::size_t>(stream)];
+    return key ? &*key : nullptr;
+  }
   /// The participant withdraws it now: key and file are gone, nothing more is sealed.
   void destroy(SealedStream stream);
 
