@@ -87,6 +87,8 @@ function takeState(state) {
   app.state = state;
   app.course.take(state);
   app.outbox.setSession(app.session);
+  // Said before the station knew that this page, come back by a new link, is the one that writes.
+  if (state.writer) for (const event of app.outbox.refused) if (event.why.startsWith("another page writes")) app.outbox.again(event);
   if (!is_restored) {
     is_restored = true;
     restore();
