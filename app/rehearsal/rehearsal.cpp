@@ -11,36 +11,25 @@
 #include "app/device/emergency_exit.h"
 #include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
-#include "app/procedure/jaw_stress.h"
-#include "app/procedure/root_stress.h"
-#include "app/procedure/site_desk.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
-#include "app/rehearsal/drawn_plan_follower.h"
 #include "app/rehearsal/equipment.h"
-#include "app/rehearsal/flap_follower.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/live_measures.h"
-#include "app/rehearsal/luxation_log.h"
+#include "app/rehearsal/operated_site.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
-#include "app/rehearsal/socket_follower.h"
+#include "app/rehearsal/sight_watch.h"
 #include "app/rehearsal/soft_mark_trail.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
 #include "app/rehearsal/step_follower.h"
-#include "app/rehearsal/tooth_follower.h"
 #include "app/rehearsal/touches.h"
-#include "app/rehearsal/way_follower.h"
 #include "app/session/assessment_event.h"
-#include "app/session/eyes_event.h"
-#include "app/session/measures/sight_lines.h"
-#include "app/session/second_hand_event.h"
 #include "app/session/soft_touches.h"
 #include "app/sound/live_sound.h"
-#include "assets/scan/tooth_division.h"
 
 namespace app {
 namespace {
@@ -54,14 +43,6 @@ void installInterruptHandlers() {
       if (interrupted) forbidForceNow();
       interrupted = 1;
     });
-}
-
-/// Before the first cut, where a rehearsal goes on; empty: it begins with it.
-std::vector<std::uint8_t> wholeTooth(const RehearsalPlan& plan) {
-  if (plan.scanned_solid.empty()) return {};
-  const assets::CtVolume& ct = plan.patient.ct;
-  const auto is_tooth = assets::voxelsOfTooth(ct, plan.patient.operatedTooth());
-  return assets::divideByTooth(ct.grid, plan.scanned_solid, ct.label, is_tooth).tooth.solid;
 }
 
 class Rehearsal {
@@ -88,12 +69,7 @@ class Rehearsal {
     active_command_.attach(station());
     active_command_.speakTo([this](const std::string& line) { head_up_.say(line); });
     view_.attach(station().bodies());
-    tooth_.emplace(station().bodies(), wholeTooth(plan_));
-    sites_.emplace(station().bodies());
-    socket_.emplace(plan_, station().bodies(), event_log_);
-    ways_.emplace(plan_, station().bodies(), event_log_);
-    drawn_.emplace(plan_, station().bodies(), event_log_);
-    if (plan_.flap_closed) flap_.emplace(plan_, event_log_);
+    site_.emplace(OperatedSite::Links{plan_, station(), active_command_, head_up_, event_log_, !pace_.isRealTime()});
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
@@ -128,7 +104,7 @@ class Rehearsal {
       updateCommand();
       pace_.toNextFrame();
       readServo();
-      followTooth();
+      followSite();
       followDemonstration();
       draw();
       tellSpectator();
@@ -142,17 +118,17 @@ class Rehearsal {
   Workstation& station() { return equipment_.workstation(); }
   double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
   StatusReporter::FrameState state() const {
-    return {newest_,    active_command_.inForce(),    frame_.layers, head_up_,         router_.question(),
-            frame_.gap, rulerText(frame_.ruler),      ways_->line(), clearance_.now(), stroke_times_,
+    return {newest_,    active_command_.inForce(),    frame_.layers,    head_up_,         router_.question(),
+            frame_.gap, rulerText(frame_.ruler),      site_->wayLine(), clearance_.now(), stroke_times_,
             measured_,  clearance_.measures().least()};
   }
 
   void beginOperation() {
     const std::vector<haptics::Tool>& tray = active_command_.tray();
     const Demonstration::Site site{plan_.patient, plan_.cut.value(), tray, station().bodies(), *equipment_.led()};
-    if (!flap_) return void(demonstration_.emplace(site));
-    FlapWork work(flap_->flap().chart(), flap_->flap().plan(), tray,
-                  Demonstration::heldAtGutter(*plan_.cut, tray.front()));
+    const Flap* const flap = site_->flap();
+    if (flap == nullptr) return void(demonstration_.emplace(site));
+    FlapWork work(flap->chart(), flap->plan(), tray, Demonstration::heldAtGutter(*plan_.cut, tray.front()));
     if (plan_.shows_whole_operation)
       demonstration_.emplace(site, std::move(work));
     else
@@ -198,27 +174,13 @@ class Rehearsal {
     event_log_.recordInto(station());
     event_log_.note("quality", view_.qualityText());
     event_log_.note(kTouchEvent, kTouchCounting);
-    noteEyes();
+    sight_.noteEyes(frame_.rig);
     if (plan_.is_assessed) {
       event_log_.note(kAssessmentEvent, std::string(kAssessmentRules));
       head_up_.say("assessment: nothing helps, everything is recorded");
     }
     if (steps_) steps_->start();
     if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace(plan_.played);
-  }
-
-  /// Where the work is seen from: of one picture for both eyes, from between them.
-  void noteEyes() {
-    const auto X_PW = frame_.rig.X_WP.inverse();
-    const bool in_stereo = plan_.display != render::DisplayMode::mono;
-    const calibration::Point<calibration::World> between_W = frame_.rig.cyclopeanEye();
-    const EyesPlace eyes{(X_PW * (in_stereo ? frame_.rig.left_eye : between_W)).mm,
-                         (X_PW * (in_stereo ? frame_.rig.right_eye : between_W)).mm, in_stereo};
-    if (eyes_ && glm::distance(eyes_->left_P_mm, eyes.left_P_mm) < kEyesMoved_mm &&
-        glm::distance(eyes_->right_P_mm, eyes.right_P_mm) < kEyesMoved_mm)
-      return;
-    eyes_ = eyes;
-    event_log_.note(kEyesEvent, eyesText(eyes));
   }
 
   void followSound() {
@@ -265,20 +227,19 @@ class Rehearsal {
     if (ticks.empty()) return;
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
-    followLuxation(ticks);
+    site_->follow(ticks);
     if (sound_)
       sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
     if (measures_) measures_->follow(ticks, command, station().commandSerial());
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
-    socket_->follow(ticks, command);
-    if (flap_) flap_->follow(ticks, command, station().commandSerial());
     head_up_.follow(ticks, command.irrigating);
     clearance_.follow(ticks, command, station().commandSerial());
-    if (steps_) steps_->follow(ticks, command, tooth_->bridge_mm(), socket_->newest(), flapFacts());
+    if (steps_) steps_->follow(ticks, command, site_->bridge_mm(), site_->socket(), site_->flapFacts());
     if (coach_)
       coach_->follow(ticks, command,
-                     {clearance_.now(), steps_ && steps_->usesOtherInstrument(), worksOutOfSight(ticks)});
+                     {clearance_.now(), steps_ && steps_->usesOtherInstrument(),
+                      sight_.worksOutOfSight(ticks, command, station().bodies().grid(), site_->solidInMouth())});
     if (plan_.evaluation) followEvaluation(ticks, command);
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
@@ -293,21 +254,6 @@ class Rehearsal {
     desk.follow(ticks, command, station().commandSerial());
     for (const ControlRequest& request : desk.takeRequests()) active_command_.execute(request);
     for (const std::string& mark : desk.takeMarks()) event_log_.note(kEvaluationEvent, mark);
-  }
-
-  /// By the newest tick that removes something: not every tick of a cut does.
-  bool worksOutOfSight(std::span<const haptics::Tick> ticks) {
-    const haptics::Command& command = active_command_.inForce();
-    if (!eyes_ || !command.tool.turns()) return false;
-    const auto newest = std::find_if(ticks.rbegin(), ticks.rend(),
-                                     [](const haptics::Tick& tick) { return tick.drilling && tick.removed_mm3 > 0.0; });
-    if (newest == ticks.rend()) return false;
-    return app::worksOutOfSight({station().bodies().grid(),
-                                 socket_->solidInMouth(),
-                                 plan_.soft_tissue,
-                                 {command.assistant_holds, command.flap_aside},
-                                 mirrorDiscOf(second_hand_)},
-                                *newest, command.tool.head, *eyes_);
   }
 
   /// For the instructor, twice a second.
@@ -335,15 +281,6 @@ class Rehearsal {
     if (shows != shows_gutter_) frame_.layers.planned_cut = shows_gutter_ = shows;
   }
 
-  void followLuxation(std::span<const haptics::Tick> ticks) {
-    const auto volume_mm3 = [this](std::size_t piece) { return sites_->volume_mm3(piece); };
-    for (const LuxationLog::Told& told :
-         luxation_.follow(ticks, active_command_.inForce().tool.grips, sites_->isReady(), volume_mm3)) {
-      head_up_.say(told.line);
-      if (told.is_event) event_log_.note(told.by_elevator ? "elevator" : "forceps", told.line);
-    }
-  }
-
   void countSoftTouches(const std::vector<haptics::Tick>& ticks) {
     for (const haptics::Tick& tick : ticks) soft_touches_.add(tick);
     for (const std::string& line : soft_touches_.takeEvents()) event_log_.note("soft tissue", line);
@@ -357,81 +294,21 @@ class Rehearsal {
     clarity_.step(newest_, active_command_.inForce().irrigating);
     frame_.field = surgicalField(clarity_);
     frame_.marks = soft_marks_.marks();
-    placeSecondHand();
+    sight_.followHand(equipment_.secondHand(), frame_);
     frame_.pieces = movedPieces(newest_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
     frame_.gap = view_.gapOf(frame_);
   }
 
-  void placeSecondHand() {
-    SecondHand* const hand = equipment_.secondHand();
-    if (hand == nullptr) return;
-    hand->place(frame_);
-    const auto moved = hand->takeMoved();
-    if (!moved) return;
-    second_hand_ = moved;
-    event_log_.note(kSecondHandEvent, secondHandText(*moved));
-  }
-
-  void followTooth() {
+  void followSite() {
     const std::vector<glm::ivec3> changed = view_.takeChangedBricks();
-    tooth_->follow(changed, newest_, !pace_.isRealTime());
+    const std::vector<std::optional<glm::dvec3>> drawn = router_.takeDrawn();
     // The shown operation was planned for crumbs that stay where they are: a piece's way out hangs on them. Once the
     // tooth is out they are taken.
-    const bool may_loosen = (!demonstration_ || demonstration_->isToothOut()) && station().isApplied(newest_);
-    if (const auto order = socket_->follow({changed, newest_, may_loosen, !pace_.isRealTime()}))
-      active_command_.loosen(*order);
-    followDrawn();
-    followFlap();
-    if (const auto line = socket_->news()) head_up_.say(*line);
+    const bool may_loosen = !demonstration_ || demonstration_->isToothOut();
+    site_->follow({changed, newest_, drawn, router_.takeWay(), demonstration_.has_value(), may_loosen}, frame_);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
-    followWays(changed);
-    if (station().isApplied(newest_)) makePiecesReady();
-    const haptics::Bodies& bodies = station().bodies();
-    jaw_stress_.follow(newest_, [&] { return bodies.jaw().copyBox(glm::ivec3(0), bodies.grid().size); });
-    root_stress_.follow(newest_, bodies);
-    if (const auto line = root_stress_.news()) event_log_.note("tooth", *line);
-    if (const auto order = tooth_->order(newest_)) active_command_.split(*order);
-    if (const auto line = tooth_->news()) {
-      head_up_.say(*line);
-      event_log_.note("tooth", *line);
-    }
-  }
-
-  void followDrawn() {
-    for (const auto& touched : router_.takeDrawn()) head_up_.say(touched ? drawn_->mark(*touched) : drawn_->nextLine());
-    frame_.beads = socket_->beads();
-    const std::vector<render::Bead> drawn = drawn_->beads();
-    frame_.beads.insert(frame_.beads.end(), drawn.begin(), drawn.end());
-  }
-
-  /// The shown operation looks for its own ways.
-  void followWays(std::span<const glm::ivec3> changed) {
-    if (router_.takeWay()) ways_->ask();
-    ways_->follow(changed, newest_, !demonstration_, !pace_.isRealTime());
-    frame_.obstacles = ways_->obstacles();
-    if (const auto line = ways_->news()) head_up_.say(*line);
-  }
-
-  /// And the bridge to break, while forceps or an elevator are in the hand.
-  void makePiecesReady() {
-    const bool luxates = active_command_.inForce().tool.luxates();
-    if (const auto order = sites_->follow(newest_, luxates, !pace_.isRealTime())) active_command_.makeReady(*order);
-    if (const auto order = tooth_->bridgeOrder(newest_, luxates, !pace_.isRealTime())) active_command_.arm(*order);
-  }
-
-  std::optional<FlapFacts> flapFacts() const {
-    if (!flap_) return {};
-    const FlapRecord& flap = flap_->newest();
-    return FlapFacts{flap.incision_mm * flap.full_share, flap.raised_share, flap_->flap().isAside()};
-  }
-
-  void followFlap() {
-    if (!flap_) return;
-    flap_->show(frame_);
-    active_command_.layFlapAside(flap_->flap().isAside());
-    while (const auto line = flap_->news()) head_up_.say(*line);
   }
 
   void tellStep(const std::string& line) {
@@ -447,10 +324,10 @@ class Rehearsal {
                                      command.tool,
                                      command.drill_enabled,
                                      station().isApplied(newest_),
-                                     sites_->isReady(),
+                                     site_->isReady(),
                                      !pace_.isRealTime(),
-                                     flap_ && flap_->flap().isAside() && command.flap_aside,
-                                     socket_->left()};
+                                     site_->flap() != nullptr && site_->flap()->isAside() && command.flap_aside,
+                                     site_->left()};
     if (const auto request = demonstration_->follow(frame)) active_command_.execute(*request);
     while (const auto line = demonstration_->news()) tellStep(*line);
   }
@@ -468,18 +345,18 @@ class Rehearsal {
   HeadUp::Values headUpValues() const {
     Situation situation = situationOf(newest_, active_command_.inForce(), plan_.patient, equipment_.hasMotors(),
                                       monitor_.recordingEnded());
-    situation.jaw_N_per_mm2 = jaw_stress_.now_N_per_mm2();
-    situation.root_N_per_mm2 = root_stress_.now_N_per_mm2();
-    situation.is_crown = root_stress_.isCrown();
+    situation.jaw_N_per_mm2 = site_->jawStress().now_N_per_mm2();
+    situation.root_N_per_mm2 = site_->rootStress().now_N_per_mm2();
+    situation.is_crown = site_->rootStress().isCrown();
     situation.canal_mm = clearance_.canal_mm();
     situation.is_blind = !plan_.shows_clearance;
     return {situation,
             frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
             task(),
             rulerText(frame_.ruler),
-            sites_->isReady(),
-            socket_->line(),
-            ways_->line(),
+            site_->isReady(),
+            site_->socketLine(),
+            site_->wayLine(),
             ringShown(),
             plan_.shows_clearance ? clearance_.ruler() : std::vector<HeadUpClearance>(),
             true};
@@ -505,7 +382,7 @@ class Rehearsal {
   }
 
   void draw() {
-    noteEyes();
+    sight_.noteEyes(frame_.rig);
     // Also without display: warnings are counted.
     view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
     if (pace_.isRealTime()) view_.show(frame_, pace_.now());
@@ -529,8 +406,7 @@ class Rehearsal {
       for (const std::string& mark : plan_.evaluation->takeMarks()) event_log_.note(kEvaluationEvent, mark);
     }
     if (steps_) steps_->finish();
-    if (flap_) flap_->finish();
-    socket_->finish(view_.takeChangedBricks(), station().newestTick());
+    site_->finish(view_.takeChangedBricks(), station().newestTick());
     if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())
       event_log_.note("sound", latency);
     if (measures_) {
@@ -539,7 +415,6 @@ class Rehearsal {
     }
     if (const std::string least = clearanceText(clearance_.measures()); least != "{}")
       event_log_.note(kClearanceEvent, least);
-    const std::optional<DrawnComparison> drawn = drawn_->finish();
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
@@ -550,18 +425,7 @@ class Rehearsal {
     RehearsalFigures figures = status_reporter_->figures(state());
     figures.times = head_up_.times();
     if (plan_.summary) figures.exposed_share = exposedShare();
-    figures.tooth = tooth_->ending();
-    figures.luxation = luxation_.summary();
-    if (flap_) figures.flap = flap_->newest();
-    figures.socket = socket_->newest();
-    figures.way = ways_->words();
-    if (drawn) figures.drawn = drawnCutInWords(*drawn);
-    if (jaw_stress_.most_N_per_mm2() > 0.0)
-      figures.luxation += fmt::format("{}jaw stressed to {:.0f} MPa (model)", figures.luxation.empty() ? "" : ", ",
-                                      jaw_stress_.most_N_per_mm2());
-    if (root_stress_.most_N_per_mm2() > 0.0)
-      figures.luxation += fmt::format("{}root or crown stressed to {:.0f} MPa (model)",
-                                      figures.luxation.empty() ? "" : ", ", root_stress_.most_N_per_mm2());
+    site_->describe(figures);
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     figures.touched = touches_.counts();
     figures.clearance = clearancesInWords(clearance_.measures());
@@ -581,6 +445,7 @@ class Rehearsal {
   Touches touches_{plan_.patient, plan_.risks.of(assets::RiskStructure::canal)};
   ClearanceWatch clearance_{plan_.risks};
   ControlRouter router_;
+  SightWatch sight_{plan_, event_log_};
   SoftTouchCounter soft_touches_;
   SoftMarkTrail soft_marks_;
   StrokeTimes stroke_times_;
@@ -589,15 +454,7 @@ class Rehearsal {
   Pace pace_;
   std::optional<StatusReporter> status_reporter_;  // destroyed before view_
   render::Frame frame_;
-  std::optional<ToothFollower> tooth_;
-  std::optional<SiteDesk> sites_;
-  std::optional<SocketFollower> socket_;
-  std::optional<WayFollower> ways_;
-  std::optional<DrawnPlanFollower> drawn_;
-  std::optional<FlapFollower> flap_;
-  JawStress jaw_stress_{plan_.patient};
-  RootStress root_stress_{plan_.patient};
-  LuxationLog luxation_;
+  std::optional<OperatedSite> site_;
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;
   std::optional<CoachFollower> coach_;
@@ -605,8 +462,6 @@ class Rehearsal {
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};
   bool shows_gutter_ = false;
-  std::optional<EyesPlace> eyes_;               ///< as noted last
-  std::optional<SecondHandPlace> second_hand_;  ///< alike
   std::optional<Demonstration> demonstration_;
   haptics::Tick newest_;
   FieldClarity clarity_;
