@@ -2,48 +2,33 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <future>
-#include <memory>
 #include <thread>
 
-#include "app/case/case.h"
-#include "app/case/clearance_source.h"
-#include "app/case/closed_gum.h"
-#include "app/case/extraction_plan.h"
-#include "app/case/handpiece_direction.h"
-#include "app/case/impaction_class.h"
 #include "app/case/patient_placement.h"
-#include "app/case/patient_source.h"
-#include "app/case/soft_tissue_source.h"
-#include "app/case/trough_plan.h"
+#include "app/commands/rehearsal_refusals.h"
+#include "app/commands/rehearsed_case.h"
 #include "app/controls/prediction_question.h"
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_source_table.h"
 #include "app/options/command_settings.h"
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
-#include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/procedure/coach/coach_file.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/continuation.h"
-#include "app/rehearsal/live_view.h"
 #include "app/rehearsal/recording_check.h"
 #include "app/session/data_folder.h"
 #include "app/session/session_error.h"
 #include "app/session/session_folder.h"
-#include "app/session/session_reader.h"
 #include "app/station/case_reach.h"
 #include "app/station/patient_list.h"
 #include "app/text/list.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
-#include "app/view/preparation.h"
-#include "assets/patient/patient_folder.h"
 #include "assets/synthetic/practice_block.h"
-#include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
 
@@ -51,16 +36,6 @@ namespace app {
 namespace {
 
 constexpr double kForeignFaceWindow_mm = 24.0;
-
-/// The scripted hand performs the whole operation.
-constexpr const char* kShownOperation = "scripted:third-molar";
-constexpr const char* kShownFlap = "scripted:flap";  ///< incision, flap and the planned cut
-bool isShown(const RehearseOptions& options) { return options.plan.device == kShownOperation; }
-
-/// The block to practise on; none: a patient.
-std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options) {
-  return assets::practiceTaskOf(options.case_name);
-}
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
@@ -139,171 +114,11 @@ void placeInRoom(RehearsalPlan& plan, const std::string& position, const std::op
   plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
 }
 
-struct PreparedCase {
-  assets::Patient patient;
-  assets::FacePose X_PF = assets::kFaceAxes_PF;
-  std::optional<CutPlan> cut;
-  assets::SoftTissueField soft_tissue;
-  assets::RiskStructures risks;
-  Prediction computed;  ///< difficulty and index alone
-};
-
-/// Nothing where they cannot be measured.
-Prediction computedDifficulty(const assets::Patient& patient) {
-  Prediction computed;
-  try {
-    const PlanItem index = itemOf(extractionPlan(patient, "PATIENT"), "difficulty");
-    if (const double* const sum = std::get_if<double>(&index.value)) {
-      computed.index = *sum;
-      computed.computed = kDifficulties[pedersonGrade(static_cast<int>(*sum))];
-    }
-  } catch (const UsageError&) {
-  }
-  return computed;
-}
-
-/// The patient, and what is computed from it: the cut and how a handpiece lies clear of soft tissue while it is made.
-PreparedCase prepared(const RehearseOptions& options, const assets::JawParameters& jaw, const haptics::Tool& tool,
-                      const assets::ReportProgress& report) {
-  PreparedCase one;
-  constexpr double kPatientShare = 0.75, kSoftTissueShare = 0.9;
-  const auto load = assets::sectionOf(report, 0.0, kPatientShare);
-  if (const auto task = practiceOf(options)) {
-    static const RehearseOptions kAsked;
-    one.patient = options.jaw.spacing_mm == kAsked.jaw.spacing_mm
-                      ? assets::practiceBlock(*task)
-                      : assets::practiceBlock(*task, options.jaw.spacing_mm);
-    one.cut = CutPlan{assets::practiceCut(*task, tool.head.radius_mm), CutKind::gutter};
-    one.cut->cut.shaft_P = one.cut->cut.outward_P;
-    return one;
-  }
-  one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
-  if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
-  if (options.flap == "closed") {
-    auto gum = closedGum(one.patient);
-    if (!gum)
-      throw UsageError("--flap " + options.flap +
-                       ": no gum is labelled over a planned cut in this patient, leave it out");
-    one.patient.gingiva = std::move(*gum);
-  }
-  auto cut = std::async(std::launch::async, [&] { return plannedCut(one.patient, tool.head.radius_mm); });
-  auto computed = std::async(std::launch::async, [&] {
-    const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
-    const bool compares = steps && (steps->asks || steps->prediction.isGiven());
-    return compares ? computedDifficulty(one.patient) : Prediction{};
-  });
-  auto risks = std::async(std::launch::async, [&] { return cachedRiskStructures(one.patient); });
-  const assets::SoftTissueRegion region{one.patient.focus_P_mm()};
-  one.soft_tissue = softTissueAround(one.patient.gingiva, one.patient.face, region);
-  report(kSoftTissueShare);
-  one.computed = computed.get();
-  one.risks = risks.get();
-  one.cut = cut.get();
-  if (one.cut) one.cut->cut.shaft_P = handpieceDirection_P(one.cut->cut, one.patient.ct, one.soft_tissue, tool);
-  return one;
-}
-
-/// Prepared while the surgeon's windows show the progress. False: cancelled.
-bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
-                 assets::FacePose& X_PF) {
-  const SurgeonDisplay::Options shown = displayOf(plan);
-  Preparation preparation({.windows = shown.windows,
-                           .eyes_swapped = shown.eyes_swapped,
-                           .headless = plan.headless,
-                           .needs_window = shown.needs_window},
-                          plan.rig, "Preparing the patient", printMessage);
-  auto one = preparation.run<PreparedCase>(
-      [&](const assets::ReportProgress& report) { return prepared(options, jaw, plan.command.tool, report); });
-  if (!one) return false;
-  plan.patient = std::move(one->patient);
-  plan.soft_tissue = std::move(one->soft_tissue);
-  plan.risks = std::move(one->risks);
-  plan.windows = preparation.takeWindows();
-  if (plan.procedure_steps) {
-    plan.procedure_steps->prediction.computed = one->computed.computed;
-    plan.procedure_steps->prediction.index = one->computed.index;
-  }
-  X_PF = one->X_PF;
-  if (!one->cut) return true;
-  plan.cut = one->cut->cut;
-  const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
-  if (one->cut->kind == CutKind::nearest_bone && hand && hand->follows_plan)
-    printMessage((plan.patient.site ? "no gutter fits beside the " + assets::toothName(plan.patient.site->fdi)
-                                    : std::string("no operated tooth is labelled")) +
-                 ", the scripted cut is on the nearest bone");
-  return true;
-}
-
-/// What cuts and raises it lies on the tray; the assistant of a scripted hand holds from the beginning.
-void closeFlap(RehearsalPlan& plan) {
-  if (!plan.cut) throw UsageError("--flap closed: there is no planned cut in this patient, leave it out");
-  plan.flap_closed = true;
-  for (const haptics::HandInstrument kind : {haptics::HandInstrument::scalpel_15, haptics::HandInstrument::periosteal})
-    if (std::ranges::find(plan.other_tools, kind, &haptics::Tool::hand_instrument) == plan.other_tools.end())
-      plan.other_tools.push_back(haptics::handInstrumentTool(kind));
-  plan.command.assistant_holds = plan.device.starts_with("scripted:");
-}
-
-/// A procedure needs a lower third molar that is a body of its own, and bone to begin with.
-void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& procedure) {
-  const std::optional<assets::OperativeSite>& site = plan.patient.site;
-  if (!site || !assets::isThirdMolar(site->fdi) || assets::isUpper(site->fdi) ||
-      assets::voxelsOfTooth(plan.patient.ct, site->fdi).empty())
-    throw UsageError("--procedure " + procedure +
-                     ": no lower third molar is labelled and numbered in this patient, import teeth.nrrd with it");
-  if (!plan.cut)
-    throw UsageError("--procedure " + procedure + ": no bur reaches bone beside the " + assets::toothName(site->fdi));
-}
-
-/// Without windows, devices and pedals, which run in real time.
-void refuseUnlessSteppable(const RehearseOptions& options) {
-  if (!options.plan.headless) throw UsageError("--pace fast: a window needs real time, add --headless");
-  const PoseSourceKind* const hand = poseSourceKindOf(options.plan.device);
-  if (!hand || !hand->simulated)
-    throw UsageError("--pace fast: " + options.plan.device +
-                     " is not simulated, choose --device scripted, simulated, practice, replay or poses");
-  if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
-    throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
-                     " is not simulated, choose scripted or replay:SESSION");
-  if (options.plan.instructor_window) throw UsageError("--pace fast: a window needs real time, leave --instructor out");
-  if (options.pedal != "auto" && options.pedal != "none")
-    throw UsageError("--pace fast: a pedal needs real time, leave --pedal out");
-}
-
 /// Mesa's software renderer would use every core.
 void reserveCoreForServo() {
   const unsigned cores = std::thread::hardware_concurrency();
   const std::string threads = std::to_string(cores > 1 ? cores - 1 : 1);
   setenv("LP_NUM_THREADS", threads.c_str(), 0);
-}
-
-/// A named case, or the built-in patient's single options; the voxels and the seed are asked for by themselves.
-assets::JawParameters jawOf(const RehearseOptions& options) {
-  assets::JawParameters jaw = options.jaw;
-  jaw.right_side = options.side == "right";
-  if (options.case_name.empty() || practiceOf(options)) return jaw;
-  jaw = caseNamed(options.case_name)->jaw;
-  jaw.spacing_mm = options.jaw.spacing_mm;
-  jaw.seed = options.jaw.seed;
-  return jaw;
-}
-
-/// What a block has none of.
-void refuseUnlessForBlock(const RehearseOptions& options) {
-  const std::string block =
-      options.continued.empty() ? "--case " + options.case_name : "--continue " + options.continued;
-  const std::string on = " needs a patient, leave it or " + block + " out";
-  if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + on);
-  if (options.flap == "closed") throw UsageError("--flap closed:" + on);
-  if (!options.face.empty()) throw UsageError("--face " + options.face + ":" + on);
-  if (options.opening_mm) throw UsageError("--opening:" + on);
-}
-
-/// Lines of another case lie anywhere.
-void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {
-  const StoredStart start = SessionReader(sessionNamed(options.drawn)).start();
-  if (!(start.grid == ct.grid) || start.label != ct.label)
-    throw UsageError("--drawn " + options.drawn + ": was drawn in another case, name a session of this one");
 }
 
 /// "replay:last" with the file.
@@ -375,26 +190,6 @@ void chooseProcedure(RehearseOptions& options) {
   plan.procedure_steps = std::move(steps);
 }
 
-/// Whatever would help, or leave something unrecorded.
-void refuseUnlessAssessable(const RehearseOptions& options) {
-  const auto refuse = [](const std::string& what, const char* why) {
-    throw UsageError("--assess: " + what + " contradicts it (" + why + "), leave one of them out");
-  };
-  if (!options.coach.empty() && options.coach != "off") refuse("--coach " + options.coach, "nothing is said");
-  if (!options.clearance.empty() && options.clearance != "off")
-    refuse("--clearance " + options.clearance, "clearances are not told");
-  if (!options.guidance.empty() && options.guidance != "assessed")
-    refuse("--guidance " + options.guidance, "steps are recorded and not told");
-  if (options.no_record) refuse("--no-record", "everything is recorded");
-  if (!options.continued.empty()) refuse("--continue " + options.continued, "it begins with the untouched patient");
-  if (!options.plan.parameters.empty()) refuse("--parameters " + options.plan.parameters, "its conditions stay");
-  // A scripted hand with the gum closed shows incision and flap.
-  if (isShown(options) || (options.plan.device == "scripted" && options.flap == "closed"))
-    refuse("an operation that is shown", "somebody is to be assessed");
-  if (const std::string layer = options.picture.help(); !layer.empty())
-    refuse("--layers " + layer, "it shows what nobody sees");
-}
-
 /// Never in assessment.
 void chooseCoach(RehearseOptions& options) {
   const std::optional<ProcedureSteps>& steps = options.plan.procedure_steps;
@@ -406,41 +201,22 @@ void chooseCoach(RehearseOptions& options) {
   options.plan.coach = coachRulesOf(options.coach == "on" ? "" : options.coach);
 }
 
-}  // namespace
+/// The tray, where nothing was asked for by name: what the procedure or the block needs.
+void chooseTools(RehearseOptions& options) {
+  static const RehearseOptions kAsked;
+  if (options.tools != kAsked.tools) return;
+  if (const auto task = practiceOf(options))
+    options.tools = *task == assets::PracticeTask::plate ? std::vector<std::string>{"round:3.0", "round:2.0"}
+                                                         : std::vector<std::string>{"round:2.0", "round:3.0"};
+  // A bur of Lindemann's form divides tooth and bone.
+  if (isShown(options))
+    options.tools = {
+        options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps", "suction", "curette", "bone-file"};
+}
 
-std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
+/// Tools, law and erosion of the first command.
+void chooseCommand(RehearseOptions& options) {
   RehearsalPlan& plan = options.plan;
-  options.patient = patientNamed(options.patient);
-  plan.device = withSessionNamed(plan.device);
-  plan.second_hand.device = withSessionNamed(plan.second_hand.device);
-  if (plan.device.starts_with("scripted:"))
-    throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
-  if (const auto task = practiceOf(options)) {
-    refuseUnlessForBlock(options);
-    plan.instruction = assets::textOf(*task).instruction;
-    // The burs that it is made for, where nothing else was asked for.
-    static const RehearseOptions kAsked;
-    if (options.tools == kAsked.tools)
-      options.tools = *task == assets::PracticeTask::plate ? std::vector<std::string>{"round:3.0", "round:2.0"}
-                                                           : std::vector<std::string>{"round:2.0", "round:3.0"};
-  }
-  chooseProcedure(options);
-  if (options.assess) refuseUnlessAssessable(options);
-  plan.is_assessed = options.assess;
-  chooseCoach(options);
-  if (isShown(options)) {
-    // What the hand needs, where nothing else was asked for: a bur of Lindemann's form divides tooth and bone.
-    static const RehearseOptions kAsked;
-    if (options.tools == kAsked.tools)
-      options.tools = {
-          options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps", "suction", "curette", "bone-file"};
-  }
-  if (options.flap == "closed") {
-    if (!options.continued.empty())
-      throw UsageError("--flap closed: a rehearsal that goes on begins with the flap raised, leave it out");
-    if (plan.device == "scripted") plan.device = kShownFlap;
-  }
-  std::optional<Continuation> former;
   const auto tool_of = [&](const std::string& text) { return toolFrom(text, options.shaft); };
   plan.command.tool = tool_of(options.tools.front());
   if (!plan.command.tool.turns())
@@ -457,6 +233,11 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   applyTo(plan.command, options.settings);
   refuseBeyondServoLimits(plan.command);
   refuseUnlessAdmitted(plan.command);
+}
+
+/// Both hands and the foot.
+void chooseDevices(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
   if (plan.headless && plan.instructor_window)
     throw UsageError(
         "--instructor: its window cannot open in a run without windows, leave out --instructor or --headless");
@@ -477,6 +258,11 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   plan.device_options.falcon_program = options.falcon_firmware;
   plan.device_options.falcon_scale = [] { return savedFalconScale(defaultFalconScaleFile()); };
   plan.device_options.report = printMessage;
+}
+
+/// What is seen, heard and told; the files of pictures.
+void choosePicture(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
   plan.display = options.display.mode();
   plan.head_up_line = !options.no_line;
   plan.sound = !options.no_sound;
@@ -495,9 +281,12 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   refuseUnlessPng("--first-snapshot", plan.first_snapshot, MissingEnding::allowed);
   if (!plan.snapshot.empty() && plan.snapshot == plan.first_snapshot)
     throw UsageError("--first-snapshot " + plan.snapshot + ": the same as --snapshot, give another name");
-  if (!options.record.empty())
-    refuseUnlessRecordable(options.record, plan.overwrite, {plan.device, plan.second_hand.device});
-  if (!options.record.empty()) plan.recording = Recording{options.record, plan.overwrite};
+}
+
+/// The former session that it goes on from; none: it begins with the patient.
+std::optional<Continuation> chooseFormer(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
+  std::optional<Continuation> former;
   if (!options.continued.empty()) {
     former = continuationOf(sessionNamed(options.continued));
     goOn(options, *former);
@@ -508,20 +297,76 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
       plan.instruction = assets::textOf(*practiceOf(options)).instruction;
     }
     plan.drawn = former->drawn;
+    if (former->setup.isImported() && options.patient.empty())
+      throw UsageError("--continue " + former->path +
+                       ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +
+                       options.continued);
   }
   if (!options.drawn.empty()) {
     plan.drawn = drawnPlanOf(sessionNamed(options.drawn));
     if (plan.drawn.isEmpty())
       throw UsageError("--drawn " + options.drawn + ": no line was drawn in it, name another session");
   }
+  return former;
+}
 
-  assets::JawParameters jaw = jawOf(options);
-  if (former && former->setup.built_in) jaw = *former->setup.built_in;
+/// Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.
+void completeTray(RehearsalPlan& plan) {
+  plan.other_tools.push_back(haptics::elevatorTool(haptics::ElevatorKind::straight_301));
+  plan.other_tools.push_back(haptics::forcepsTool());
+  for (const haptics::HandInstrument kind :
+       {haptics::HandInstrument::suction, haptics::HandInstrument::curette, haptics::HandInstrument::bone_file})
+    plan.other_tools.push_back(haptics::handInstrumentTool(kind));
+}
+
+/// What a recording has to know to be gone on from.
+void describeSetup(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
+                   const std::optional<Continuation>& former) {
+  SessionSetup& setup = plan.recording->setup;
+  setup.practice = practiceOf(options) ? options.case_name : "";
+  if (options.patient.empty() && setup.practice.empty()) setup.built_in = jaw;
+  setup.tray = plan.other_tools;
+  setup.tray.insert(setup.tray.begin(), plan.command.tool);
+  if (former) setup.former = former->setup.former;
+}
+
+}  // namespace
+
+std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
+  options.patient = patientNamed(options.patient);
+  plan.device = withSessionNamed(plan.device);
+  plan.second_hand.device = withSessionNamed(plan.second_hand.device);
+  if (plan.device.starts_with("scripted:"))
+    throw UsageError("--device " + plan.device + ": give --device scripted --procedure third-molar");
+  static const RehearseOptions kUntouched;
+  const bool are_tools_named = options.tools != kUntouched.tools;
+  const std::optional<assets::PracticeTask> block = practiceOf(options);
+  if (block) {
+    refuseUnlessForBlock(options);
+    plan.instruction = assets::textOf(*block).instruction;
+  }
+  chooseProcedure(options);
+  if (options.assess) refuseUnlessAssessable(options);
+  plan.is_assessed = options.assess;
+  chooseCoach(options);
+  chooseTools(options);
+  if (options.flap == "closed") {
+    if (!options.continued.empty())
+      throw UsageError("--flap closed: a rehearsal that goes on begins with the flap raised, leave it out");
+    if (plan.device == "scripted") plan.device = kShownFlap;
+  }
+  chooseCommand(options);
+  chooseDevices(options);
+  choosePicture(options);
+  if (!options.record.empty()) {
+    refuseUnlessRecordable(options.record, plan.overwrite, {plan.device, plan.second_hand.device});
+    plan.recording = Recording{options.record, plan.overwrite};
+  }
+  const std::optional<Continuation> former = chooseFormer(options);
+
+  assets::JawParameters jaw = former && former->setup.built_in ? *former->setup.built_in : jawOf(options);
   if (options.opening_mm) jaw.opening_mm = *options.opening_mm;
-  if (former && former->setup.isImported() && options.patient.empty())
-    throw UsageError("--continue " + former->path +
-                     ": is of an imported patient, name its folder: molar rehearse PATIENT --continue " +
-                     options.continued);
   DeviceIdentity device;
   const std::optional<ChosenRig> chosen = chooseRig(plan, options, device);
   const std::string position = positionOf(options, chosen, plan.remarks);
@@ -539,25 +384,10 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (options.flap == "closed") closeFlap(plan);
   if (former) plan.scanned_solid = former->applyTo(plan.patient);
   if (!options.drawn.empty()) refuseUnlessDrawnHere(options, plan.patient.ct);
-  // Whoever named no tools finds an elevator, forceps and what cleans a socket beside the burs.
-  static const RehearseOptions kUntouched;
-  if (!former && options.tools == kUntouched.tools && plan.patient.site) {
-    plan.other_tools.push_back(haptics::elevatorTool(haptics::ElevatorKind::straight_301));
-    plan.other_tools.push_back(haptics::forcepsTool());
-    for (const haptics::HandInstrument kind :
-         {haptics::HandInstrument::suction, haptics::HandInstrument::curette, haptics::HandInstrument::bone_file})
-      plan.other_tools.push_back(haptics::handInstrumentTool(kind));
-  }
+  if (!former && !block && !are_tools_named && !isShown(options) && plan.patient.site) completeTray(plan);
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
-  if (plan.recording) {
-    SessionSetup& setup = plan.recording->setup;
-    setup.practice = practiceOf(options) ? options.case_name : "";
-    if (options.patient.empty() && setup.practice.empty()) setup.built_in = jaw;
-    setup.tray = plan.other_tools;
-    setup.tray.insert(setup.tray.begin(), plan.command.tool);
-    if (former) setup.former = former->setup.former;
-  }
+  if (plan.recording) describeSetup(plan, options, jaw, former);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   placeInRoom(plan, position, chosen, device, X_PF);
   return std::move(plan);

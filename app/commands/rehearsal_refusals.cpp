@@ -1,0 +1,72 @@
+#include "app/commands/rehearsal_refusals.h"
+
+#include "app/device/pose_source_table.h"
+#include "app/session/session_folder.h"
+#include "app/session/session_reader.h"
+#include "app/text/usage_error.h"
+#include "assets/scan/tooth_division.h"
+#include "assets/tooth.h"
+#include "haptics/device/device_catalogue.h"
+
+namespace app {
+
+void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& procedure) {
+  const std::optional<assets::OperativeSite>& site = plan.patient.site;
+  if (!site || !assets::isThirdMolar(site->fdi) || assets::isUpper(site->fdi) ||
+      assets::voxelsOfTooth(plan.patient.ct, site->fdi).empty())
+    throw UsageError("--procedure " + procedure +
+                     ": no lower third molar is labelled and numbered in this patient, import teeth.nrrd with it");
+  if (!plan.cut)
+    throw UsageError("--procedure " + procedure + ": no bur reaches bone beside the " + assets::toothName(site->fdi));
+}
+
+void refuseUnlessSteppable(const RehearseOptions& options) {
+  if (!options.plan.headless) throw UsageError("--pace fast: a window needs real time, add --headless");
+  const PoseSourceKind* const hand = poseSourceKindOf(options.plan.device);
+  if (!hand || !hand->simulated)
+    throw UsageError("--pace fast: " + options.plan.device +
+                     " is not simulated, choose --device scripted, simulated, practice, replay or poses");
+  if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
+    throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
+                     " is not simulated, choose scripted or replay:SESSION");
+  if (options.plan.instructor_window) throw UsageError("--pace fast: a window needs real time, leave --instructor out");
+  if (options.pedal != "auto" && options.pedal != "none")
+    throw UsageError("--pace fast: a pedal needs real time, leave --pedal out");
+}
+
+void refuseUnlessForBlock(const RehearseOptions& options) {
+  const std::string block =
+      options.continued.empty() ? "--case " + options.case_name : "--continue " + options.continued;
+  const std::string on = " needs a patient, leave it or " + block + " out";
+  if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + on);
+  if (options.flap == "closed") throw UsageError("--flap closed:" + on);
+  if (!options.face.empty()) throw UsageError("--face " + options.face + ":" + on);
+  if (options.opening_mm) throw UsageError("--opening:" + on);
+}
+
+void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {
+  const StoredStart start = SessionReader(sessionNamed(options.drawn)).start();
+  if (!(start.grid == ct.grid) || start.label != ct.label)
+    throw UsageError("--drawn " + options.drawn + ": was drawn in another case, name a session of this one");
+}
+
+void refuseUnlessAssessable(const RehearseOptions& options) {
+  const auto refuse = [](const std::string& what, const char* why) {
+    throw UsageError("--assess: " + what + " contradicts it (" + why + "), leave one of them out");
+  };
+  if (!options.coach.empty() && options.coach != "off") refuse("--coach " + options.coach, "nothing is said");
+  if (!options.clearance.empty() && options.clearance != "off")
+    refuse("--clearance " + options.clearance, "clearances are not told");
+  if (!options.guidance.empty() && options.guidance != "assessed")
+    refuse("--guidance " + options.guidance, "steps are recorded and not told");
+  if (options.no_record) refuse("--no-record", "everything is recorded");
+  if (!options.continued.empty()) refuse("--continue " + options.continued, "it begins with the untouched patient");
+  if (!options.plan.parameters.empty()) refuse("--parameters " + options.plan.parameters, "its conditions stay");
+  // A scripted hand with the gum closed shows incision and flap.
+  if (isShown(options) || (options.plan.device == "scripted" && options.flap == "closed"))
+    refuse("an operation that is shown", "somebody is to be assessed");
+  if (const std::string layer = options.picture.help(); !layer.empty())
+    refuse("--layers " + layer, "it shows what nobody sees");
+}
+
+}  // namespace app
