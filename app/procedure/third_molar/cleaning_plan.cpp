@@ -19,6 +19,7 @@ constexpr double kWorthFiling_mm = 1.0;            ///< length of an edge
 constexpr std::array kFiledLeans{0.0, 0.6, -0.6};  ///< to either side of an edge
 constexpr std::size_t kFiledPoints = 8;            ///< of an edge, filed at once
 constexpr double kFileSinks_mm = 0.35;             ///< beside an edge the file may touch as deep
+constexpr double kFileOffTongue_mm = 0.6;          ///< off the jaw's surface there: what it takes away, and a voxel
 /// What may be loose after each is taken at last; what a file leaves is filed once more.
 constexpr std::array kRound{Cleaning::suction, Cleaning::curette, Cleaning::suction,
                             Cleaning::curette, Cleaning::suction, Cleaning::file,
@@ -69,8 +70,14 @@ std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const
   return places;
 }
 
-/// From straight above and from either side, as far as the handle is clear.
-std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, const SocketReach& reach, double tip_mm) {
+/// From straight above and from either side, as far as the handle is clear and the jaw's surface towards the tongue,
+/// `tongue_P_mm`, stays whole.
+std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, const SocketReach& reach, double tip_mm,
+                                        const std::vector<glm::dvec3>& tongue_P_mm) {
+  const auto spares_tongue = [&](const glm::dvec3& middle_P_mm) {
+    return std::ranges::none_of(
+        tongue_P_mm, [&](const glm::dvec3& q) { return glm::distance(middle_P_mm, q) < tip_mm + kFileOffTongue_mm; });
+  };
   glm::dvec3 out(0.0);
   for (const glm::dvec3& p : way) out += reach.placeAt(p, reach.shafts_P().front()).wall_P;
   out = glm::length(out) > 1e-6 ? glm::normalize(out) : reach.shafts_P().front();
@@ -85,8 +92,10 @@ std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, cons
     CleaningPlace place{way, shaft, {}};
     for (const double lean : kFiledLeans) {
       const glm::dvec3 into = -glm::normalize(out + lean * side);
-      if (std::ranges::all_of(
-              way, [&](const glm::dvec3& p) { return reach.isFree(p - tip_mm * into, shaft, tip_mm, kFileSinks_mm); }))
+      if (std::ranges::all_of(way, [&](const glm::dvec3& p) {
+            const glm::dvec3 middle_P_mm = p - tip_mm * into;
+            return spares_tongue(middle_P_mm) && reach.isFree(middle_P_mm, shaft, tip_mm, kFileSinks_mm);
+          }))
         place.into_P.push_back(into);
     }
     if (!place.into_P.empty() && (!best || place.into_P.size() > best->into_P.size())) best = std::move(place);
@@ -95,7 +104,8 @@ std::optional<CleaningPlace> filedAlong(const std::vector<glm::dvec3>& way, cons
   return best;
 }
 
-std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const SocketReach& reach, double tip_mm) {
+std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const SocketReach& reach, double tip_mm,
+                                   const std::vector<glm::dvec3>& tongue_P_mm) {
   std::vector<CleaningPlace> places;
   for (const SharpEdge& edge : edges) {
     if (edge.length_mm < kWorthFiling_mm) continue;
@@ -105,7 +115,8 @@ std::vector<CleaningPlace> filedAt(const std::vector<SharpEdge>& edges, const So
       const auto at = [&](std::size_t n) {
         return course.begin() + static_cast<std::ptrdiff_t>(n * course.size() / parts);
       };
-      if (auto place = filedAlong({at(part), at(part + 1)}, reach, tip_mm)) places.push_back(std::move(*place));
+      if (auto place = filedAlong({at(part), at(part + 1)}, reach, tip_mm, tongue_P_mm))
+        places.push_back(std::move(*place));
     }
   }
   return places;
@@ -147,7 +158,7 @@ glm::dvec3 middleOf(const SiteLeft& left) {
 std::vector<CleaningPlace> CleaningPlanner::placesFor(Cleaning what, const SiteLeft& left, const SocketReach& reach,
                                                       double tip_mm) const {
   if (what == Cleaning::curette) return scrapedAt(left.stuck_P_mm, reach, tip_mm);
-  if (what == Cleaning::file) return filedAt(left.edges, reach, tip_mm);
+  if (what == Cleaning::file) return filedAt(left.edges, reach, tip_mm, tongue_P_mm_);
   std::vector<glm::dvec3> loose = left.chips_P_mm;
   loose.insert(loose.end(), left.loose_P_mm.begin(), left.loose_P_mm.end());
   return suckedAt(loose, reach, tip_mm);

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/procedure/socket/sharp_edges.h"
@@ -26,9 +27,11 @@ class CleaningPlanner {
  public:
   /// Radius of each instrument's tip, by Cleaning; none: it is not in the tray.
   using Tips = std::array<std::optional<double>, kCleanings>;
-  /// Unit: `out_P` out of the socket, `shaft_P` as an instrument lies clear of lip and teeth.
-  CleaningPlanner(const glm::dvec3& out_P, const glm::dvec3& shaft_P, const Tips& tips_mm)
-      : out_P_(out_P), shaft_P_(shaft_P), tips_mm_(tips_mm) {}
+  /// Unit: `out_P` out of the socket, `shaft_P` as an instrument lies clear of lip and teeth. `tongue_P_mm`: the jaw's
+  /// outer surface there, as scanned, which no file opens.
+  CleaningPlanner(const glm::dvec3& out_P, const glm::dvec3& shaft_P, const Tips& tips_mm,
+                  std::vector<glm::dvec3> tongue_P_mm = {})
+      : out_P_(out_P), shaft_P_(shaft_P), tips_mm_(tips_mm), tongue_P_mm_(std::move(tongue_P_mm)) {}
 
   /// `jaw`: in the order of the grid. None: nothing is left to do, or nothing that can be reached.
   std::optional<OperationStep> next(const SiteLeft& left, const assets::VolumeGrid& grid,
@@ -40,6 +43,7 @@ class CleaningPlanner {
 
   glm::dvec3 out_P_, shaft_P_;
   Tips tips_mm_;
+  std::vector<glm::dvec3> tongue_P_mm_;
   std::size_t next_ = 0;  ///< of the round
 };
 

@@ -100,7 +100,7 @@ Demonstration::Demonstration(const Site& site, std::optional<FlapWork> flap, boo
     CleaningPlanner::Tips tips_mm{};
     for (std::size_t n = 0; n < kCleanings; ++n)
       if (tray_.cleaning[n]) tips_mm[n] = tools_[*tray_.cleaning[n]].head.radius_mm;
-    cleaning_.emplace(planner_->out_P(), forceps_R_PT_ * glm::dvec3(0.0, 0.0, 1.0), tips_mm);
+    cleaning_.emplace(planner_->out_P(), forceps_R_PT_ * glm::dvec3(0.0, 0.0, 1.0), tips_mm, planner_->tongue_P_mm());
   }
   if (flap_) return;
   // The hand rests where the gutter begins.

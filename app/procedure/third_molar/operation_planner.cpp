@@ -6,8 +6,10 @@
 
 #include <fmt/core.h>
 
+#include "app/case/operated_crown.h"
 #include "app/case/risk_structures.h"
 #include "app/procedure/third_molar/clearing_plan.h"
+#include "app/procedure/third_molar/section_choice.h"
 #include "app/procedure/third_molar/section_plan.h"
 #include "assets/tissue.h"
 #include "assets/tooth.h"
@@ -24,7 +26,10 @@ constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the f
 constexpr Margins kCareful{2.1, 0.45};
 constexpr int kCarefulTries = 2;
 /// A section that would open the tongue's side stops short of it, and what is left is broken with the elevator.
-constexpr double kSafeTongue_mm = 0.1, kOffTongue_mm = 0.36;
+constexpr double kSafeTongue_mm = 0.3, kOffTongue_mm = 0.36;
+constexpr int kSparedBeforeTwist = 2;  ///< sections; the first leaves a rough floor
+constexpr double kBroken_mm3 = 5.0;    ///< of the largest piece: a twist broke something
+constexpr double kMuchLess = 0.8;      ///< in the way of the pieces, for a section of the broader tooth
 constexpr int kPasses = static_cast<int>(kOvershoot_mm.size());
 constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
@@ -155,35 +160,70 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
   return {step, fmt::format("take out the piece of {:.0f} mm³", volume_mm3)};
 }
 
-std::optional<assets::PlannedCut> OperationPlanner::nextSection() {
-  const SiteSolid site(now_, tongue_P_mm_);
-  const auto planned = [&](int pass, std::optional<double> tongue_mm) {
-    const double overshoot_mm = kOvershoot_mm[static_cast<std::size_t>(pass)];
-    std::optional<PlannedSection> section;
-    for (const double canal_mm : {kCareful.canal_mm, Margins{}.canal_mm}) {
-      section = planSection(site, bur_radius_mm_, overshoot_mm, {canal_mm, tongue_mm});
-      if (section && isParted(section->largest_mm3)) break;
-    }
-    return section;
-  };
+assets::Patient OperationPlanner::withToothOf(std::span<const std::uint8_t> tooth_solid,
+                                              const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel) const {
+  assets::Patient patient = now_;
+  assets::CtVolume& ct = patient.ct;
+  const int fdi = patient.site->fdi;
+  assets::forVoxels(piece_grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (!isSolid(tooth_solid[v]) || !ct.grid.contains(ijk + first_voxel)) return;
+    const std::size_t here = ct.grid.index(ijk + first_voxel);
+    if (isOfTooth(ct, here, fdi)) return;
+    if (!ct.tooth.empty()) ct.tooth[here] = static_cast<std::uint8_t>(fdi);
+    ct.label[here] = static_cast<std::uint8_t>(assets::Tissue::dentine);
+  });
+  return patient;
+}
+
+std::optional<PlannedSection> OperationPlanner::planned(const SiteSolid& site, int pass,
+                                                        std::optional<double> tongue_mm) const {
+  const double overshoot_mm = kOvershoot_mm[static_cast<std::size_t>(pass)];
   std::optional<PlannedSection> section;
-  if (through_ < kPasses) section = planned(through_, std::nullopt);
+  for (const double canal_mm : {kCareful.canal_mm, Margins{}.canal_mm}) {
+    section = planSection(site, bur_radius_mm_, overshoot_mm, {canal_mm, tongue_mm});
+    if (section && isParted(section->largest_mm3)) break;
+  }
+  return section;
+}
+
+std::optional<double> OperationPlanner::inTheWayOf(const assets::Patient& patient, const UncutSite& uncut) const {
+  const SiteSolid site(patient, tongue_P_mm_);
+  const auto through = planned(site, 0, std::nullopt);
+  if (!through) return {};
+  const bool spares = with_elevator_ && through->off_tongue_mm < kSafeTongue_mm;
+  const auto cut = spares ? planned(site, 0, kOffTongue_mm) : std::nullopt;
+  return inTheWayAfter_mm3(uncut, cut ? cut->cut : through->cut, through->cut, kParted);
+}
+
+std::optional<assets::PlannedCut> OperationPlanner::nextSection(const assets::Patient& patient) {
+  const SiteSolid site(patient, tongue_P_mm_);
+  if (is_twist_due_ && !slots_.empty()) return {};
+  // What one overshoot has nothing left to cut of, the next may.
+  std::optional<PlannedSection> section;
+  while (through_ < kPasses && !(section = planned(site, through_, std::nullopt))) ++through_;
   if (with_elevator_ && section && section->off_tongue_mm < kSafeTongue_mm && spared_ < kPasses) {
-    if (auto spares = planned(spared_, kOffTongue_mm)) {
+    if (auto spares = planned(site, spared_, kOffTongue_mm)) {
       ++spared_;
       is_cut_ = true;
+      is_twist_due_ = spared_ >= kSparedBeforeTwist;
       if (const auto slot = slotOf(spares->cut)) slots_.push_back(*slot);
       return std::move(spares->cut);
     }
   }
   // The elevator first, where a cut has spared the tongue's side.
-  if (spared_ > 0 && through_ == 0 && !slots_.empty()) return {};
+  if (spared_ > 0 && !slots_.empty()) return {};
   if (through_ < kPasses) ++through_;
   if (!section) return {};
   is_cut_ = true;
   if (with_elevator_)
     if (const auto slot = slotOf(section->cut)) slots_.push_back(*slot);
   return std::move(section->cut);
+}
+
+OperationStep OperationPlanner::twist(const SplitStep& slot, double largest_mm3) {
+  twisted_ = slot;
+  twisted_mm3_ = largest_mm3;
+  return {slot, "break what holds it with an elevator in the slot"};
 }
 
 OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
@@ -214,12 +254,30 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   const bool is_parted = isParted(tooth.pieces()[0].volume_mm3);
   const bool is_whole = pieces == 1 && !bodies.is_any_out;
   if (!is_parted) {
-    if (auto cut = nextSection()) return cutStep(std::move(*cut), "part the tooth");
+    // Where a part broke off, another bridge may hold the rest.
+    const double largest_mm3 = tooth.pieces()[0].volume_mm3;
+    if (twisted_ && largest_mm3 < twisted_mm3_ - kBroken_mm3) return twist(*twisted_, largest_mm3);
+    twisted_.reset();
+    const auto broad = [&] { return withToothOf(tooth_solid, piece_grid, first_voxel); };
+    if (!is_cut_) {
+      const AroundTooth around{now_.ct.grid, bodies.jaw, now_.ct.label, now_.ct.tooth};
+      const UncutSite uncut{around, piece_grid, tooth_solid, up_};
+      const auto by_labels_mm3 = inTheWayOf(now_, uncut), broad_mm3 = inTheWayOf(broad(), uncut);
+      is_broad_ = broad_mm3 && (!by_labels_mm3 || *broad_mm3 < kMuchLess * *by_labels_mm3);
+    }
+    auto cut = nextSection(is_broad_ ? broad() : now_);
+    if (!cut && slots_.empty() && !is_broad_ && is_whole) {
+      is_broad_ = true;
+      spared_ = through_ = 0;
+      cut = nextSection(broad());
+    }
+    if (cut) return cutStep(std::move(*cut), "part the tooth");
     // Where no bur may go. A break before leaves pieces that are harder to deliver than those of the planned slot.
     if (!slots_.empty()) {
       const SplitStep slot = slots_.back();
       slots_.pop_back();
-      return {slot, "break what holds it with an elevator in the slot"};
+      is_twist_due_ = false;
+      return twist(slot, largest_mm3);
     }
     if (is_whole)
       return {EndStep{is_cut_ ? "it did not come apart" : "no bur reaches through it"}, "the tooth stays whole"};

@@ -5,12 +5,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "app/procedure/bodies_copy.h"
+#include "app/procedure/third_molar/section_choice.h"
+#include "app/procedure/third_molar/section_plan.h"
 #include "app/procedure/ways_out.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
@@ -80,25 +84,39 @@ class OperationPlanner {
 
   /// Unit, out of the socket.
   const glm::dvec3& out_P() const { return up_.direction_P; }
+  /// Outer surface of the jaw where it faces the tongue, as scanned.
+  const std::vector<glm::dvec3>& tongue_P_mm() const { return tongue_P_mm_; }
   /// `first_voxel`: of the pieces' grid in the jaw's. Every call is a step: it counts what was tried.
   OperationStep next(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid, glm::ivec3 first_voxel);
 
  private:
-  std::optional<assets::PlannedCut> nextSection();
+  /// What is left, with the tooth as the servo has it: it fades into the bone and is broader than its labels by a part
+  /// of a voxel.
+  assets::Patient withToothOf(std::span<const std::uint8_t> tooth_solid, const assets::VolumeGrid& piece_grid,
+                              glm::ivec3 first_voxel) const;
+  std::optional<PlannedSection> planned(const SiteSolid& site, int pass, std::optional<double> tongue_mm) const;
+  /// mm³ once this patient's first section was made; none: there is no such section.
+  std::optional<double> inTheWayOf(const assets::Patient& patient, const UncutSite& uncut) const;
+  std::optional<assets::PlannedCut> nextSection(const assets::Patient& patient);
   bool isParted(double largest_mm3) const;
+  OperationStep twist(const SplitStep& slot, double largest_mm3);
   static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 
-  assets::Patient now_;                  ///< its solid is what is left
-  std::vector<glm::dvec3> tongue_P_mm_;  ///< outer surface of the jaw where it faces the tongue
+  assets::Patient now_;  ///< its solid is what is left
+  std::vector<glm::dvec3> tongue_P_mm_;
   double bur_radius_mm_;
   bool with_elevator_;
-  std::vector<SplitStep> slots_;  ///< of the sections, not twisted in yet
+  std::vector<SplitStep> slots_;      ///< of the sections, not twisted in yet
+  std::optional<SplitStep> twisted_;  ///< the last step; none: another
+  double twisted_mm3_ = 0.0;          ///< of the largest piece before it
   WayUp up_;
   double whole_mm3_ = 0.0;        ///< of the tooth before it was parted; 0: not looked at yet
   int spared_ = 0, through_ = 0;  ///< sections planned short of the tongue's side, and through
   bool is_cut_ = false;           ///< by one of them
+  bool is_broad_ = false;         ///< sections are planned of the servo's tooth, not of its labels
+  bool is_twist_due_ = false;     ///< what a spared section has left may break
   int tries_ = 0;                 ///< since a piece was taken out or parted
   std::size_t pieces_left_ = 0;
   /// A way along which a piece did not come out. What is in it is cut away, and the piece pulled along it once more:

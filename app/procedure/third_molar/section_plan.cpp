@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/procedure/third_molar/cut_sweep.h"
 #include "haptics/body/components.h"
 
 namespace app {
@@ -15,9 +16,6 @@ constexpr double kLeastShare = 1.0 / 3.0;  ///< of the tooth, on either side of 
 constexpr double kSlice_mm = 0.3;          ///< half the thickness in which the tooth's extent is taken
 constexpr double kBeside_mm = 2.0;         ///< beyond the bur: what is looked at beside the slot
 constexpr double kLostWeight = 5.0;        ///< of tooth that cannot be reached, against what is cut
-constexpr double kHead_mm = 6.0;           ///< of the bur's length that cuts, at least
-constexpr double kHeldUp_mm = 0.08;        ///< by what it cuts
-constexpr double kSweepStep_mm = 0.2;
 constexpr int kMiddle = HeightMap::kHalf;
 
 /// Where along the way in a slot across the tooth has the least to cut.
@@ -80,46 +78,26 @@ std::optional<Slot> slotAlong(const SiteSolid& site, const WayIn& over, double b
   return slot;
 }
 
-/// Where the bur's ball stands while it follows the strokes.
-std::vector<glm::dvec3> placesAlong_P_mm(const assets::PlannedCut& cut) {
-  std::vector<glm::dvec3> places_P_mm;
-  for (const auto& stroke : cut.strokes_P_mm)
-    for (std::size_t n = 0; n < stroke.size(); ++n) {
-      const glm::dvec3 to = n + 1 < stroke.size() ? stroke[n + 1] : stroke[n];
-      const int steps = 1 + static_cast<int>(glm::distance(stroke[n], to) / kSweepStep_mm);
-      for (int k = 0; k < steps; ++k) places_P_mm.push_back(glm::mix(stroke[n], to, static_cast<double>(k) / steps));
-    }
-  return places_P_mm;
-}
-
 /// Of what the tooth falls into.
-double largestPieceAfter_mm3(const SiteSolid& site, const assets::PlannedCut& cut,
-                             const std::vector<glm::dvec3>& places_P_mm) {
-  const double spacing_mm = site.grid().spacing_mm, radius_mm = cut.bur_radius_mm - kHeldUp_mm;
+double largestPieceAfter_mm3(const SiteSolid& site, const assets::PlannedCut& cut) {
+  const double spacing_mm = site.grid().spacing_mm;
   glm::dvec3 low_P_mm(site.tooth_P_mm().front()), high_P_mm(low_P_mm);
   for (const glm::dvec3& p : site.tooth_P_mm()) low_P_mm = glm::min(low_P_mm, p), high_P_mm = glm::max(high_P_mm, p);
   const glm::ivec3 size(glm::round((high_P_mm - low_P_mm) / spacing_mm) + 1.0);
   const assets::VolumeGrid grid{size, spacing_mm, low_P_mm};
   std::vector<std::uint8_t> solid(grid.voxelCount(), 0);
   for (const glm::dvec3& p : site.tooth_P_mm()) solid[grid.index(glm::ivec3(glm::round(grid.indexFromPoint(p))))] = 255;
-  for (const glm::dvec3& place : places_P_mm)
-    for (double up_mm = 0.0; up_mm < kHead_mm; up_mm += 2.0 * kSweepStep_mm) {
-      const glm::dvec3 p = place + up_mm * cut.outward_P;
-      const glm::ivec3 from(glm::floor(grid.indexFromPoint(p - radius_mm))),
-          to(glm::ceil(grid.indexFromPoint(p + radius_mm)));
-      assets::forVoxels(glm::max(from, glm::ivec3(0)), glm::min(to + 1, size), [&](glm::ivec3 ijk) {
-        if (glm::distance(grid.centre_P_mm(ijk), p) < radius_mm) solid[grid.index(ijk)] = 0;
-      });
-    }
+  sweep(cut, grid, solid);
   const haptics::Components tooth(grid, solid);
   return tooth.pieces().empty() ? 0.0 : tooth.pieces().front().volume_mm3;
 }
 
-double offTongue_mm(const SiteSolid& site, const assets::PlannedCut& cut, const std::vector<glm::dvec3>& places_P_mm) {
-  double least_mm = kHead_mm;
+double offTongue_mm(const SiteSolid& site, const assets::PlannedCut& cut) {
+  const std::vector<glm::dvec3> places_P_mm = placesAlong_P_mm(cut);
+  double least_mm = kCuttingHead_mm;
   for (const glm::dvec3& q : site.tongue_P_mm())
     for (const glm::dvec3& place : places_P_mm) {
-      const double up_mm = std::clamp(glm::dot(q - place, cut.outward_P), 0.0, kHead_mm);
+      const double up_mm = std::clamp(glm::dot(q - place, cut.outward_P), 0.0, kCuttingHead_mm);
       least_mm = std::min(least_mm, glm::distance(q, place + up_mm * cut.outward_P) - cut.bur_radius_mm);
     }
   return least_mm;
@@ -148,9 +126,8 @@ std::optional<PlannedSection> planSection(const SiteSolid& site, double bur_radi
   }
   assets::PlannedCut cut = cutAlong(best->way, h, planned, bur_radius_mm);
   if (cut.strokes_P_mm.empty()) return {};
-  const std::vector<glm::dvec3> places_P_mm = placesAlong_P_mm(cut);
-  const double largest_mm3 = largestPieceAfter_mm3(site, cut, places_P_mm);
-  const double off_tongue_mm = offTongue_mm(site, cut, places_P_mm);
+  const double largest_mm3 = largestPieceAfter_mm3(site, cut);
+  const double off_tongue_mm = offTongue_mm(site, cut);
   return PlannedSection{std::move(cut), largest_mm3, off_tongue_mm};
 }
 

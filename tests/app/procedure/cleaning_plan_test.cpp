@@ -116,6 +116,23 @@ TEST(CleaningPlan, FilesAnEdgeFromThreeSidesWithTheHandleClear) {
   }
 }
 
+TEST(CleaningPlan, NoFileOpensTheJawTowardsTheTongue) {
+  const Bone bone;
+  SiteLeft left;
+  SharpEdge rim{2.0, 0.3, {}, {}};
+  for (const double y_mm : {-1.0, -0.5, 0.0, 0.5, 1.0}) rim.points_P_mm.push_back({-kPit_mm, y_mm, -0.1});
+  left.edges = {rim};
+  const auto filed = [&](double wall_mm) {
+    std::vector<glm::dvec3> tongue_P_mm;
+    for (double y_mm = -3.0; y_mm <= 3.0; y_mm += 0.2)
+      for (double z_mm = -3.0; z_mm <= 0.0; z_mm += 0.2) tongue_P_mm.push_back({-kPit_mm - wall_mm, y_mm, z_mm});
+    return CleaningPlanner(kOut, kOut, kAll, tongue_P_mm).next(left, bone.grid, bone.jaw);
+  };
+  EXPECT_FALSE(filed(0.5)) << "the file would take it away";
+  ASSERT_TRUE(filed(3.0));
+  EXPECT_EQ(stepOf(filed(3.0)).what, Cleaning::file);
+}
+
 TEST(CleaningPlan, GoesFromLooseToScrapedToFiledToStitched) {
   const Bone bone;
   SiteLeft left;

@@ -320,6 +320,25 @@ TEST(OperationPlanner, PartsTheToothThenTakesItOutPieceByPiece) {
   EXPECT_EQ(end->why_not, "");
 }
 
+// The servo's tooth fades into the bone around it: what it has beyond its labels is to be parted, too.
+TEST(OperationPlanner, PartsTheToothAsBroadAsTheServoHasIt) {
+  Operation operation{phantom(-6.5)};
+  assets::CtVolume& ct = operation.patient.ct;
+  OperationPlanner planner(operation.patient, kBur_mm);
+  const std::vector<std::uint8_t> narrow = ct.tooth;
+  constexpr int kBeyond = 3;  // voxels
+  assets::forVoxels(glm::ivec3(kBeyond), ct.grid.size - kBeyond, [&](glm::ivec3 ijk) {
+    const std::size_t v = ct.grid.index(ijk);
+    for (int x = -kBeyond; x <= kBeyond && narrow[v] == 0; ++x)
+      if (narrow[ct.grid.index(ijk + glm::ivec3(x, 0, 0))] == kFdi) ct.tooth[v] = kFdi, ct.solid[v] = 255;
+  });
+  const OperationStep step = planner.next(operation.copy(), ct.grid, glm::ivec3(0));
+  const CutStep* const section = std::get_if<CutStep>(&step.what);
+  ASSERT_NE(section, nullptr) << step.words;
+  sweep(ct, section->cut);
+  EXPECT_EQ(piecesOf(ct), 2U) << "the first section goes through all of it";
+}
+
 TEST(OperationPlanner, GivesUpOnAToothThatStaysWhole) {
   const Operation operation{phantom(3.0)};
   OperationPlanner planner(operation.patient, kBur_mm);
