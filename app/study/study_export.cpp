@@ -42,7 +42,7 @@ ordered_json jsonOf(const SeverityAgreement& found) {
                     {"alpha_ordinal_95", jsonOf(found.ordinal_interval)},
                     {"alpha_interval", jsonOf(found.interval)},
                     {"samples", kAlphaSamples},
-                    {"seed", SeverityAgreement::seed},
+                    {"seed", SeverityAgreement::kSeed},
                     {"icc_2_1", nullptr},
                     {"icc_3_1", nullptr}};
   if (!found.intraclass) return json;

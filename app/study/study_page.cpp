@@ -172,7 +172,7 @@ std::string agreementWords(const StudyResult& result) {
   std::string words =
       fmt::format("Agreement of raters on severity: Krippendorff's alpha {} ({}; {} samples, seed {}){}",
                   fixedText(*found.ordinal, 2), rangeText(found.ordinal_interval, 2), kAlphaSamples,
-                  SeverityAgreement::seed, *found.ordinal < 0.667 ? ", too low to rely on." : ".");
+                  SeverityAgreement::kSeed, *found.ordinal < 0.667 ? ", too low to rely on." : ".");
   if (found.intraclass)
     words +=
         fmt::format(" Intraclass correlation ICC(2,1) {} ({}), ICC(3,1) {} ({}).",

@@ -249,7 +249,7 @@ SeverityAgreement agreementOf(const WorstByRater& rated) {
   found.nominal = krippendorffAlpha(ratings, RatingScale::nominal);
   found.ordinal = krippendorffAlpha(ratings, RatingScale::ordinal);
   found.interval = krippendorffAlpha(ratings, RatingScale::interval);
-  if (found.ordinal) found.ordinal_interval = alphaInterval(ratings, RatingScale::ordinal, SeverityAgreement::seed);
+  if (found.ordinal) found.ordinal_interval = alphaInterval(ratings, RatingScale::ordinal, SeverityAgreement::kSeed);
   found.intraclass = intraclassCorrelation(ratings);
   return found;
 }

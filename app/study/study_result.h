@@ -77,7 +77,7 @@ struct SeverityAgreement {
   std::optional<double> nominal, ordinal, interval;  ///< Krippendorff's alpha
   std::optional<ValueRange> ordinal_interval;        ///< by samples from `seed`
   std::optional<IntraclassCorrelation> intraclass;   ///< where each rated all
-  static constexpr std::uint64_t seed = 1;
+  static constexpr std::uint64_t kSeed = 1;
 };
 
 struct StudyResult {

@@ -47,13 +47,13 @@ void SpeechWatch::measure(const Frame& frame) {
   if (++measured_ < kFramesOfLevel) return;
   constexpr double kLeast = 1e-10, kTenth_s = 0.1;
   const double mean = square_ / static_cast<double>(kFramesOfLevel * kVoiceFrame);
-  const double level_dB = 10.0 * std::log10(std::max(kLeast, mean));
+  const double level_db = 10.0 * std::log10(std::max(kLeast, mean));
   if (judge_.speaks()) {
     speech_s_ += kTenth_s;
-    if (level_dB >= kGreenFrom_dB && level_dB <= kGreenTo_dB) green_s_ += kTenth_s;
+    if (level_db >= kGreenFrom_db && level_db <= kGreenTo_db) green_s_ += kTenth_s;
   }
   square_ = 0.0, measured_ = 0;
-  listeners_.level(frame.t_ns, level_dB);
+  listeners_.level(frame.t_ns, level_db);
 }
 
 }  // namespace app

@@ -16,13 +16,13 @@
 namespace app {
 
 /// Level within which speech is recorded well, dB of full scale.
-inline constexpr double kGreenFrom_dB = -40.0, kGreenTo_dB = -9.0;
+inline constexpr double kGreenFrom_db = -40.0, kGreenTo_db = -9.0;
 
 class SpeechWatch {
  public:
   struct Listeners {
     std::function<void(const SpeechChange&)> speech;
-    std::function<void(std::int64_t t_ns, double level_dB)> level;  ///< each tenth of a second
+    std::function<void(std::int64_t t_ns, double level_db)> level;  ///< each tenth of a second
   };
   /// `played`: descriptor of a PlayedSound, -1: nothing is played.
   SpeechWatch(int played, Listeners listeners);

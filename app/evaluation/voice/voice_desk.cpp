@@ -86,7 +86,7 @@ void VoiceDesk::take(const VoiceWord& word, const Moment& at) {
   }
   if (word.kind == VoiceWord::Kind::level) {
     constexpr double kThousand = 1000.0;
-    heard_.level_dB = word.value;
+    heard_.level_db = word.value;
     heard_.green_s = static_cast<double>(word.number) / kThousand;
   }
   if (word.kind != VoiceWord::Kind::speech) return;
@@ -176,7 +176,7 @@ std::string VoiceDesk::reminder(std::int64_t now_ns) const {
 std::string VoiceDesk::missing() const {
   if (!isRecording() || heard_.green_s >= kGreen_s) return "";
   return fmt::format("{:.0f} of {:.0f} s of speech in the green: {}", heard_.green_s, kGreen_s,
-                     heard_.level_dB > -9.0 ? "further from the microphone" : "speak aloud, nearer to the microphone");
+                     heard_.level_db > -9.0 ? "further from the microphone" : "speak aloud, nearer to the microphone");
 }
 
 }  // namespace app

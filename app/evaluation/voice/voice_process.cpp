@@ -62,7 +62,7 @@ class Voice {
                {[this](const SpeechChange& change) {
                   say({.kind = VoiceWord::Kind::speech, .t_ns = change.t_ns, .number = change.speaks ? 1U : 0U});
                 },
-                [this](std::int64_t t_ns, double level_dB) { sayLevel(t_ns, level_dB); }}) {}
+                [this](std::int64_t t_ns, double level_db) { sayLevel(t_ns, level_db); }}) {}
 
   int run() {
     say({.kind = VoiceWord::Kind::began});
@@ -99,14 +99,14 @@ class Voice {
     }
   }
 
-  void sayLevel(std::int64_t t_ns, double level_dB) {
+  void sayLevel(std::int64_t t_ns, double level_db) {
     // Of the newest alone, where nobody listens.
     if (!waiting_.empty() && waiting_.back().kind == VoiceWord::Kind::level) waiting_.pop_back();
     constexpr double kThousand = 1000.0;
     say({.kind = VoiceWord::Kind::level,
          .t_ns = t_ns,
          .number = static_cast<std::uint64_t>(watch_.green_s() * kThousand + 0.5),
-         .value = level_dB});
+         .value = level_db});
   }
   void say(const VoiceWord& word) { waiting_.push_back(word); }
 

@@ -4,7 +4,7 @@
 namespace app {
 
 struct VoiceState {
-  double level_dB = -100.0;  ///< of full scale
+  double level_db = -100.0;  ///< of full scale
   bool speech = false;
   double quiet_s = 0.0;   ///< since somebody spoke
   bool reminder = false;  ///< quiet for too long, and nothing was said since

@@ -19,7 +19,8 @@ namespace app {
 namespace {
 
 // Our defaults, found on the built-in cases.
-constexpr double kLeastPiece_mm3 = 5.0;                            ///< smaller ones are left to the suction
+constexpr double kLeastTaken_mm3 = 5.0;                            ///< smaller ones wait for the end
+constexpr int kMostFragments = 3;                                  ///< tries, at the end
 constexpr std::array kOvershoot_mm = {0.7, 1.1, 1.5, 1.9};         ///< of the first section, the second, …
 constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the first clearing, the second, …
 /// Nearer to the canal is an error of the shipped steps: clearing keeps off at first.
@@ -157,7 +158,7 @@ OperationStep OperationPlanner::deliver(const PieceWay& way, const BodiesCopy& b
   step.grip_P_mm =
       gripOf(now_.ct, piece_grid, tooth, static_cast<int>(way.piece), bodies.jaw, glm::normalize(step.out_P));
   const double volume_mm3 = tooth.pieces()[way.piece].volume_mm3;
-  return {step, fmt::format("take out the piece of {:.0f} mm³", volume_mm3)};
+  return {step, fmt::format("take out the piece of {:.{}f} mm³", volume_mm3, volume_mm3 < kLeastTaken_mm3 ? 1 : 0)};
 }
 
 assets::Patient OperationPlanner::withToothOf(std::span<const std::uint8_t> tooth_solid,
@@ -220,6 +221,17 @@ std::optional<assets::PlannedCut> OperationPlanner::nextSection(const assets::Pa
   return std::move(section->cut);
 }
 
+std::optional<OperationStep> OperationPlanner::takeFragment(const BodiesCopy& bodies,
+                                                            const assets::VolumeGrid& piece_grid,
+                                                            const haptics::Components& tooth) {
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(
+      tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= haptics::kLeastPiece_mm3; }));
+  if (count == 0 || fragments_tried_ == kMostFragments) return {};
+  ++fragments_tried_;
+  const AroundTooth around{now_.ct.grid, bodies.jaw, now_.ct.label, now_.ct.tooth};
+  return deliver(waysOut(around, tooth, count, up_).front(), bodies, piece_grid, tooth);
+}
+
 OperationStep OperationPlanner::twist(const SplitStep& slot, double largest_mm3) {
   twisted_ = slot;
   twisted_mm3_ = largest_mm3;
@@ -240,8 +252,11 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   });
   const haptics::Components tooth(piece_grid, tooth_solid);
   const auto pieces = static_cast<std::size_t>(std::ranges::count_if(
-      tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastPiece_mm3; }));
-  if (pieces == 0) return {EndStep{}, "the tooth is out"};
+      tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastTaken_mm3; }));
+  if (pieces == 0) {
+    if (auto last = takeFragment(bodies, piece_grid, tooth)) return *last;
+    return {EndStep{}, "the tooth is out"};
+  }
   if (pieces != pieces_left_) {
     tries_ = 0;
     was_tried_ = false;
@@ -266,11 +281,12 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
       is_broad_ = broad_mm3 && (!by_labels_mm3 || *broad_mm3 < kMuchLess * *by_labels_mm3);
     }
     auto cut = nextSection(is_broad_ ? broad() : now_);
-    if (!cut && slots_.empty() && !is_broad_ && is_whole) {
-      is_broad_ = true;
-      spared_ = through_ = 0;
-      cut = nextSection(broad());
-    }
+    if (!cut && slots_.empty() && !is_broad_ && is_whole)
+      if (const assets::Patient broader = broad(); broader.ct.label != now_.ct.label) {
+        is_broad_ = true;
+        spared_ = through_ = 0;
+        cut = nextSection(broader);
+      }
     if (cut) return cutStep(std::move(*cut), "part the tooth");
     // Where no bur may go. A break before leaves pieces that are harder to deliver than those of the planned slot.
     if (!slots_.empty()) {

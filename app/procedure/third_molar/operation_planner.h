@@ -99,6 +99,9 @@ class OperationPlanner {
   std::optional<double> inTheWayOf(const assets::Patient& patient, const UncutSite& uncut) const;
   std::optional<assets::PlannedCut> nextSection(const assets::Patient& patient);
   bool isParted(double largest_mm3) const;
+  /// None: nothing worth a name is left, or it was tried often enough.
+  std::optional<OperationStep> takeFragment(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
+                                            const haptics::Components& tooth);
   OperationStep twist(const SplitStep& slot, double largest_mm3);
   static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
@@ -117,7 +120,8 @@ class OperationPlanner {
   bool is_cut_ = false;           ///< by one of them
   bool is_broad_ = false;         ///< sections are planned of the servo's tooth, not of its labels
   bool is_twist_due_ = false;     ///< what a spared section has left may break
-  int tries_ = 0;                 ///< since a piece was taken out or parted
+  int fragments_tried_ = 0;
+  int tries_ = 0;  ///< since a piece was taken out or parted
   std::size_t pieces_left_ = 0;
   /// A way along which a piece did not come out. What is in it is cut away, and the piece pulled along it once more:
   /// what the search finds next may be farther from free.

@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-constexpr double kLeastTaken_mm3 = 5.0;  ///< smaller ones are left to the suction
+constexpr double kCounted_mm3 = 5.0;  ///< smaller ones are left to the suction
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::optional<double> inTheWayAfter_mm3(const UncutSite& site, const assets::Pla
       tooth.pieces()[0].volume_mm3 >= most_share * whole.pieces()[0].volume_mm3)
     return {};
   const auto pieces = static_cast<std::size_t>(std::ranges::count_if(
-      tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kLeastTaken_mm3; }));
+      tooth.pieces(), [](const haptics::ToothPiece& piece) { return piece.volume_mm3 >= kCounted_mm3; }));
   double sum_mm3 = 0.0;
   for (const PieceWay& piece : waysOut(around, tooth, pieces, site.up))
     sum_mm3 += canCome(piece.way) || piece.way.in_the_way_mm3 > 0.0 ? piece.way.in_the_way_mm3 : kNoWay_mm3;

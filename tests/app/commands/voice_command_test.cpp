@@ -94,7 +94,7 @@ TEST_F(VoiceCommand, RecordsSpeechAndSilenceWithTheirTimes) {
   goOn(11.0);
   ASSERT_TRUE(desk.state(now_ns_));
   EXPECT_TRUE(desk.state(now_ns_)->speech);
-  EXPECT_GT(desk.state(now_ns_)->level_dB, kGreenFrom_dB);
+  EXPECT_GT(desk.state(now_ns_)->level_db, kGreenFrom_db);
   EXPECT_DOUBLE_EQ(desk.state(now_ns_)->quiet_s, 0.0);
   EXPECT_EQ(desk.reminder(now_ns_), "");
   goOn(20.9);

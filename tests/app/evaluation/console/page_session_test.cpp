@@ -175,13 +175,17 @@ class PageSession : public ProgramTest {
     return WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
   }
   /// The process that serves the page: the station's only child in these sessions.
+  /// Of the station's processes the one that serves the page; 0: none. Each thread names those that it started.
   pid_t pageProcess() const {
-    std::ifstream children("/proc/" + std::to_string(station_) + "/task/" + std::to_string(station_) + "/children");
-    // Each thread names those that it started.
     for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(station_) + "/task")) {
       std::ifstream of(thread.path() / "children");
-      pid_t child = 0;
-      if (of >> child) return child;
+      for (pid_t child = 0; of >> child;) {
+        std::ifstream command("/proc/" + std::to_string(child) + "/cmdline");
+        std::string program, subcommand;
+        std::getline(command, program, '\0');
+        std::getline(command, subcommand, '\0');
+        if (subcommand == "page") return child;
+      }
     }
     return 0;
   }

@@ -63,7 +63,7 @@ void add(Sound& to, const Sound& other, float gain, std::size_t from = 0) {
 }
 
 struct Found {
-  double speech_s = 0.0, green_s = 0.0, loudest_dB = -200.0;
+  double speech_s = 0.0, green_s = 0.0, loudest_db = -200.0;
   std::vector<double> reminded_s;
 };
 
@@ -75,7 +75,7 @@ Found found(const Sound& heard, const Sound* played, double silence_s = 20.0) {
   quiet.begin(kBegin_ns);
   SpeechWatch watch(played != nullptr ? memory.descriptor() : -1,
                     {[&](const SpeechChange& change) { quiet.follow(change); },
-                     [&](std::int64_t, double level_dB) { found.loudest_dB = std::max(found.loudest_dB, level_dB); }});
+                     [&](std::int64_t, double level_db) { found.loudest_db = std::max(found.loudest_db, level_db); }});
   constexpr std::size_t kPiece = 120, kFill = 480;
   for (std::size_t n = 0; n + kPiece <= heard.size(); n += kPiece) {
     const auto at_ns = kBegin_ns + static_cast<std::int64_t>(n * 1'000'000 / 48);
@@ -120,7 +120,7 @@ TEST(SpeechWatch, TheLevelIsThatOfASine) {
   Sound sine(kSecond);
   for (std::size_t n = 0; n < sine.size(); ++n) sine[n] = 0.1F * std::sin(static_cast<float>(n) * 0.1308997F);  // 1 kHz
   // 20 log10(0.1) - 3.01 dB.
-  EXPECT_NEAR(found(sine, nullptr).loudest_dB, -23.01, 0.05);
+  EXPECT_NEAR(found(sine, nullptr).loudest_db, -23.01, 0.05);
 }
 
 /// Vowels that are made here, or sentences of espeak-ng.
