@@ -8,10 +8,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 extern char** environ;
 
 namespace app {
+namespace {
+
+constexpr std::chrono::milliseconds kMostOrderly{500};
+
+}  // namespace
 
 int startBeside(const std::string& program, std::vector<std::string> words, std::span<const int> descriptors) {
   posix_spawn_file_actions_t files;
@@ -34,6 +41,13 @@ int startBeside(const std::string& program, std::vector<std::string> words, std:
 
 void endBeside(int process) {
   if (process <= 0) return;
+  // In order, where it answers: a sound library that is killed while it starts leaves others waiting.
+  ::kill(-process, SIGTERM);
+  const auto ends = std::chrono::steady_clock::now() + kMostOrderly;
+  for (siginfo_t gone{}; std::chrono::steady_clock::now() < ends;) {
+    if (::waitid(P_PID, static_cast<id_t>(process), &gone, WEXITED | WNOHANG | WNOWAIT) != 0 || gone.si_pid != 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
   ::kill(-process, SIGKILL);
   ::waitpid(process, nullptr, 0);
 }

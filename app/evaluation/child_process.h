@@ -11,7 +11,8 @@ namespace app {
 /// Starts `PROGRAM words…` with these descriptors at the same numbers, in a process group of its own: an interrupt at
 /// the terminal is the rehearsal's to answer. Its process; 0: it could not be started.
 int startBeside(const std::string& program, std::vector<std::string> words, std::span<const int> descriptors);
-/// Kills it with its whole group, which no other process can have while it has not been waited for, and waits.
+/// Ends it with its whole group, which no other process can have while it has not been waited for, and waits: asked to
+/// (SIGTERM), it is gone within milliseconds; killed after half a second.
 void endBeside(int process);
 
 /// In the process itself: low priority, off the servo's core, all descriptors from 3 on closed but these.

@@ -1,6 +1,7 @@
 #include "app/evaluation/voice/voice_process.h"
 
 #include <poll.h>
+#include <signal.h>
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
@@ -203,9 +204,16 @@ void sayTrouble(int words, VoiceTrouble trouble) {
 
 int runVoice(const VoiceOptions& options) {
   stepAside({options.words, options.played, options.key});
+  // Whoever ends it waits until the sound libraries have started: one that is killed meanwhile leaves a file behind,
+  // for which every later start waits.
+  sigset_t end;
+  ::sigemptyset(&end);
+  ::sigaddset(&end, SIGTERM);
+  ::sigprocmask(SIG_BLOCK, &end, nullptr);
   try {
     // First: without one there is no folder either.
     auto microphone = options.file.empty() ? openMicrophone([](const std::string&) {}) : fileMicrophone(options.file);
+    ::sigprocmask(SIG_UNBLOCK, &end, nullptr);
     if (microphone) return Voice(options, std::move(microphone)).run();
     sayTrouble(options.words, VoiceTrouble::no_microphone);
     return 0;

@@ -33,7 +33,8 @@ SessionReview someReview() {
 TEST(ReviewPage, IsOneFileWithoutScriptOrRequest) {
   const std::string page = reviewHtml(someReview());
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  for (std::size_t at = page.find("http"); at != std::string::npos; at = page.find("http", at + 1))
+  EXPECT_EQ(page.find("https:"), std::string::npos);
+  for (std::size_t at = page.find("http:"); at != std::string::npos; at = page.find("http:", at + 1))
     EXPECT_TRUE(page.compare(at, 19, "http://www.w3.org/1") == 0 || page.compare(at, 19, "http://www.w3.org/2") == 0)
         << page.substr(at, 60) << " is more than the name of a language";
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
