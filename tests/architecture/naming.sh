@@ -24,6 +24,9 @@ embed() {
 embed procedure/steps procedure/steps/shipped_procedures.inc
 embed procedure/coach procedure/coach/shipped_coach.inc
 embed study/questionnaires study/shipped_questionnaires.inc
+cmake -DFOLDER="$root/app/evaluation/console/web" -DOUT="$alone/app/evaluation/page_files.inc" \
+  -DFILES="$(cd "$root/app/evaluation/console/web" && printf '%s\n' *.html *.css *.js | paste -sd,)" \
+  -P "$root/app/evaluation/console/embed_page.cmake"
 
 passed=$build/naming_passed
 mkdir -p "$passed"
