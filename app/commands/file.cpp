@@ -174,14 +174,14 @@ void addFile(CommandLine& molar) {
   auto o = std::make_shared<KFileOptions>();
   CommandLine& command =
       molar.command("file", "A root-canal file's shape and force, free or in a canal").forEngineers();
-  command.example("molar file --size 25 --force 0.1 --at tip", "held at its handle, drawn across at its tip");
+  command.example("molar file --size 25 --force-N 0.1 --at tip", "held at its handle, drawn across at its tip");
   command.example("molar file --size 20 --length 21 --canal arc:5,45", "pushed into a bent canal");
   command.option("--size", o->size, "ISO size, 6 to 140: the tip in 1/100 mm").showsDefault();
   command.option("--length", o->length_mm, "Tip to handle: 21, 25 or 31 mm").showsDefault();
   command.option("--material", o->material, "Steel, or nickel-titanium with its plateau")
       .oneOf({"steel", "niti"})
       .showsDefault();
-  command.option("--force", o->force_N, "N across the handle's axis; with --canal: pushes until the hand bears it")
+  command.option("--force-N", o->force_N, "N across the handle's axis; with --canal: pushes until the hand bears it")
       .from(-100.0, 100.0)
       .showsDefault();
   command.option("--at", o->at, "Node that the force acts on: tip, or 1 to the number of links").showsDefault();

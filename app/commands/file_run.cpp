@@ -129,7 +129,7 @@ std::optional<assets::RootCanal> chosenCanal(const KFileOptions& options, const 
   if (options.solver == "rk4") throw UsageError("--solver rk4: it knows no walls, leave out --canal");
   if (options.at != "tip") throw UsageError("--at: the hand pushes the file into the canal, leave it out with --canal");
   if (options.force_N < 0.0)
-    throw UsageError("--force: the hand pushes, give a positive number of newtons with --canal");
+    throw UsageError("--force-N: the hand pushes, give a positive number of newtons with --canal");
   const assets::RootCanal canal = canalFrom(options.canal);
   const double orifice_mm = 2.0 * canal.orifice_radius_mm, depth_mm = insertedTo(options, canal);
   if (file.tip_mm() >= orifice_mm)

@@ -16,9 +16,9 @@ class FileCommand : public ProgramTest {
 
 /// P L^2 / EI = 1 and 5: exact elliptic integrals.
 TEST_F(FileCommand, BendsAUniformFileAsTheElastica) {
-  const auto gentle = answer("--uniform 20 --length 25 --force 0.032");
+  const auto gentle = answer("--uniform 20 --length 25 --force-N 0.032");
   EXPECT_NEAR(gentle["tip"]["across_mm"].get<double>() / 25.0 / 0.301721, 1.0, 6e-4);
-  const auto strong = answer("--uniform 20 --length 25 --force 0.16");
+  const auto strong = answer("--uniform 20 --length 25 --force-N 0.16");
   EXPECT_NEAR(strong["tip"]["across_mm"].get<double>() / 25.0 / 0.713792, 1.0, 6e-4);
   EXPECT_NEAR(strong["on_hand"]["force_N"][0].get<double>(), 0.16, 1e-6);
   EXPECT_EQ(strong["nodes"].size(), 33u);
@@ -30,7 +30,7 @@ TEST_F(FileCommand, SaysWhereItTouchesABentCanal) {
   EXPECT_NEAR(canal["tip"]["depth_mm"].get<double>(), 8.0 + 5.0 * 0.7854 + 2.0 - 0.5, 0.1);
   EXPECT_GT(canal["contacts"].size(), 2u);
   EXPECT_GT(canal["on_hand"]["force_N"][2].get<double>(), 0.1) << "the hand is pushed back";
-  const auto stopped = answer("--size 25 --length 21 --force 0.5 --canal builtin:36:mesiobuccal");
+  const auto stopped = answer("--size 25 --length 21 --force-N 0.5 --canal builtin:36:mesiobuccal");
   EXPECT_LT(stopped["tip"]["depth_mm"].get<double>(), canal["tip"]["depth_mm"].get<double>());
   const ProgramOutput table = molar("file --size 20 --length 21 --canal straight:0.3 --depth 8");
   EXPECT_EQ(table.status, 0) << table.err;
@@ -57,7 +57,7 @@ TEST_F(FileCommand, SaysThatABentTipPassesAndThatTooBentATipDoesNot) {
 }
 
 TEST_F(FileCommand, ComparesWithTheDampedChain) {
-  const auto rest = answer("--size 25 --force 0.05"), damped = answer("--size 25 --force 0.05 --solver rk4");
+  const auto rest = answer("--size 25 --force-N 0.05"), damped = answer("--size 25 --force-N 0.05 --solver rk4");
   EXPECT_NEAR(rest["tip"]["across_mm"].get<double>(), damped["tip"]["across_mm"].get<double>(), 1e-6);
   EXPECT_GT(damped["inertia_Nmm_s2"].get<double>(), 0.0);
 }
@@ -65,8 +65,8 @@ TEST_F(FileCommand, ComparesWithTheDampedChain) {
 TEST_F(FileCommand, RefusesWhatThereIsNot) {
   expectRefusal("file --size 27", "140");
   expectRefusal("file --length 22", "25");
-  expectRefusal("file --force nan", "-100 to 100");
-  expectRefusal("file --force 1e300", "-100 to 100");
+  expectRefusal("file --force-N nan", "-100 to 100");
+  expectRefusal("file --force-N 1e300", "-100 to 100");
   expectRefusal("file --at 40", "1 to 32");
   expectRefusal("file --at handle", "tip");
   expectRefusal("file --depth 5", "--canal");
