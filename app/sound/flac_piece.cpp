@@ -41,8 +41,8 @@ struct InMemory {
     return count;
   }
   static SF_VIRTUAL_IO* calls() {
-    static SF_VIRTUAL_IO kCalls{length, seek, read, write, tell};
-    return &kCalls;
+    static SF_VIRTUAL_IO io{length, seek, read, write, tell};
+    return &io;
   }
 };
 

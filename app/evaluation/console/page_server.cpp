@@ -41,7 +41,7 @@ namespace {
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace net = boost::asio;
-using tcp = net::ip::tcp;
+using Tcp = net::ip::tcp;
 using Failure = beast::error_code;
 
 constexpr std::chrono::seconds kRequestTime{15}, kStuckTime{60};
@@ -109,7 +109,7 @@ class Server {
 
   net::io_context context_{1};
   net::ssl::context tls_{net::ssl::context::tls_server};
-  tcp::acceptor acceptor_;
+  Tcp::acceptor acceptor_;
   net::local::stream_protocol::socket session_;
   net::posix::stream_descriptor bell_;
   net::steady_timer beat_, ending_;
@@ -308,7 +308,7 @@ class WebSession : public std::enable_shared_from_this<WebSession<Stream>> {
 
   void end() {
     Failure ignored;
-    beast::get_lowest_layer(stream_).socket().shutdown(tcp::socket::shutdown_send, ignored);
+    beast::get_lowest_layer(stream_).socket().shutdown(Tcp::socket::shutdown_send, ignored);
   }
 
   Server& server_;
@@ -335,7 +335,7 @@ bool isOfSix(int listener) {
 }
 
 Server::Server(const PageOptions& options)
-    : acceptor_(context_, isOfSix(options.listener) ? tcp::v6() : tcp::v4(), options.listener),
+    : acceptor_(context_, isOfSix(options.listener) ? Tcp::v6() : Tcp::v4(), options.listener),
       session_(context_, net::local::stream_protocol(), options.words),
       bell_(context_, options.bell),
       beat_(context_),
@@ -362,10 +362,10 @@ Server::Server(const PageOptions& options)
 }
 
 void Server::accept() {
-  acceptor_.async_accept([this](Failure failed, tcp::socket socket) {
+  acceptor_.async_accept([this](Failure failed, Tcp::socket socket) {
     if (!failed && connections_ < kMostConnections) {
       Failure ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
+      socket.set_option(Tcp::no_delay(true), ignored);
       beast::tcp_stream stream(std::move(socket));
       if (is_shared_)
         std::make_shared<WebSession<beast::ssl_stream<beast::tcp_stream>>>(
