@@ -43,6 +43,7 @@ void endBeside(int process) {
   if (process <= 0) return;
   // In order, where it answers: a sound library that is killed while it starts leaves others waiting.
   ::kill(-process, SIGTERM);
+  ::kill(-process, SIGCONT);
   const auto ends = std::chrono::steady_clock::now() + kMostOrderly;
   for (siginfo_t gone{}; std::chrono::steady_clock::now() < ends;) {
     if (::waitid(P_PID, static_cast<id_t>(process), &gone, WEXITED | WNOHANG | WNOWAIT) != 0 || gone.si_pid != 0) break;

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -18,9 +17,8 @@
 #include <thread>
 #include <utility>
 
+#include "app/evaluation/child_process.h"
 #include "app/evaluation/seat/seat_keeper.h"
-
-extern char** environ;
 
 namespace app {
 namespace {
@@ -135,33 +133,18 @@ class PageLink::Worker {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return lose("no socket");
     words_ = ends[0];
     ::fcntl(words_, F_SETFL, ::fcntl(words_, F_GETFL) | O_NONBLOCK);
-    posix_spawn_file_actions_t files;
-    ::posix_spawn_file_actions_init(&files);
     std::vector<int> handed = parts_.handed;
     handed.insert(handed.end(), {parts_.listener, parts_.pictures, parts_.bell, ends[1]});
-    // The same number: it stays open in the program.
-    for (const int one : handed) ::posix_spawn_file_actions_adddup2(&files, one, one);
-    posix_spawnattr_t attributes;
-    ::posix_spawnattr_init(&attributes);
-    // A group of its own: an interrupt at the terminal is the session's to answer.
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    ::posix_spawnattr_setpgroup(&attributes, 0);
     std::vector<std::string> words{"molar",      "page",
                                    "--listener", std::to_string(parts_.listener),
                                    "--pictures", std::to_string(parts_.pictures),
                                    "--bell",     std::to_string(parts_.bell),
                                    "--words",    std::to_string(ends[1])};
     words.insert(words.end(), parts_.options.begin(), parts_.options.end());
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t process = 0;
-    const int error = ::posix_spawn(&process, parts_.program.c_str(), &files, &attributes, arguments.data(), environ);
-    ::posix_spawnattr_destroy(&attributes);
-    ::posix_spawn_file_actions_destroy(&files);
+    const int process = startBeside(parts_.program, std::move(words), handed);
     ::close(ends[1]);
     const std::scoped_lock lock(mutex_);
-    if (error != 0) {
+    if (process == 0) {
       ::close(std::exchange(words_, -1));
       start_at_ = LinkClock::now() + kLongestPause;
       return;
@@ -177,13 +160,9 @@ class PageLink::Worker {
     figures_.process = process;
   }
 
-  /// The whole group, which no other process can have while its first has not been waited for.
   void end() {
     if (words_ >= 0) ::close(std::exchange(words_, -1));
-    if (process_ <= 0) return;
-    ::kill(-process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-    process_ = 0;
+    endBeside(std::exchange(process_, 0));
   }
 
   /// Another follows: soon after one that lived, later after one that fell at once.

@@ -1,7 +1,5 @@
 #include "app/evaluation/console/page_server.h"
 
-#include <sched.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,6 +25,7 @@
 #include <boost/beast/websocket/ssl.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/evaluation/child_process.h"
 #include "app/evaluation/console/page_files.h"
 #include "app/evaluation/console/page_gate.h"
 #include "app/evaluation/console/page_hub.h"
@@ -451,36 +450,10 @@ void Server::pump() {
     if (const auto one = client.lock()) one->send();
 }
 
-void stepAsidePage() {
-  constexpr int kNice = 10;
-  ::setpriority(PRIO_PROCESS, 0, kNice);
-  // The servo takes the last core, where it is given one (haptics/loop/realtime).
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  if (::sched_getaffinity(0, sizeof cores, &cores) != 0 || CPU_COUNT(&cores) < 2) return;
-  int last = CPU_SETSIZE - 1;
-  while (!CPU_ISSET(last, &cores)) --last;
-  CPU_CLR(last, &cores);
-  ::sched_setaffinity(0, sizeof cores, &cores);
-}
-
-/// Devices and windows of the rehearsal are not this one's to hold open.
-void closeAllButThose(std::vector<int> kept) {
-  std::ranges::sort(kept);
-  unsigned first = 3;
-  for (const int one : kept) {
-    if (one < 3) continue;
-    if (static_cast<unsigned>(one) > first) ::close_range(first, static_cast<unsigned>(one) - 1, 0);
-    first = static_cast<unsigned>(one) + 1;
-  }
-  ::close_range(first, ~0U, 0);
-}
-
 }  // namespace
 
 int runPage(const PageOptions& options) {
-  closeAllButThose({options.listener, options.pictures, options.bell, options.words, options.identity});
-  stepAsidePage();
+  stepAside({options.listener, options.pictures, options.bell, options.words, options.identity});
   try {
     Server(options).run();
   } catch (const boost::system::system_error& error) {
