@@ -280,7 +280,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
       const auto by_labels_mm3 = inTheWayOf(now_, uncut), broad_mm3 = inTheWayOf(broad(), uncut);
       is_broad_ = broad_mm3 && (!by_labels_mm3 || *broad_mm3 < kMuchLess * *by_labels_mm3);
     }
-    auto cut = nextSection(is_broad_ ? broad() : now_);
+    auto cut = is_broad_ ? nextSection(broad()) : nextSection(now_);
     if (!cut && slots_.empty() && !is_broad_ && is_whole)
       if (const assets::Patient broader = broad(); broader.ct.label != now_.ct.label) {
         is_broad_ = true;
