@@ -1,8 +1,10 @@
 #include "app/commands/dicom_options.h"
 
+#include "app/imaging_server/server_address.h"
 #include "app/text/list.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
+#include "assets/import/scan_import.h"
 
 namespace app {
 
@@ -19,6 +21,10 @@ void addDicomOptions(CommandLine& command, DicomOptions& options) {
                "Slices without a position touch each other");
   command.flag("--burnt-in-checked", options.choices.burnt_in_checked,
                "The text in the pictures was looked at and names nobody");
+  command.optionGroup("Imaging server");
+  command.option("--find", options.server.find, "Whose scan, as in \"PatientID=…\"; several joined by &")
+      .valueNamed("KEY=VALUE");
+  command.option("--study", options.server.study, "Its number in the list of studies").from(1, 200);
 }
 
 assets::DicomChoices dicomChoices(const DicomOptions& options) {
@@ -33,6 +39,21 @@ assets::DicomChoices dicomChoices(const DicomOptions& options) {
     throw UsageError("--spacing " + options.spacing + ": give one number or ROW,COLUMN,SLICE, 0.02 to 5 mm");
   choices.spacing_mm = numbers.size() == 1 ? glm::dvec3(numbers[0]) : glm::dvec3(numbers[0], numbers[1], numbers[2]);
   return choices;
+}
+
+SurveyedSource surveySource(const std::string& source, const DicomOptions& options) {
+  const assets::DicomChoices choices = dicomChoices(options);
+  if (!isServerAddress(source)) return {std::nullopt, assets::surveyDicom(source, choices)};
+  SurveyedSource made{receiveScan(source, options.server), {}};
+  made.survey = assets::surveyDicom(*made.received, choices);
+  return made;
+}
+
+bool isDicomOrServer(const std::string& source, const DicomOptions& options) {
+  if (isServerAddress(source)) return true;
+  if (!options.server.find.empty() || options.server.study)
+    throw UsageError("--find and --study ask a server; give its address, as in https://pacs.example/dicom-web");
+  return assets::isDicomSource(source);
 }
 
 }  // namespace app

@@ -212,7 +212,8 @@ nlohmann::json jsonOf(const assets::FoundJaw& jaw) {
 /// A DICOM source is surveyed before; its path may name a person and is said nowhere. The report is written whether it
 /// is refused or not.
 assets::ImportedScan importDicom(const ImportOptions& options, nlohmann::json& report) {
-  assets::DicomSurvey survey = assets::surveyDicom(options.source, dicomChoices(options.dicom));
+  SurveyedSource source = surveySource(options.source, options.dicom);
+  assets::DicomSurvey& survey = source.survey;
   try {
     assets::ImportedScan imported = assets::importScan(survey, options.choices);
     report = nlohmann::json::parse(dicomReportJson(survey));
@@ -247,7 +248,7 @@ assets::ImportedScan importAny(ImportOptions& options) {
     report["stages"] = clock.stages();
     if (file) file->commit(report.dump(2) + "\n");
   };
-  const bool is_dicom = assets::isDicomSource(options.source);
+  const bool is_dicom = isDicomOrServer(options.source, options.dicom);
   try {
     assets::ImportedScan imported = is_dicom ? importDicom(options, report) : importFile(options, report);
     report["jaw"] = imported.jaw ? jsonOf(*imported.jaw) : nlohmann::json(nullptr);
@@ -315,8 +316,9 @@ bool isPatientFolder(const std::string& path) {
 }
 
 int inspect(const InspectOptions& options) {
-  if (!isPatientFolder(options.patient) && assets::isDicomSource(options.patient)) {
-    const assets::DicomSurvey survey = assets::surveyDicom(options.patient, dicomChoices(options.dicom));
+  if (!isPatientFolder(options.patient) && isDicomOrServer(options.patient, options.dicom)) {
+    const SurveyedSource source = surveySource(options.patient, options.dicom);
+    const assets::DicomSurvey& survey = source.survey;
     std::fputs((options.json ? dicomReportJson(survey) : dicomReportText(survey)).c_str(), stdout);
     return 0;
   }
@@ -331,8 +333,10 @@ void addImport(CommandLine& molar) {
   auto options = std::make_shared<ImportOptions>();
   CommandLine& command = molar.command("import", "A scan becomes a patient folder, de-identified");
   command
-      .option("SOURCE", options->source,
-              "Folder of DICOM files; folder with ct.nrrd, labels.nrrd and teeth.nrrd; or one volume file")
+      .option(
+          "SOURCE", options->source,
+          "Folder of DICOM files; https://HOST/PATH of DICOMweb or dicom://HOST:PORT/AETITLE, with --find; folder with "
+          "ct.nrrd, labels.nrrd and teeth.nrrd; or one volume file")
       .required();
   command.option("--out", options->out,
                  "Patient folder to write [a new one in the data folder, which molar start offers]");
@@ -375,7 +379,7 @@ void addImport(CommandLine& molar) {
 
 void addInspect(CommandLine& molar) {
   auto options = std::make_shared<InspectOptions>();
-  CommandLine& command = molar.command("inspect", "What a patient folder, or a DICOM folder, holds");
+  CommandLine& command = molar.command("inspect", "What a patient folder, a DICOM folder or a server's study holds");
   command.option("PATIENT", options->patient, kPatientHelp).required();
   command.flag("--json", options->json, "For programs");
   addDicomOptions(command, options->dicom);

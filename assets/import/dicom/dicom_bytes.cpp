@@ -39,11 +39,18 @@ DicomBytes DicomBytes::ofMemory(std::string bytes) {
   return made;
 }
 
+DicomBytes DicomBytes::ofView(std::span<const char> bytes) {
+  DicomBytes made;
+  made.size_ = bytes.size();
+  made.view_ = bytes;
+  return made;
+}
+
 bool DicomBytes::read(std::uint64_t from_byte, std::span<char> out) const {
   if (from_byte > size_ || out.size() > size_ - from_byte) return false;
   if (out.empty()) return true;
   if (!file_) {
-    std::memcpy(out.data(), memory_.data() + from_byte, out.size());
+    std::memcpy(out.data(), (view_.empty() ? memory_.data() : view_.data()) + from_byte, out.size());
     return true;
   }
   try {
@@ -89,6 +96,7 @@ bool DicomBytes::inflateFrom(std::uint64_t from_byte) {
     if (whole.size() > kMaxInflated_bytes) return false;
   }
   file_.reset();
+  view_ = {};
   memory_ = std::move(whole);
   size_ = memory_.size();
   return true;

@@ -23,6 +23,8 @@ class DicomBytes {
 
   /// Of memory.
   static DicomBytes ofMemory(std::string bytes);
+  /// Of memory that outlives it.
+  static DicomBytes ofView(std::span<const char> bytes);
 
   std::uint64_t size() const { return size_; }
   /// False, with nothing promised of `out`, unless all of it lies in the file and can be read.
@@ -36,7 +38,8 @@ class DicomBytes {
   DicomBytes();
 
   std::unique_ptr<RegularFile> file_;
-  std::string memory_;  ///< instead of the file
+  std::string memory_;            ///< instead of the file
+  std::span<const char> view_{};  ///< instead of both
   std::uint64_t size_ = 0;
   mutable std::uint64_t window_begin_ = 0;
   mutable std::vector<char> window_;

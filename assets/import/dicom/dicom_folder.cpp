@@ -97,6 +97,39 @@ std::string numberedName(const std::string& path) {
   return name;
 }
 
+namespace {
+
+/// Files that the owner leaves out, by any of their names.
+class LeftOut {
+ public:
+  explicit LeftOut(const std::vector<std::string>& without) : without_(without), is_used_(without.size(), false) {}
+
+  bool holds(std::initializer_list<std::string_view> names) {
+    bool is_out = false;
+    for (std::size_t w = 0; w < without_.size(); ++w)
+      if (std::ranges::find(names, without_[w]) != names.end()) is_used_[w] = is_out = true;
+    return is_out;
+  }
+  void requireAllUsed() const {
+    for (std::size_t w = 0; w < without_.size(); ++w)
+      if (!is_used_[w])
+        throw LoadError("scan: --without names file " + std::to_string(w + 1) +
+                        " of the list, which is not in it; give a file's name, or \"file 12\" as a message says it");
+  }
+
+ private:
+  const std::vector<std::string>& without_;
+  std::vector<bool> is_used_;
+};
+
+std::string numbered(std::size_t n) { return "file " + std::to_string(n + 1); }
+
+}  // namespace
+
+DicomBytes DicomFile::pixels() const {
+  return pixelBytes(received.empty() ? DicomBytes(path) : DicomBytes::ofView(received), header);
+}
+
 DicomFolder readDicomFolder(const std::string& source, const std::vector<std::string>& without) {
   const fs::path root = rootOf(source);
   std::error_code error;
@@ -105,29 +138,37 @@ DicomFolder readDicomFolder(const std::string& source, const std::vector<std::st
   std::erase_if(paths, isDirectoryList);
 
   DicomFolder folder;
+  LeftOut left_out(without);
   std::map<std::string, int> times_named;
   for (const fs::path& path : paths) ++times_named[path.filename().string()];
-  std::vector<bool> is_used(without.size(), false);
   for (std::size_t n = 0; n < paths.size(); ++n) {
     DicomFile file{paths[n].string(), "", headerOf(paths[n])};
     const std::string name = paths[n].filename().string();
-    const std::string numbered = "file " + std::to_string(n + 1);
     const bool is_shown = isPlainFileName(name) && !file.header.name_is_telling && times_named[name] == 1;
-    file.shown = is_shown ? name : numbered;
+    file.shown = is_shown ? name : numbered(n);
     const std::string relative = is_folder ? paths[n].lexically_relative(root).string() : name;
-    bool is_out = false;
-    for (std::size_t w = 0; w < without.size(); ++w)
-      if (without[w] == name || without[w] == relative || without[w] == file.shown || without[w] == numbered)
-        is_used[w] = is_out = true;
-    if (is_out)
+    if (left_out.holds({name, relative, file.shown, numbered(n)}))
       ++folder.left_out;
     else
       folder.files.push_back(std::move(file));
   }
-  for (std::size_t w = 0; w < without.size(); ++w)
-    if (!is_used[w])
-      throw LoadError("scan: --without names file " + std::to_string(w + 1) +
-                      " of the list, which is not in it; give a file's name, or \"file 12\" as a message says it");
+  left_out.requireAllUsed();
+  return folder;
+}
+
+DicomFolder readDicomFolder(const ReceivedFiles& files, const std::vector<std::string>& without) {
+  DicomFolder folder;
+  LeftOut left_out(without);
+  for (std::size_t n = 0; n < files.count(); ++n) {
+    if (left_out.holds({numbered(n)})) {
+      ++folder.left_out;
+      continue;
+    }
+    DicomFile file{"", numbered(n), {}, files.file(n)};
+    file.header = openDicom(DicomBytes::ofView(file.received), "").header;
+    folder.files.push_back(std::move(file));
+  }
+  left_out.requireAllUsed();
   return folder;
 }
 

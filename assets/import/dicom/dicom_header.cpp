@@ -373,8 +373,7 @@ OpenedDicom openDicom(const std::string& path, const std::string& file_name) {
   return openDicom(DicomBytes(path), file_name);
 }
 
-DicomBytes pixelBytes(const std::string& path, const DicomHeader& header) {
-  DicomBytes bytes(path);
+DicomBytes pixelBytes(DicomBytes bytes, const DicomHeader& header) {
   if (header.syntax->is_deflated) bytes.inflateFrom(header.data_set_at);
   return bytes;
 }

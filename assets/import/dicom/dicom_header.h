@@ -93,9 +93,8 @@ struct OpenedDicom {
 };
 OpenedDicom openDicom(const std::string& path, const std::string& file_name);
 
-/// The bytes that the positions of a header mean: those of the file, inflated where it is deflated. Throws LoadError
-/// where the file cannot be opened any more.
-DicomBytes pixelBytes(const std::string& path, const DicomHeader& header);
+/// The bytes that the positions of a header mean: those of its file, inflated where it is deflated.
+DicomBytes pixelBytes(DicomBytes bytes, const DicomHeader& header);
 
 /// The same of bytes in memory.
 OpenedDicom openDicom(DicomBytes bytes, const std::string& file_name);

@@ -378,12 +378,24 @@ const DicomVerdict* DicomSurvey::refusal() const {
   return found == verdicts.end() ? nullptr : &*found;
 }
 
-DicomSurvey surveyDicom(const std::string& source, const DicomChoices& choices) {
+namespace {
+
+DicomSurvey surveyOf(DicomFolder folder, const DicomChoices& choices) {
   DicomSurvey survey;
-  survey.folder = readDicomFolder(source, choices.without);
+  survey.folder = std::move(folder);
   survey.sorted = sortDicom(survey.folder);
   Judge(survey, choices).run();
   return survey;
+}
+
+}  // namespace
+
+DicomSurvey surveyDicom(const std::string& source, const DicomChoices& choices) {
+  return surveyOf(readDicomFolder(source, choices.without), choices);
+}
+
+DicomSurvey surveyDicom(const ReceivedFiles& files, const DicomChoices& choices) {
+  return surveyOf(readDicomFolder(files, choices.without), choices);
 }
 
 }  // namespace assets

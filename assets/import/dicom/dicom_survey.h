@@ -47,4 +47,7 @@ struct DicomSurvey {
 /// Throws LoadError: nothing there, too much of it, a choice that the source has no place for.
 DicomSurvey surveyDicom(const std::string& source, const DicomChoices& choices);
 
+/// Of what a server sent, which outlives the survey.
+DicomSurvey surveyDicom(const ReceivedFiles& files, const DicomChoices& choices);
+
 }  // namespace assets

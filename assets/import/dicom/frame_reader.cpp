@@ -37,7 +37,7 @@ class OpenFile {
     if (bytes_ && file_ == file) return &*bytes_;
     bytes_.reset();
     try {
-      bytes_.emplace(pixelBytes(folder_.files[file].path, folder_.files[file].header));
+      bytes_.emplace(folder_.files[file].pixels());
     } catch (const LoadError&) {
       return nullptr;
     }
