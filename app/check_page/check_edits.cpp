@@ -24,6 +24,8 @@ json entryOf(const CheckEdit& edit) {
   assets::JawClicks one;
   if (const auto* const tooth = std::get_if<assets::ToothClick>(&edit)) one.teeth.push_back(*tooth);
   if (const auto* const canal = std::get_if<CanalClicks>(&edit)) one.canals.push_back(canal->at_P_mm);
+  if (const auto* const stroke = std::get_if<assets::BrushStroke>(&edit)) one.voxels.emplace_back(*stroke);
+  if (const auto* const cut = std::get_if<assets::JawCut>(&edit)) one.voxels.emplace_back(*cut);
   json entry = json::parse(jawClicksText(one)).at("clicks").at(0);
   if (const auto* const canal = std::get_if<CanalClicks>(&edit)) entry["side"] = canal->is_right ? "right" : "left";
   return entry;
@@ -43,6 +45,7 @@ CheckEdit editOf(json entry, const std::string& name) {
   entry.erase("side");
   const assets::JawClicks clicks = jawClicksFrom(json{{"clicks", json::array({std::move(entry)})}}.dump(), name);
   if (!clicks.teeth.empty()) return clicks.teeth.front();
+  if (!clicks.voxels.empty()) return std::visit([](const auto& one) { return CheckEdit(one); }, clicks.voxels.front());
   if (!is_canal) throw refuse();
   return CanalClicks{is_right, clicks.canals.front()};
 }
@@ -56,6 +59,7 @@ CheckEdits::CheckEdits(const assets::JawClicks& clicks, double middle_x_P_mm) {
     for (const glm::dvec3& p : canal) x_P_mm += p.x / static_cast<double>(canal.size());
     add(CanalClicks{x_P_mm < middle_x_P_mm, canal});
   }
+  for (const assets::VoxelEdit& edit : clicks.voxels) std::visit([this](const auto& one) { add(one); }, edit);
 }
 
 bool CheckEdits::add(CheckEdit edit) {
@@ -89,10 +93,20 @@ assets::JawClicks CheckEdits::clicks() const {
   for (std::size_t n = 0; n < done_; ++n) {
     if (const auto* const tooth = std::get_if<assets::ToothClick>(&edits_[n])) clicks.teeth.push_back(*tooth);
     if (const auto* const canal = std::get_if<CanalClicks>(&edits_[n])) canals[canal->is_right ? 0 : 1] = canal;
+    if (const auto* const stroke = std::get_if<assets::BrushStroke>(&edits_[n])) clicks.voxels.emplace_back(*stroke);
+    if (const auto* const cut = std::get_if<assets::JawCut>(&edits_[n])) clicks.voxels.emplace_back(*cut);
   }
   for (const CanalClicks* const canal : canals)
     if (canal != nullptr) clicks.canals.push_back(canal->at_P_mm);
   return clicks;
+}
+
+const CanalClicks* CheckEdits::canalOn(bool is_right) const {
+  const CanalClicks* found = nullptr;
+  for (std::size_t n = 0; n < done_; ++n)
+    if (const auto* const canal = std::get_if<CanalClicks>(&edits_[n]); canal != nullptr && canal->is_right == is_right)
+      found = canal;
+  return found;
 }
 
 std::optional<bool> CheckEdits::wordOn(bool is_right, double length_mm) const {
@@ -111,10 +125,15 @@ CheckEdits CheckEdits::inForce() const {
   return some;
 }
 
+bool CheckEdits::isLike(const CheckEdits& other) const {
+  return std::equal(edits_.begin(), edits_.begin() + static_cast<std::ptrdiff_t>(done_), other.edits_.begin(),
+                    other.edits_.begin() + static_cast<std::ptrdiff_t>(other.done_));
+}
+
 std::string CheckEdits::text(bool is_saved) const {
   json list = json::array();
   for (const CheckEdit& edit : edits_) list.push_back(entryOf(edit));
-  return json{{"edits", list}, {"done", done_}, {"saved", is_saved}}.dump(1) + "\n";
+  return json{{"edits", list}, {"done", done_}, {"saved", is_saved}}.dump() + "\n";
 }
 
 CheckEdits CheckEdits::fromText(const std::string& text, const std::string& name) {
@@ -130,7 +149,7 @@ CheckEdits CheckEdits::fromText(const std::string& text, const std::string& name
   return edits;
 }
 
-std::vector<glm::dvec3> withPoint(std::vector<glm::dvec3> line, const glm::dvec3& point) {
+std::size_t placeInWay(const std::vector<glm::dvec3>& line, const glm::dvec3& point) {
   std::size_t best = 1;
   double least_mm = 1e18;
   for (std::size_t n = 1; n < line.size(); ++n) {
@@ -138,7 +157,11 @@ std::vector<glm::dvec3> withPoint(std::vector<glm::dvec3> line, const glm::dvec3
         glm::distance(line[n - 1], point) + glm::distance(point, line[n]) - glm::distance(line[n - 1], line[n]);
     if (longer_mm < least_mm) least_mm = longer_mm, best = n;
   }
-  line.insert(line.begin() + static_cast<std::ptrdiff_t>(std::min(best, line.size())), point);
+  return std::min(best, line.size());
+}
+
+std::vector<glm::dvec3> withPoint(std::vector<glm::dvec3> line, const glm::dvec3& point) {
+  line.insert(line.begin() + static_cast<std::ptrdiff_t>(placeInWay(line, point)), point);
   return line;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 #include <utility>
 
 #include <fmt/core.h>
@@ -14,6 +15,10 @@ double lineLength_mm(const std::vector<glm::dvec3>& line) {
   double length = 0.0;
   for (std::size_t n = 1; n < line.size(); ++n) length += glm::distance(line[n - 1], line[n]);
   return length;
+}
+
+std::string paintName(std::uint8_t as) {
+  return as == assets::kPaintNothing ? "erase" : as == assets::kPaintBone ? "bone" : fmt::format("tooth {}", as);
 }
 
 std::vector<CheckRow> checkRows(const assets::JawSegmentation& jaw, const CheckEdits& edits, int operated_fdi) {
@@ -62,9 +67,9 @@ std::vector<CheckRow> checkRows(const assets::JawSegmentation& jaw, const CheckE
 }
 
 CheckMenu::CheckMenu(CheckEdits edits, bool may_edit, const CheckEdits& saved)
-    : edits_(std::move(edits)), may_edit_(may_edit), saved_text_(saved.inForce().text()) {}
+    : edits_(std::move(edits)), may_edit_(may_edit), saved_(saved.inForce()) {}
 
-void CheckMenu::saved() { saved_text_ = edits_.inForce().text(); }
+void CheckMenu::saved() { saved_ = edits_.inForce(); }
 
 bool CheckMenu::add(CheckEdit edit) {
   if (!may_edit_) {
@@ -85,6 +90,9 @@ void CheckMenu::choose(CheckTool tool) {
   begins_canal_ = true;
   number_ = 0;
   asks_ = false;
+  // The brush begins with the tooth that is looked at.
+  if (tool == CheckTool::brush && selected_ < rows_.size() && rows_[selected_].fdi != 0)
+    brush_.as = static_cast<std::uint8_t>(rows_[selected_].fdi);
   say("", false);
 }
 
@@ -199,10 +207,33 @@ void CheckMenu::type(char32_t letter) {
     number_ = number_ >= 10 ? small - '0' : 10 * number_ + (small - '0');
     return;
   }
+  if (tool_ == CheckTool::brush && std::string_view("0123456789[]g").find(small) != std::string_view::npos)
+    return setBrush(small);
   for (const CheckToolName& tool : kCheckTools)
     if (tool.key == small) return choose(tool.tool);
   if (letter == U'u') act(CheckAction::undo);
   if (letter == U'U') act(CheckAction::redo);
+}
+
+void CheckMenu::setBrush(char letter) {
+  static constexpr std::array kRadii_mm{assets::kLeastBrush_mm, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, assets::kMostBrush_mm};
+  const auto now = std::ranges::lower_bound(kRadii_mm, brush_.radius_mm);
+  if (letter == '[') brush_.radius_mm = now == kRadii_mm.begin() ? *now : *(now - 1);
+  if (letter == ']') brush_.radius_mm = now + 1 >= kRadii_mm.end() ? kRadii_mm.back() : *(now + 1);
+  if (letter == 'g') brush_.only_like_here = !brush_.only_like_here;
+  if (letter == '0') brush_.as = assets::kPaintNothing;
+  if (letter == '9') brush_.as = assets::kPaintBone;
+  if (letter >= '1' && letter <= '8')
+    brush_.as = static_cast<std::uint8_t>((is_cursor_right_ ? 40 : 30) + (letter - '0'));
+  say("", false);
+}
+
+void CheckMenu::addCanal(CanalClicks canal) {
+  if (canal.at_P_mm.size() < assets::kLeastCanalClicks) return say("a canal has at least both of its ends", true);
+  if (canal.at_P_mm.size() > assets::kMostCanalClicks)
+    return say(fmt::format("a canal has at most {} points", assets::kMostCanalClicks), true);
+  pending_.clear();
+  begins_canal_ = !add(std::move(canal));
 }
 
 void CheckMenu::clickCanal(const glm::dvec3& p_P_mm, bool is_right) {
@@ -246,6 +277,10 @@ void CheckMenu::clickAt(const glm::dvec3& p_P_mm, bool is_right) {
     case CheckTool::no_tooth:
       click.edit = assets::ToothEdit::no_tooth;
       break;
+    case CheckTool::cut:
+      pending_.push_back(p_P_mm);
+      if (pending_.size() == 3) add(assets::JawCut{pending_[0], pending_[1], pending_[2]}), pending_.clear();
+      return;
     default:
       click.edit = assets::ToothEdit::root_tip;
       break;
@@ -256,8 +291,13 @@ void CheckMenu::clickAt(const glm::dvec3& p_P_mm, bool is_right) {
 std::string CheckMenu::hint() const {
   const auto tool = std::ranges::find(kCheckTools, tool_, &CheckToolName::tool);
   std::string words = std::string(tool->name) + ": " + tool->about;
+  if (tool_ == CheckTool::brush)
+    words = fmt::format("Brush: {}, {:g} mm, {} · keys 1 to 8 tooth, 9 bone, 0 erase, [ ] size, G grey",
+                        paintName(brush_.as), 2.0 * brush_.radius_mm,
+                        brush_.only_like_here ? "only as grey as where it begins" : "whatever is there");
   if (tool_ == CheckTool::number && number_ != 0) words += fmt::format(" · {}", number_);
-  if (!pending_.empty()) words += " · one place clicked, Esc forgets it";
+  if (pending_.size() == 1) words += " · one place clicked, Esc forgets it";
+  if (pending_.size() == 2) words += " · both ends clicked, now a place beyond the line";
   return words;
 }
 

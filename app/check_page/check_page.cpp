@@ -20,7 +20,9 @@ constexpr std::array<Ink, 3> kLights{kWarning, inkOf(0x35b779), inkOf(0xe0533d)}
 
 constexpr double kPanelWidth_px = 304.0, kBar_px = 30.0, kTitle_px = 34.0, kGap_px = 4.0, kRow_px = 20.0,
                  kText_px = 13.0, kButton_px = 26.0, kToolRow_px = 30.0;
-constexpr double kNear_mm = 1.5;
+constexpr double kNear_mm = 1.5, kHandle_mm = 3.0;
+/// Of tools, then actions.
+constexpr double kToolRows = static_cast<double>(kCheckTools.size() / 2 + 3);
 
 struct Box {
   glm::dvec2 corner{0.0}, size{0.0};
@@ -52,13 +54,13 @@ Box viewBox(JawView view, glm::ivec2 window_px) {
 
 Box toolBox(std::size_t tool, glm::ivec2 window_px) {
   const double width = 0.5 * (kPanelWidth_px - 3.0 * kGap_px);
-  const double top = window_px.y - kBar_px - kToolRow_px * 7.0 + kToolRow_px * static_cast<double>(tool / 2);
+  const double top = window_px.y - kBar_px - kToolRow_px * kToolRows + kToolRow_px * static_cast<double>(tool / 2);
   return {{kGap_px + static_cast<double>(tool % 2) * (width + kGap_px), top}, {width, kButton_px}};
 }
 
 /// Confirm and refuse, undo and redo, save below them.
 Box actionBox(std::size_t action, glm::ivec2 window_px) {
-  Box box = toolBox(8 + action, window_px);
+  Box box = toolBox(kCheckTools.size() + action, window_px);
   if (action == 4) box.size.x = kPanelWidth_px - 2.0 * kGap_px;
   return box;
 }
@@ -140,15 +142,17 @@ const render::Image& CheckPage::viewPicture(JawView view, const CheckMenu& menu,
   const glm::dvec3 at = view == JawView::panoramic || (view == JawView::solid && look.zoom <= 1.01)
                             ? glm::dvec3(0.0)
                             : menu.cursor_P_mm();
-  std::string key =
-      fmt::format("{} {} {} {} {} {} {} {}", version_, px.x, px.y, at.x, at.y, at.z, range.low_hu, range.high_hu);
+  const bool is_slice = view != JawView::panoramic && view != JawView::solid;
+  std::string key = fmt::format("{} {} {} {} {} {} {} {}", is_slice ? slice_version_ : version_, px.x, px.y, at.x, at.y,
+                                at.z, range.low_hu, range.high_hu);
   if (view == JawView::solid) key += fmt::format(" {} {} {}", look.turn_rad, look.tilt_rad, look.zoom);
   if (key != kept.key) kept = {key, views_.picture(view, menu.cursor_P_mm(), look, range, px)};
   return kept.image;
 }
 
 render::Image CheckPage::picture(const CheckMenu& menu, const std::vector<assets::CanalProposal>& canals,
-                                 const std::string& title, const CheckProgress& progress, glm::ivec2 window_px) {
+                                 const std::string& title, const CheckProgress& progress, const CheckHand& hand,
+                                 glm::ivec2 window_px) {
   const Drawing page(window_px, 1.0);
   page.fill(kGround);
   const glm::dvec3 cursor_P_mm = menu.cursor_P_mm();
@@ -188,6 +192,25 @@ render::Image CheckPage::picture(const CheckMenu& menu, const std::vector<assets
                           1.5, kCanal);
           }
         }
+      }
+      if (!hand.drawn_P_mm.empty()) {
+        std::vector<glm::dvec2> line;
+        for (const glm::dvec3& p : hand.drawn_P_mm) line.push_back(placed(p));
+        page.path(line, 2.0, kClick);
+      }
+      for (const std::vector<glm::dvec3>& points : hand.canal_points)
+        for (const glm::dvec3& p : points) {
+          const bool is_off =
+              view != JawView::solid && view != JawView::panoramic && std::abs(plane.of(p).z) > kHandle_mm;
+          const glm::dvec2 at = view == JawView::panoramic ? placed(p) : box.corner + glm::dvec2(plane.of(p));
+          if (is_off || !std::isfinite(at.x)) continue;
+          page.disc(at, 6.0, kRim);
+          page.disc(at, 4.5, kClick);
+        }
+      if (hand.brush && hand.brush->view == view) {
+        const glm::dvec2 at = box.corner + hand.brush->at_px;
+        page.circle(at, menu.brush().radius_mm / plane.pixel_mm, 3.0, kRim);
+        page.circle(at, menu.brush().radius_mm / plane.pixel_mm, 1.5, kClick);
       }
       if (const glm::dvec2 at = placed(cursor_P_mm); std::isfinite(at.x)) {
         page.cross(at, 11.0, 3.0, kRim);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "app/check_page/check_menu.h"
 #include "app/check_page/jaw_views.h"
@@ -21,6 +22,13 @@ struct RowPlace {
   std::size_t row = 0;
 };
 using CheckPlace = std::variant<ViewPlace, RowPlace, CheckTool, CheckAction>;
+
+/// What lies under the hand, besides the cursor.
+struct CheckHand {
+  std::optional<ViewPlace> brush{};                   ///< where its circle is
+  std::vector<std::vector<glm::dvec3>> canal_points;  ///< to be taken hold of
+  std::vector<glm::dvec3> drawn_P_mm;                 ///< the canal as it would lead now
+};
 
 /// What is worked on; empty: nothing.
 struct CheckProgress {
@@ -38,13 +46,16 @@ class CheckPage {
   glm::dvec2 cornerOf(JawView view, glm::ivec2 window_px) const;
 
   /// Teeth were taken into the views.
-  void forget() { ++version_; }
+  void forget() { ++version_, ++slice_version_; }
+  /// Voxels were: until forget() in the slices alone.
+  void forgetSlices() { ++slice_version_; }
   SolidLook look{};
   GreyRange range{};
 
   /// `canals`: of what was found.
   render::Image picture(const CheckMenu& menu, const std::vector<assets::CanalProposal>& canals,
-                        const std::string& title, const CheckProgress& progress, glm::ivec2 window_px);
+                        const std::string& title, const CheckProgress& progress, const CheckHand& hand,
+                        glm::ivec2 window_px);
 
  private:
   const render::Image& viewPicture(JawView view, const CheckMenu& menu, glm::ivec2 px);
@@ -55,7 +66,7 @@ class CheckPage {
   };
   const JawViews& views_;
   std::array<Kept, kJawViews> kept_;
-  int version_ = 0;
+  int version_ = 0, slice_version_ = 0;
 };
 
 }  // namespace app

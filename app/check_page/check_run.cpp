@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostLog_bytes = 1u << 20;
+constexpr std::size_t kMostLog_bytes = 1u << 24;
 constexpr double kClick_px = 4.0, kTurn_rad_per_px = 0.01, kMostTilt_rad = 1.4, kHuPerPx = 6.0;
 
 /// What a folder holds, as if it had just been found.
@@ -81,6 +81,13 @@ CheckEdits savedEdits(const std::string& folder, const assets::Patient& patient,
   return edits;
 }
 
+/// What the jaw is found with; strokes and cuts are painted on it.
+assets::JawClicks clicksToFind(const CheckEdits& edits) {
+  assets::JawClicks clicks = edits.clicks();
+  clicks.voxels.clear();
+  return clicks;
+}
+
 struct Edits {
   CheckEdits now, saved;
 };
@@ -93,7 +100,7 @@ Edits editsOf(const std::string& folder, const assets::Patient& patient, double 
   const std::string log = checkLogPath(folder);
   if (!exists(log)) return edits;
   CheckEdits kept = CheckEdits::fromText(assets::readSmallFile(log, kMostLog_bytes), log);
-  const bool is_same = jawClicksText(kept.clicks()) == jawClicksText(edits.saved.clicks());
+  const bool is_same = kept.clicks() == edits.saved.clicks();
   if (kept.wasSaved() && !is_same) return edits;
   if (kept.wasSaved()) edits.saved = kept;
   edits.now = std::move(kept);
@@ -143,8 +150,10 @@ CheckRun::CheckRun(std::string folder, ReportLine report)
         return CheckMenu(std::move(edits.now), may_edit_, edits.saved);
       }()),
       page_(views_),
-      found_(stored(patient_)),
-      logged_(menu_.edits().text(!menu_.isChanged())) {
+      painted_(patient_.ct, stored(patient_)),
+      stroke_(menu_, painted_, views_, page_, patient_.ct),
+      logged_(menu_.edits()),
+      was_logged_saved_(!menu_.isChanged()) {
   menu_.moveCursor(patient_.focus_P_mm());
   showFound();
   if (!may_edit_) {
@@ -161,7 +170,7 @@ CheckRun::~CheckRun() {
 }
 
 void CheckRun::showFound() {
-  std::vector<CheckRow> rows = checkRows(found_, menu_.edits(), patient_.site ? patient_.site->fdi : 0);
+  std::vector<CheckRow> rows = checkRows(found(), menu_.edits(), patient_.site ? patient_.site->fdi : 0);
   for (CheckRow& row : rows)
     if (row.kind == CheckRow::Kind::tooth && row.is_there)
       row.at_P_mm = views_.nearestOf(row.fdi != 0 ? static_cast<std::uint8_t>(row.fdi) : kPieceVoxel, row.at_P_mm);
@@ -170,11 +179,11 @@ void CheckRun::showFound() {
 }
 
 void CheckRun::keepLog(bool is_saved) {
-  const std::string text = menu_.edits().text(is_saved);
-  if (text == logged_) return;
-  logged_ = text;
+  const CheckEdits& edits = menu_.edits();
+  if (is_saved == was_logged_saved_ && edits.done() == logged_.done() && edits.all() == logged_.all()) return;
+  logged_ = edits, was_logged_saved_ = is_saved;
   try {
-    calibration::OutputFile(checkLogPath(folder_), true).commit(text);
+    calibration::OutputFile(checkLogPath(folder_), true).commit(edits.text(is_saved));
   } catch (const calibration::CalibrationError& error) {
     if (!is_log_lost_) report_(error.what());
     if (!is_log_lost_) menu_.say("edits cannot be kept beside the patient: save before you leave", true);
@@ -185,12 +194,28 @@ void CheckRun::keepLog(bool is_saved) {
 void CheckRun::askIfChanged() {
   if (!search_) return;
   keepLog(!menu_.isChanged());
-  const std::string clicks = jawClicksText(menu_.edits().clicks());
+  const assets::JawClicks clicks = clicksToFind(menu_.edits());
   if (clicks != asked_) {
     asked_ = clicks;
-    clicks == shown_ ? search_->leaveIt() : search_->ask(menu_.edits().clicks());
+    clicks == shown_ ? search_->leaveIt() : search_->ask(clicks);
   }
+  paintIfChanged();
   menu_.setBusy(isBusy());
+}
+
+void CheckRun::paintIfChanged() {
+  if (stroke_.isDrawn()) return;
+  bool is_painted = false;
+  const bool could = painted_.follow(menu_.edits().clicks().voxels, [&](std::size_t v, assets::VoxelLabel now) {
+    views_.takeVoxel(v, now.label, now.tooth);
+    is_painted = true;
+  });
+  // What would have to be taken back was long ago: found anew, it is painted anew.
+  if (!could && !search_->isBusy()) {
+    shown_.reset();
+    search_->ask(*asked_);
+  }
+  if (is_painted) page_.forget();
 }
 
 void CheckRun::step() {
@@ -198,12 +223,14 @@ void CheckRun::step() {
     if (auto answer = search_->take()) {
       is_changed_ = true;
       if (answer->refusal.empty()) {
-        found_ = std::move(answer->jaw);
-        shown_ = jawClicksText(answer->clicks);
-        views_.take(whatOf(found_.label, found_.tooth));
+        stroke_.leave();
+        painted_.take(std::move(answer->jaw));
+        shown_ = std::move(answer->clicks);
+        painted_.follow(menu_.edits().clicks().voxels, [](std::size_t, assets::VoxelLabel) {});
+        views_.take(whatOf(found().label, found().tooth));
         page_.forget();
         showFound();
-        report_(fmt::format("shown: {} teeth, {} canals", found_.teeth.size(), found_.canals.size()));
+        report_(fmt::format("shown: {} teeth, {} canals", found().teeth.size(), found().canals.size()));
       } else if (menu_.edits().done() > 0) {
         report_(answer->refusal);
         menu_.refuseLast(answer->refusal);
@@ -237,7 +264,7 @@ void CheckRun::finish() {
 }
 
 void CheckRun::save() {
-  saving_ = std::async(std::launch::async, [this, patient = patient_, jaw = found_, edits = menu_.edits()]() mutable {
+  saving_ = std::async(std::launch::async, [this, patient = patient_, jaw = found(), edits = menu_.edits()]() mutable {
     try {
       const assets::Patient checked = checkedPatient(std::move(patient), std::move(jaw), edits);
       assets::savePatientAgain(checked, folder_, jawClicksText(edits.clicks()));
@@ -251,6 +278,7 @@ void CheckRun::save() {
 
 bool CheckRun::answer(CheckMenu::Answer answer) {
   is_changed_ = true;
+  menu_.setSide(views_.isRight(menu_.cursor_P_mm()));
   if (answer == CheckMenu::Answer::leave) return false;
   if (answer == CheckMenu::Answer::save && !isBusy()) save();
   // Words on a canal change the lights alone.
@@ -265,7 +293,11 @@ bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
   if (isSaving()) return true;
   if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) {
     pointer_px_ = moved->to_px;
-    drag(*moved);
+    if (stroke_.isDrawn())
+      stroke_.moveTo(pointer_px_ - page_.cornerOf(held_view_, window_px), page_.sizeOf(held_view_, window_px));
+    else
+      drag(*moved);
+    if (menu_.tool() == CheckTool::brush) is_changed_ = true;
   }
   if (const auto* const wheel = std::get_if<render::WheelTurned>(&event)) turnWheel(wheel->notches, window_px);
   if (const auto* const letter = std::get_if<render::LetterTyped>(&event)) {
@@ -275,7 +307,7 @@ bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
   if (const auto* const key = std::get_if<render::KeyPressed>(&event)) {
     // Work that is not wanted any more ends with the edit that asked for it.
     if (key->down && key->key == render::Key::escape && search_ && search_->isBusy() && menu_.edits().done() > 0 &&
-        !menu_.asks() && menu_.pending().empty() && !found_.label.empty()) {
+        !menu_.asks() && menu_.pending().empty() && painted_.isFound() && !menu_.edits().lastIsPainted()) {
       search_->leaveIt();
       menu_.refuseLast("stopped");
       return answer(CheckMenu::Answer::none);
@@ -295,11 +327,21 @@ void CheckRun::clickIn(const ViewPlace& place, glm::ivec2 window_px) {
   answer(CheckMenu::Answer::none);
 }
 
+std::optional<ViewPlace> CheckRun::viewUnder(const glm::dvec2& at_px, glm::ivec2 window_px) const {
+  const auto place = page_.placeAt(menu_, at_px, window_px);
+  const auto* const view = place ? std::get_if<ViewPlace>(&*place) : nullptr;
+  return view != nullptr ? std::optional(*view) : std::nullopt;
+}
+
 void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
   const auto place = page_.placeAt(menu_, at_px, window_px);
   if (!place) return;
   if (const auto* const view = std::get_if<ViewPlace>(&*place)) {
-    if (view->view == JawView::solid)
+    const bool is_slice = view->view != JawView::solid && view->view != JawView::panoramic;
+    if (menu_.tool() == CheckTool::brush && is_slice) {
+      held_view_ = view->view;
+      stroke_.begin(*view, page_.sizeOf(view->view, window_px));
+    } else if (view->view == JawView::solid)
       pressed_px_ = at_px, is_dragged_ = false;
     else
       clickIn(*view, window_px);
@@ -312,6 +354,11 @@ void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
 }
 
 void CheckRun::release(const glm::dvec2& at_px, glm::ivec2 window_px) {
+  if (stroke_.isDrawn()) {
+    stroke_.end();
+    answer(CheckMenu::Answer::none);
+    return;
+  }
   const bool was_pressed = std::exchange(pressed_px_, std::nullopt).has_value();
   if (!was_pressed || is_dragged_) return;
   const auto place = page_.placeAt(menu_, at_px, window_px);
@@ -364,7 +411,9 @@ render::Image CheckRun::picture(glm::ivec2 window_px) {
   CheckProgress progress;
   if (search_ && search_->isBusy()) progress = {search_->stage(), search_->seconds()};
   if (isSaving()) progress = {"saving", 0.0};
-  return page_.picture(menu_, found_.canals, patient_.shownTitle(), progress, window_px);
+  CheckHand hand;
+  if (menu_.tool() == CheckTool::brush) hand.brush = viewUnder(pointer_px_, window_px);
+  return page_.picture(menu_, found().canals, patient_.shownTitle(), progress, hand, window_px);
 }
 
 }  // namespace app

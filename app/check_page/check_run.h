@@ -14,7 +14,9 @@
 
 #include "app/check_page/check_menu.h"
 #include "app/check_page/check_page.h"
+#include "app/check_page/drawn_stroke.h"
 #include "app/check_page/jaw_search.h"
+#include "app/check_page/painted_jaw.h"
 #include "app/text/message.h"
 #include "assets/patient.h"
 
@@ -46,7 +48,7 @@ class CheckRun {
 
   const CheckMenu& menu() const { return menu_; }
   const JawViews& views() const { return views_; }
-  const assets::JawSegmentation& found() const { return found_; }
+  const assets::JawSegmentation& found() const { return painted_.jaw(); }
   /// In the window, for a place in the scan: of the view's slice through the cursor.
   glm::dvec2 placeOf(JawView view, const glm::dvec3& p_P_mm, glm::ivec2 window_px) const;
 
@@ -58,6 +60,9 @@ class CheckRun {
   bool answer(CheckMenu::Answer answer);
   void clickIn(const ViewPlace& place, glm::ivec2 window_px);
   void askIfChanged();
+  /// Strokes and cuts in force.
+  void paintIfChanged();
+  std::optional<ViewPlace> viewUnder(const glm::dvec2& at_px, glm::ivec2 window_px) const;
   void showFound();
   void keepLog(bool is_saved);
   void save();
@@ -70,11 +75,15 @@ class CheckRun {
   JawViews views_;
   CheckMenu menu_;
   CheckPage page_;
-  assets::JawSegmentation found_;
-  std::string asked_, shown_, logged_;    ///< clicks that were asked for, those that are shown; the log
+  PaintedJaw painted_;
+  DrawnStroke stroke_;
+  std::optional<assets::JawClicks> asked_, shown_;  ///< clicks on teeth and canals
+  CheckEdits logged_;
+  bool was_logged_saved_ = true;
   std::optional<glm::dvec2> pressed_px_;  ///< in the view in three dimensions
   bool is_dragged_ = false, is_changed_ = true, is_log_lost_ = false;
   glm::dvec2 pointer_px_{-1.0};
+  JawView held_view_ = JawView::axial;
   std::future<std::string> saving_;  ///< empty: saved; else why not
   std::unique_ptr<JawSearch> search_;
 };

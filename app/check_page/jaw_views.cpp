@@ -1,5 +1,6 @@
 #include "app/check_page/jaw_views.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -64,17 +65,21 @@ glm::dvec3 colourOf(std::uint8_t what) {
   return kColours[static_cast<std::size_t>((what % 10 + 7) % 8)];
 }
 
+std::uint8_t whatOf(std::uint8_t label, std::uint8_t tooth) {
+  if (tooth != 0) return tooth;
+  const assets::Tissue tissue{label};
+  if (tissue == assets::Tissue::other_teeth) return kPieceVoxel;
+  const bool is_bone = tissue == assets::Tissue::cortical || tissue == assets::Tissue::trabecular;
+  return is_bone ? kBoneVoxel : std::uint8_t{0};
+}
+
 std::vector<std::uint8_t> whatOf(const std::vector<std::uint8_t>& jaw_label, const std::vector<std::uint8_t>& tooth) {
   std::vector<std::uint8_t> what(jaw_label.size(), 0);
-  for (std::size_t v = 0; v < what.size(); ++v) {
-    const auto label = assets::Tissue{jaw_label[v]};
-    if (!tooth.empty() && tooth[v] != 0)
-      what[v] = tooth[v];
-    else if (label == assets::Tissue::other_teeth)
-      what[v] = kPieceVoxel;
-    else if (label == assets::Tissue::cortical || label == assets::Tissue::trabecular)
-      what[v] = kBoneVoxel;
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, what.size(), 1u << 16),
+                    [&](const tbb::blocked_range<std::size_t>& part) {
+                      for (std::size_t v = part.begin(); v < part.end(); ++v)
+                        what[v] = whatOf(jaw_label[v], tooth.empty() ? std::uint8_t{0} : tooth[v]);
+                    });
   return what;
 }
 
@@ -129,6 +134,12 @@ JawViews::JawViews(const assets::Patient& patient, std::vector<std::uint8_t> wha
 void JawViews::take(std::vector<std::uint8_t> what) {
   what_ = std::move(what);
   findBricks();
+}
+
+void JawViews::takeVoxel(std::size_t v, std::uint8_t label, std::uint8_t tooth) {
+  what_[v] = whatOf(label, tooth);
+  if (what_[v] == 0) return;
+  is_used_[assets::indexIn(grid().bricks(), assets::elementAt(grid().size, v) / kBrick)] = 1;
 }
 
 void JawViews::findBricks() {

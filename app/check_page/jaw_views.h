@@ -44,6 +44,8 @@ class JawViews {
 
   /// Other teeth; axes, curve and grey values stay.
   void take(std::vector<std::uint8_t> what);
+  /// One voxel of them.
+  void takeVoxel(std::size_t v, std::uint8_t label, std::uint8_t tooth);
   const std::vector<std::uint8_t>& what() const { return what_; }
   const assets::VolumeGrid& grid() const { return patient_.ct.grid; }
   const JawAxes& axes() const { return axes_; }
@@ -102,6 +104,8 @@ class JawViews {
   assets::Panoramic unrolled_;
 };
 
+/// Of one voxel's tissue and FDI number.
+std::uint8_t whatOf(std::uint8_t label, std::uint8_t tooth);
 /// Of the labels of a volume; bone only where `jaw_label` says that it is the lower jaw's.
 std::vector<std::uint8_t> whatOf(const assets::CtVolume& ct);
 std::vector<std::uint8_t> whatOf(const std::vector<std::uint8_t>& jaw_label, const std::vector<std::uint8_t>& tooth);

@@ -23,6 +23,7 @@
 #include "assets/scan/image_file.h"
 #include "assets/scan/resampling.h"
 #include "assets/scan/solid_fraction.h"
+#include "assets/segment/voxel_edits.h"
 #include "assets/tooth.h"
 
 namespace assets {
@@ -182,6 +183,7 @@ FoundJaw findJaw(const std::string& name, const ScanImportOptions& options, CtVo
   if (options.stage) options.stage("shading");
   JawSegmentation found = segmentJaw(ct.grid, greyToSearch(ct), options.stage, options.clicks);
   if (found.refusal) throw JawRefused(name, *found.refusal);
+  applyVoxelEdits({ct.grid, ct.hounsfield}, options.clicks.voxels, found);
   return takeLabels(std::move(found), ct);
 }
 

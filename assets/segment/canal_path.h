@@ -10,10 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "assets/segment/bite_sheet.h"
-#include "assets/segment/mandible.h"
+#include "assets/segment/half_jaw.h"
 #include "assets/segment/tooth_numbers.h"
-#include "assets/segment/tooth_regions.h"
 
 namespace assets {
 
@@ -22,14 +20,6 @@ struct CanalProposal {
   std::vector<glm::dvec3> line_P_mm;  ///< about 1 mm apart, from the front
   double radius_mm = 1.3;             ///< usual in the body of the jaw; not measured
   bool is_confirmed = false;          ///< a person gave its ends
-};
-
-/// What a canal is looked for in.
-struct CanalScene {
-  const Mandible& jaw;
-  const ToothRegions& regions;
-  const JawArch& arch;
-  const BiteSheet& sheet;
 };
 
 /// Of the canals that a person has clicked that of one side; empty: none. Throws LoadError for a second one.

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -33,38 +34,58 @@ struct Case {
   std::vector<std::uint8_t> tissue, tooth, mandible;
 };
 
-/// The true canal of a side without its outermost 2 mm.
-std::vector<glm::dvec3> truthOf(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& tissue,
-                                const assets::CanalProposal& canal) {
-  const auto truth = assets::mandibularCanalLine(grid, tissue, canal.line_P_mm[canal.line_P_mm.size() / 2]);
-  if (!truth || truth->line_P_mm.size() < 10) return {};
-  return {truth->line_P_mm.begin() + 2, truth->line_P_mm.end() - 2};
+/// A side's true canal where it is labelled: where a root lies on it nobody knows its course.
+struct TrueCanal {
+  std::vector<glm::dvec3> line_P_mm, labelled_P_mm;
+};
+TrueCanal truthOf(const Case& scan, const assets::CanalProposal& canal) {
+  const auto found = assets::mandibularCanalLine(scan.grid, scan.tissue, canal.line_P_mm[canal.line_P_mm.size() / 2]);
+  if (!found || found->line_P_mm.size() < 10) return {};
+  TrueCanal truth{{found->line_P_mm.begin() + 2, found->line_P_mm.end() - 2}, {}};
+  for (const glm::dvec3& p : truth.line_P_mm) {
+    const glm::ivec3 at(glm::floor(scan.grid.indexFromPoint(p) + 0.5));
+    const std::uint8_t here = scan.grid.contains(at) ? scan.tissue[scan.grid.index(at)] : std::uint8_t{0};
+    if (assets::Tissue{here} == assets::Tissue::mandibular_canal) truth.labelled_P_mm.push_back(p);
+  }
+  return truth;
 }
 
-/// Both ends of each proposed canal's truth, half a millimetre off.
-assets::JawClicks clicksIn(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& tissue,
-                           const assets::JawSegmentation& jaw) {
-  std::mt19937 random(3);
-  std::normal_distribution<double> error(0.0, 0.5 / std::sqrt(3.0));
-  const auto near = [&](const glm::dvec3& p) { return p + glm::dvec3(error(random), error(random), error(random)); };
-  assets::JawClicks clicks;
-  for (const assets::CanalProposal& canal : jaw.canals)
-    if (const auto truth = truthOf(grid, tissue, canal); !truth.empty())
-      clicks.canals.push_back({near(truth.front()), near(truth.back())});
-  return clicks;
-}
-
-/// Mean and most, mm, from the true line.
-std::pair<double, double> missesBetween(const Case& scan, const assets::CanalProposal& canal) {
-  const std::vector<glm::dvec3> truth = truthOf(scan.grid, scan.tissue, canal);
+/// Mean and most, mm, from a true line.
+std::pair<double, double> misses(const std::vector<glm::dvec3>& truth, const std::vector<glm::dvec3>& line) {
   double sum = 0.0, most = 0.0;
   for (const glm::dvec3& p : truth) {
     double away = 1e9;
-    for (const glm::dvec3& q : canal.line_P_mm) away = std::min(away, glm::distance(p, q));
+    for (const glm::dvec3& q : line) away = std::min(away, glm::distance(p, q));
     sum += away / static_cast<double>(truth.size());
     most = std::max(most, away);
   }
   return {sum, most};
+}
+
+/// Both ends clicked, each half a millimetre off, by 20 hands.
+void judgeClicks(assets::JawFinder& finder, const Case& scan, const assets::CanalProposal& proposal) {
+  const TrueCanal truth = truthOf(scan, proposal);
+  if (truth.labelled_P_mm.empty()) return;
+  std::mt19937 random(3);
+  std::normal_distribution<double> error(0.0, 0.5 / std::sqrt(3.0));
+  const auto near = [&](const glm::dvec3& p) { return p + glm::dvec3(error(random), error(random), error(random)); };
+  std::vector<double> means;
+  double most = 0.0;
+  for (int hand = 0; hand < 20; ++hand) {
+    const std::vector<glm::dvec3> ends{near(truth.line_P_mm.front()), near(truth.line_P_mm.back())};
+    const assets::JawSegmentation jaw = finder.withClicks({{}, {ends}});
+    for (const assets::CanalProposal& canal : jaw.canals) {
+      if (!canal.is_confirmed) continue;
+      const auto [mean, worst] = misses(truth.labelled_P_mm, canal.line_P_mm);
+      means.push_back(mean);
+      most = std::max(most, worst);
+    }
+  }
+  std::ranges::sort(means);
+  if (means.empty()) return;
+  fmt::print("canal {} of two clicks, {} hands: median {:.2f}, 95 % {:.2f}, worst place {:.1f} mm\n",
+             proposal.is_right ? "right" : "left", means.size(), means[means.size() / 2],
+             means[static_cast<std::size_t>(0.95 * static_cast<double>(means.size() - 1))], most);
 }
 
 void judge(Case scan) {
@@ -91,7 +112,8 @@ void judge(Case scan) {
     stage = name;
     begun = Clock::now();
   };
-  const assets::JawSegmentation jaw = assets::segmentJaw(scan.grid, scan.grey, next);
+  assets::JawFinder finder(scan.grid, scan.grey, next);
+  const assets::JawSegmentation jaw = finder.withClicks({}, next);
   next("");
   fmt::print("  {:18} {:6.2f} s\n", "all", secondsSince(start));
   if (jaw.refusal) {
@@ -102,15 +124,7 @@ void judge(Case scan) {
   for (const assets::FoundTooth& tooth : jaw.teeth)
     fmt::print("  found {:2}: {:6.0f} mm3 at ({:.0f}, {:.0f}, {:.0f})\n", tooth.fdi, tooth.volume_mm3,
                tooth.centre_P_mm.x, tooth.centre_P_mm.y, tooth.centre_P_mm.z);
-  if (const auto clicks = clicksIn(scan.grid, scan.tissue, jaw); !clicks.canals.empty()) {
-    const assets::JawSegmentation clicked = assets::segmentJaw(scan.grid, scan.grey, {}, clicks);
-    for (const assets::CanalProposal& canal : clicked.canals) {
-      if (!canal.is_confirmed) continue;
-      fmt::print("canal {} of two clicks: from truth {:.2f} mm, worst {:.1f} mm, between the clicks\n",
-                 canal.is_right ? "right" : "left", missesBetween(scan, canal).first,
-                 missesBetween(scan, canal).second);
-    }
-  }
+  for (const assets::CanalProposal& canal : jaw.canals) judgeClicks(finder, scan, canal);
   std::fputs(tests::comparison(scan.grid, jaw, scan.tissue, scan.tooth, scan.mandible).c_str(), stdout);
 }
 

@@ -15,7 +15,11 @@ using assets::ToothEdit;
 CheckEdit anyEdit(std::mt19937& random) {
   std::uniform_real_distribution<double> place(-60.0, 60.0);
   const auto p = [&] { return glm::dvec3(place(random), place(random), place(random)); };
-  switch (random() % 4) {
+  switch (random() % 6) {
+    case 3:
+      return assets::BrushStroke{{p(), p()}, 1.5, 48, 100.0, 600.0};
+    case 4:
+      return assets::JawCut{p(), p(), p()};
     case 0:
       return CanalClicks{random() % 2 == 0, {p(), p(), p()}};
     case 1:
@@ -54,7 +58,7 @@ TEST(CheckEdits, AreThoseOfAPlainListAfterAnyUndoAndRedo) {
   }
 }
 
-TEST(CheckEdits, AllTwoHundredCanBeUndoneAndRedone) {
+TEST(CheckEdits, AllOfThemCanBeUndoneAndRedone) {
   CheckEdits edits;
   for (std::size_t n = 0; n < CheckEdits::kMost; ++n)
     EXPECT_TRUE(edits.add(assets::ToothClick{ToothEdit::no_tooth, {glm::dvec3(static_cast<double>(n)), {}}, 0}));

@@ -93,6 +93,34 @@ TEST(CheckMenu, ACanalIsTwoClicksAndFurtherOnesPullIt) {
   EXPECT_EQ(std::get<CanalClicks>(*one.edits().last()).at_P_mm.size(), 2u);
 }
 
+TEST(CheckMenu, NumberKeysSayWhatTheBrushPaints) {
+  CheckMenu one = menu();
+  one.type(U'b');
+  EXPECT_EQ(one.brush().as, 48) << "the tooth that is looked at";
+  one.type(U'7');
+  EXPECT_EQ(one.brush().as, 47);
+  one.setSide(false);
+  one.type(U'8');
+  EXPECT_EQ(one.brush().as, 38);
+  EXPECT_EQ(one.tool(), CheckTool::brush);
+  one.type(U'9');
+  EXPECT_EQ(one.brush().as, assets::kPaintBone);
+  one.type(U'0');
+  EXPECT_EQ(one.brush().as, assets::kPaintNothing);
+  for (int n = 0; n < 20; ++n) one.type(U']');
+  EXPECT_EQ(one.brush().radius_mm, assets::kMostBrush_mm);
+  for (int n = 0; n < 20; ++n) one.type(U'[');
+  EXPECT_EQ(one.brush().radius_mm, assets::kLeastBrush_mm);
+  const bool was = one.brush().only_like_here;
+  one.type(U'g');
+  EXPECT_NE(one.brush().only_like_here, was);
+  one.type(U'x');
+  one.clickAt({0, 0, 0}, true), one.clickAt({9, 0, 0}, true);
+  EXPECT_EQ(one.edits().done(), 0u);
+  one.clickAt({0, 0, 4}, true);
+  EXPECT_EQ(std::get<assets::JawCut>(*one.edits().last()).beyond_P_mm.z, 4.0);
+}
+
 TEST(CheckMenu, ConfirmsAndRefusesWhatIsChosen) {
   CheckMenu one = menu();
   press(one, render::Key::enter);
@@ -121,7 +149,7 @@ TEST(CheckMenu, EscAsksBeforeAnythingIsLeftUnsaved) {
   EXPECT_EQ(press(one, render::Key::escape), Answer::none) << "puts the tool away";
   EXPECT_EQ(press(one, render::Key::escape), Answer::none);
   EXPECT_TRUE(one.asks());
-  one.type(U'x');
+  one.type(U'q');
   EXPECT_FALSE(one.asks());
   press(one, render::Key::escape);
   EXPECT_EQ(press(one, render::Key::escape), Answer::leave);
