@@ -279,6 +279,12 @@ Image FrameRenderer::readEye(Eye eye) {
   scene_->compose({.screen_px = drawn(eye).px}, eye, eye, kEyeOutput);
   return readImage(kEyeOutput);
 }
+std::optional<Image> FrameRenderer::readLate(glm::ivec2 most_px, std::optional<Eye> eye) {
+  if (!eye) return scene_->readLate(0, most_px);
+  assert(drawn(*eye).px.x > 0);
+  scene_->compose({.screen_px = drawn(*eye).px}, *eye, *eye, kEyeOutput);
+  return scene_->readLate(kEyeOutput, most_px);
+}
 DistanceImage FrameRenderer::readDistance(Eye eye) {
   assert(drawn(eye).px.x > 0);
   return scene_->readDistance(drawn(eye).frame, eye);

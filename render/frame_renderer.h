@@ -87,6 +87,9 @@ class FrameRenderer {
   Image readImage(int output = 0);
   /// The eye as last drawn; requires that it was drawn.
   Image readEye(Eye eye);
+  /// An output, or an eye, without waiting for the GPU, no larger than `most_px` where that is not the processor: none
+  /// where it is on its way, which a first call sets out; the picture is of that call.
+  std::optional<Image> readLate(glm::ivec2 most_px, std::optional<Eye> eye = {});
   DistanceImage readDistance(Eye eye);
 
   /// Throws GpuError if OpenGL reported an error since the last call.

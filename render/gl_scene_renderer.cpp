@@ -11,6 +11,7 @@
 #include "render/gpu/drawing.h"
 #include "render/gpu/framebuffer.h"
 #include "render/gpu/gpu_error.h"
+#include "render/gpu/late_image.h"
 #include "render/gpu/window_image.h"
 #include "render/scene/edge_pass.h"
 #include "render/scene/fragment_lists.h"
@@ -79,6 +80,9 @@ class GlSceneRenderer final : public SceneRenderer {
     showImageOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), target);
   }
   Image readImage(int output) override;
+  std::optional<Image> readLate(int output, glm::ivec2 most_px) override {
+    return late_.take(outputs_[static_cast<std::size_t>(output)], most_px);
+  }
   DistanceImage readDistance(const Frame& frame, Eye eye) override;
   void throwIfError() override { throwIfGlError("drawing a frame"); }
 
@@ -107,6 +111,7 @@ class GlSceneRenderer final : public SceneRenderer {
   std::array<SceneTarget, 3> canvases_;  ///< of the eyes as last drawn
   SceneTarget edge_samples_;
   std::array<Framebuffer, kOutputs> outputs_;
+  LateImage late_;
 };
 
 void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {

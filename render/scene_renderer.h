@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,6 +59,8 @@ class SceneRenderer {
   /// Scales an output into the current window; its context may be one that shares with the renderer's.
   virtual void showOnWindow(const WindowTarget& target, int output) = 0;
   virtual Image readImage(int output) = 0;
+  /// Without waiting: none where it is still on its way, which a first call sets out (gpu/late_image.h).
+  virtual std::optional<Image> readLate(int output, glm::ivec2 most_px) = 0;
   /// `frame`: the one the eye was last drawn with.
   virtual DistanceImage readDistance(const Frame& frame, Eye eye) = 0;
   virtual void throwIfError() = 0;

@@ -5,11 +5,16 @@
 #include <functional>
 #include <optional>
 
+#include <glm/glm.hpp>
+
 #include "haptics/loop/loop_statistics.h"
 #include "haptics/servo/tick.h"
 #include "render/image.h"
 
 namespace app {
+
+/// No spectator needs it larger; what the processor has drawn comes as it is.
+inline constexpr glm::ivec2 kSpectatorPicture_px{960, 540};
 
 class Spectator {
  public:
@@ -17,8 +22,8 @@ class Spectator {
     const haptics::Tick& newest;
     std::optional<double> clearance_mm;  ///< of the tool to the nearest structure at risk
     double rate_Hz = 1000.0;             ///< of the servo
-    /// Made at each call: some 10 µs; some milliseconds. The picture: of the surgeon, of one eye, as drawn last; none
-    /// where nothing was drawn.
+    /// Made at each call: some 10 µs; some milliseconds. The picture: of the surgeon, of one eye, as it was when it was
+    /// first asked for; none where nothing was drawn, and while it is on its way from the graphics card.
     const std::function<haptics::LoopFigures()>& servo;
     const std::function<render::Image()>& picture;
   };

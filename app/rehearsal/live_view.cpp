@@ -160,8 +160,9 @@ render::Image LiveView::fullPicture(render::Frame frame) {
 render::Image LiveView::shownPicture() {
   if (!display_ || frames_ == 0) return {};
   display_->makeCurrent();
-  render::FrameRenderer& renderer = display_->renderer();
-  return display_->mode() == render::DisplayMode::mono ? renderer.readImage() : renderer.readEye(render::Eye::left);
+  const bool is_mono = display_->mode() == render::DisplayMode::mono;
+  const auto eye = is_mono ? std::nullopt : std::optional(render::Eye::left);
+  return display_->renderer().readLate(kSpectatorPicture_px, eye).value_or(render::Image());
 }
 
 void LiveView::describe(RehearsalStatus& status) {

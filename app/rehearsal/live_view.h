@@ -66,8 +66,8 @@ class LiveView {
   /// The frame and its text at the best quality of the ladder, whatever it is shown with. Throws GpuError.
   render::Image fullPicture(render::Frame frame);
 
-  /// As shown last; in stereo the left eye's, without the text over it. Waits for no drawing: show() has. Empty before
-  /// the first frame.
+  /// As shown last; in stereo the left eye's, without the text over it. Empty before the first frame, and where it is
+  /// on its way from the graphics card: it comes with one of the next frames.
   render::Image shownPicture();
 
   SurgeonDisplay& display();

@@ -104,6 +104,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   void showOnWindow(const WindowTarget& target, int output) override {
     show_(outputs_[static_cast<std::size_t>(output)], target);
   }
+  std::optional<Image> readLate(int output, glm::ivec2) override { return readImage(output); }
   Image readImage(int output) override { return outputs_[static_cast<std::size_t>(output)]; }
   DistanceImage readDistance(const Frame& frame, Eye eye) override;
   void throwIfError() override {}

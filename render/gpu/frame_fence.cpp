@@ -28,6 +28,12 @@ void FrameFence::wait() {
   sync_ = nullptr;
 }
 
+bool FrameFence::isReached() const {
+  if (sync_ == nullptr) return true;
+  const GLenum now = glClientWaitSync(syncOf(sync_), GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+  return now != GL_TIMEOUT_EXPIRED;
+}
+
 void FrameFence::waitOnGpu() const {
   if (sync_ != nullptr) glWaitSync(syncOf(sync_), 0, GL_TIMEOUT_IGNORED);
 }

@@ -15,6 +15,8 @@ class FrameFence {
   void mark();
   /// Waits for the mark, at most a second: a lost context never reaches it.
   void wait();
+  /// Whether the mark was reached, or there is none. Does not wait.
+  bool isReached() const;
   /// Later commands of the current context run after the mark, which another context may have set.
   void waitOnGpu() const;
 

@@ -61,6 +61,21 @@ void Framebuffer::clear() {
   }
 }
 
+void Framebuffer::scaleInto(Framebuffer& to, bool turned_over) const {
+  const GLint low = turned_over ? to.size_.y : 0, high = turned_over ? 0 : to.size_.y;
+  glNamedFramebufferReadBuffer(name_.get(), GL_COLOR_ATTACHMENT0);
+  glBlitNamedFramebuffer(name_.get(), to.name_.get(), 0, 0, size_.x, size_.y, 0, low, to.size_.x, high,
+                         GL_COLOR_BUFFER_BIT, GL_LINEAR);
+}
+
+void Framebuffer::readInto(unsigned buffer) const {
+  const glm::ivec3 size = colour(0).size();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+  glGetTextureImage(colour(0).name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, 4 * size.x * size.y, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
 std::vector<std::uint8_t> Framebuffer::readRgba8(int attachment) const {
   return texels<std::uint8_t>(colour(attachment), GL_RGBA, GL_UNSIGNED_BYTE, 4);
 }

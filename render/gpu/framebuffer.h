@@ -24,6 +24,11 @@ class Framebuffer {
   const Texture& colour(int attachment) const { return colours_[static_cast<std::size_t>(attachment)]; }
   glm::ivec2 size() const { return size_; }
 
+  /// Colour 0, filtered linearly; `turned_over`: bottom row to the top.
+  void scaleInto(Framebuffer& to, bool turned_over) const;
+  /// Colour 0 as RGBA8, bottom row first, into a buffer that is large enough; does not wait.
+  void readInto(unsigned buffer) const;
+
   /// Bottom row first.
   std::vector<std::uint8_t> readRgba8(int attachment) const;
   std::vector<float> readFloat(int attachment) const;
