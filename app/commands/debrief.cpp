@@ -1,17 +1,25 @@
 // `molar debrief SESSION [SESSION]`: a recorded rehearsal played, looked at from any side, and exported.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/commands/command.h"
+#include "app/commands/study_key.h"
 #include "app/debrief/debrief_keys.h"
 #include "app/debrief/debrief_plan.h"
+#include "app/debrief/log_bookmarks.h"
 #include "app/options/picture_option.h"
 #include "app/options/settings_text.h"
 #include "app/options/view_option.h"
 #include "app/session/session_folder.h"
+#include "app/session/session_reader.h"
 #include "app/station/patient_list.h"
+#include "app/study/privacy/session_seal.h"
+#include "app/study/sealed_events.h"
+#include "app/study/session_log.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -25,7 +33,37 @@ struct DebriefOptions {
   PictureOption picture;
   std::string first, second, patient, size, trail = "none", display = "mono";
   bool headless = false, no_line = false;
+  StudyKeyOption key;
 };
+
+/// What people said in a sealed session, where the study's key is given; else a line that says it is sealed.
+void openWhatWasSaid(DebriefPlan& plan, const StudyKeyOption& option) {
+  namespace fs = std::filesystem;
+  const fs::path session = fs::absolute(plan.sessions.front()).parent_path();
+  std::error_code failed;
+  const bool is_sealed = fs::is_directory(session / "keys", failed);
+  if (!is_sealed) {
+    if (!option.key.empty()) throw UsageError("--key " + option.key + ": " + plan.sessions.front() + " is not sealed");
+    return;
+  }
+  const auto owner = option.openedFor(session.parent_path().string());
+  if (!owner) {
+    printMessage(plan.sessions.front() + ": voice and words are sealed, --key with the study's key opens them");
+    return;
+  }
+  const std::string name = session.filename().string();
+  auto opened = std::make_shared<OpenedSession>(*owner, session.string(), name);
+  for (const SealedStream stream : {SealedStream::audio, SealedStream::words})
+    if (!opened->holds(stream))
+      printMessage(name + ": " + std::string(kSealedStreams[static_cast<std::size_t>(stream)]) +
+                   " was withdrawn, nobody can open it any more");
+  plan.voice_opener = [opened](std::uint64_t number, std::string_view sealed) {
+    return opened->open(SealedStream::audio, kVoiceTable, number, sealed);
+  };
+  const std::string log = (session / kSessionLogName).string();
+  plan.unsealed = logBookmarks(openedEvents(readSessionLog(log).events, opened.get(), log).events,
+                               SessionReader(plan.sessions.front()).start().dt_s, true);
+}
 
 int debrief(DebriefOptions options) {
   DebriefPlan& plan = options.plan;
@@ -48,6 +86,7 @@ int debrief(DebriefOptions options) {
                                                      : TrailColour::none;
   plan.choice.display = render::displayModeNamed(options.display).value_or(render::DisplayMode::mono);
   plan.choice.has_line = !options.no_line;
+  openWhatWasSaid(plan, options.key);
   return options.headless ? exportDebrief(plan, options.wanted) : showDebrief(plan);
 }
 
@@ -69,6 +108,7 @@ void addDebrief(CommandLine& molar) {
       .oneOf({"mono", "side-by-side", "top-bottom", "anaglyph", "anaglyph-red-cyan"});
   command.flag("--edges", options->plan.choice.edges, "Sharp edges of bone marked, once a piece of the tooth is out");
   command.flag("--no-line", options->no_line, "Without the line of text in the picture");
+  options->key.addTo(command, "The study's private key: opens voice and words of a sealed session");
   options->picture.addTo(command);
   command.optionGroup("Without a window");
   Option headless = command.flag("--headless", options->headless, "Write pictures, open no window");

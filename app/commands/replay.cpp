@@ -11,6 +11,7 @@
 #include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
 #include "app/session/metrics.h"
+#include "app/session/moment_values.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
 #include "app/station/session_case.h"
@@ -26,7 +27,7 @@ namespace {
 struct ReplayOptions {
   std::string session, out, sound;
   std::optional<double> to_s;
-  bool verify = false, digest = false, force = false;
+  bool verify = false, digest = false, json = false, force = false;
 };
 
 /// 0: every byte as recorded, and every bit of a re-run where this version recorded it; 1: not.
@@ -46,15 +47,25 @@ int bringBack(const ReplayOptions& options) {
   return 0;
 }
 
-/// The digest of jaw, pieces and poses at a moment (haptics::Bodies::digest), re-run from the start.
-void printDigest(const ReplayOptions& options) {
+ReplayedState stateAt(const ReplayOptions& options) {
   SessionReader session(options.session);
   refuseDamaged(session, options.session);
-  const ReplayedState state = replayTo(session, options.to_s.value_or(std::numeric_limits<double>::infinity()));
+  ReplayedState state = replayTo(session, options.to_s.value_or(std::numeric_limits<double>::infinity()));
   if (state.divergence)
-    printMessage(fmt::format("{}: from tick {} on {}, the digest is of the bone as re-run", options.session,
+    printMessage(fmt::format("{}: from tick {} on {}, what is told is as re-run", options.session,
                              state.divergence->tick, state.divergence->what));
-  std::printf("%016llx\n", static_cast<unsigned long long>(state.bodies.digest()));
+  return state;
+}
+
+/// The digest of jaw, pieces and poses at a moment (haptics::Bodies::digest), re-run from the start.
+void printDigest(const ReplayOptions& options) {
+  std::printf("%016llx\n", static_cast<unsigned long long>(stateAt(options).bodies.digest()));
+}
+
+/// Force and removed volume of a moment, to the last bit.
+int printMoment(const ReplayOptions& options) {
+  std::printf("%s\n", momentJson(valuesOf(stateAt(options).tick)).c_str());
+  return 0;
 }
 
 /// What was heard.
@@ -82,14 +93,20 @@ void addReplay(CommandLine& molar) {
   Option digest =
       command.flag("--digest", options->digest, "Print the digest of jaw, pieces and poses as they then were");
   digest.excludes(check);
+  command.flag("--json", options->json, "Print force and removed volume of that moment, to the last bit")
+      .needs(to)
+      .excludes(check)
+      .excludes(out)
+      .excludes(digest);
   Option sound = command.option("--sound-file", options->sound, "Write what was heard, .flac, in step with the ticks");
   sound.excludes(check).excludes(out).excludes(to).excludes(digest);
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
     options->session = sessionNamed(options->session);
     if (!options->sound.empty()) return writeSound(*options);
+    if (options->json) return printMoment(*options);
     if (options->to_s && options->out.empty() && !options->digest)
-      throw UsageError("--to: of what, give --volume FILE.nrrd or --digest");
+      throw UsageError("--to: of what, give --volume FILE.nrrd, --digest or --json");
     if (options->out.empty() && !options->digest) return verifySession(options->session);
     if (options->digest) printDigest(*options);
     return options->out.empty() ? 0 : bringBack(*options);

@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "app/debrief/bookmarks.h"
 #include "app/debrief/debrief_picture.h"
+#include "app/evaluation/debrief_guide.h"
+#include "app/evaluation/voice/voice_files.h"
 #include "render/render_options.h"
 
 namespace app {
@@ -18,6 +21,10 @@ struct DebriefPlan {
   PictureChoice choice;
   double loupes = 4.0;
   double at_s = 0.0;
+  bool full_screen = false;
+  std::optional<int> monitor;      ///< index of render::monitors()
+  SegmentOpener voice_opener;      ///< of a voice that is sealed; none: it stays closed
+  std::vector<Bookmark> unsealed;  ///< of the first session, by whoever has the key: shown, and stored nowhere
 };
 
 struct DebriefExport {
@@ -30,8 +37,11 @@ struct DebriefExport {
 /// Of a clip: at 25 a second 13 minutes.
 inline constexpr std::size_t kMostClipPictures = 20'000;
 
-/// Plays in a window until it is closed. Throws GpuError without one.
-int showDebrief(const DebriefPlan& plan);
+/// Plays in a window until it is closed, or until the guide ends it. Throws GpuError without one.
+int showDebrief(const DebriefPlan& plan, DebriefGuide* guide = nullptr);
+
+/// Without a window: what is drawn is for the guide alone, who ends it.
+void followDebriefUnseen(const DebriefPlan& plan, DebriefGuide& guide);
 
 /// Without a window. Progress goes to stderr, figures to stdout.
 int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted);

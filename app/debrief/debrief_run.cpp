@@ -125,8 +125,13 @@ std::string DebriefRun::name() const { return std::filesystem::path(path_).filen
 std::vector<SessionMark> DebriefRun::marks() const {
   std::vector<SessionMark> marks = story_.marks();
   if (!bookmarks_) return marks;
-  for (const Bookmark& one : bookmarks_->all())
-    marks.push_back({one.t_s, MarkKind::bookmark, one.note.empty() ? "bookmark" : one.note});
+  constexpr double kSame_s = 0.05;
+  for (const Bookmark& one : bookmarks_->all()) {
+    const auto words =
+        std::ranges::find_if(words_, [&](const Bookmark& other) { return std::abs(other.t_s - one.t_s) < kSame_s; });
+    const std::string& note = words != words_.end() ? words->note : one.note;
+    marks.push_back({one.t_s, MarkKind::bookmark, note.empty() ? "bookmark" : note});
+  }
   std::ranges::stable_sort(marks, {}, &SessionMark::t_s);
   return marks;
 }

@@ -66,6 +66,8 @@ class DebriefRun {
   const FlapFilm* flap() const { return flap_ ? &*flap_ : nullptr; }
   /// Read at the first call, for who shows them. Throws SessionError: its file is broken.
   Bookmarks& bookmarks();
+  /// Words of bookmarks whose file has none, as the session is sealed: shown, and stored nowhere.
+  void addWords(const std::vector<Bookmark>& words) { words_ = words; }
   /// Of story, and of bookmarks that were read, in order of time.
   std::vector<SessionMark> marks() const;
   /// For people: what is not as it was.
@@ -79,6 +81,7 @@ class DebriefRun {
 
   std::string path_;
   std::optional<Bookmarks> bookmarks_;
+  std::vector<Bookmark> words_;
   SessionMoments moments_;
   bool has_patient_ = false;
   assets::Patient patient_;

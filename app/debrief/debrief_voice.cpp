@@ -93,8 +93,9 @@ struct DebriefVoice::Player {
   std::optional<SoundCard> card;  ///< last: its thread uses the others
 };
 
-DebriefVoice::DebriefVoice(const std::string& recording, double tick_s) {
-  auto track = VoiceTrack::of(std::filesystem::path(recording).parent_path().string(), 1.0 / tick_s);
+DebriefVoice::DebriefVoice(const std::string& recording, double tick_s, SegmentOpener opener) {
+  const std::string folder = std::filesystem::path(recording).parent_path().string();
+  auto track = VoiceTrack::of(folder, 1.0 / tick_s, std::move(opener));
   if (!track || track->frames() == 0) return;
   player_ = std::make_unique<Player>(std::move(*track), tick_s);
   if (!player_->card->isAvailable()) player_.reset();
@@ -102,9 +103,10 @@ DebriefVoice::DebriefVoice(const std::string& recording, double tick_s) {
 
 DebriefVoice::~DebriefVoice() = default;
 
-void DebriefVoice::follow(double position_s, bool plays_along) {
+void DebriefVoice::follow(double position_s, bool plays_along, bool scrubs) {
   if (!player_) return;
-  player_->handOn(player_->along->next(position_s, plays_along, player_->waiting()));
+  VoiceAlong& along = *player_->along;
+  player_->handOn(scrubs ? along.grain(position_s) : along.next(position_s, plays_along, player_->waiting()));
 }
 
 }  // namespace app

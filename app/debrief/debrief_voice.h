@@ -5,19 +5,21 @@
 #include <memory>
 #include <string>
 
+#include "app/evaluation/voice/voice_files.h"
+
 namespace app {
 
 class DebriefVoice {
  public:
   /// `recording`: the session's file, beside which its voice lies. Throws LoadError: that is damaged.
-  DebriefVoice(const std::string& recording, double tick_s);
+  DebriefVoice(const std::string& recording, double tick_s, SegmentOpener opener = {});
   ~DebriefVoice();
   DebriefVoice(const DebriefVoice&) = delete;
   DebriefVoice& operator=(const DebriefVoice&) = delete;
 
   bool isThere() const { return player_ != nullptr; }
-  /// `plays_along`: forwards, at the speed of life.
-  void follow(double position_s, bool plays_along);
+  /// `plays_along`: forwards, at the speed of life; `scrubs`: a hand drags, each new position is a grain of sound.
+  void follow(double position_s, bool plays_along, bool scrubs = false);
 
  private:
   struct Player;

@@ -16,8 +16,8 @@
 #include "app/debrief/debrief_keys.h"
 #include "app/debrief/debrief_panel.h"
 #include "app/debrief/debrief_plan.h"
-#include "app/debrief/debrief_scene.h"
-#include "app/debrief/debrief_voice.h"
+#include "app/debrief/debrief_player.h"
+#include "app/debrief/debrief_steering.h"
 #include "app/instructor/instructor_panel.h"
 #include "app/text/clock_text.h"
 #include "app/text/elapsed.h"
@@ -25,22 +25,18 @@
 #include "app/text/message.h"
 #include "app/view/renderer_choice.h"
 #include "app/view/snapshot.h"
-#include "assets/load_error.h"
 #include "calibration/output_file.h"
 #include "calibration/png_file.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/graphics_card.h"
 #include "render/gpu/window_image.h"
-#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSaid_s = 3.0, kStill_s = 0.25, kClipRate_Hz = 25.0;
-constexpr double kPrepareFor_s = 0.15;  ///< wall time between two drawings
-constexpr double kPart_s = 0.2;         ///< of the session
+constexpr double kSaid_s = 3.0, kClipRate_Hz = 25.0;
 constexpr glm::ivec2 kLeastPicture_px{64, 64};
 constexpr std::chrono::milliseconds kIdle{12};
 
@@ -57,18 +53,17 @@ std::string freeName(const std::string& session, double t_s, const std::string& 
 
 class DebriefWindow {
  public:
-  explicit DebriefWindow(const DebriefPlan& plan) : scene_(plan) {
-    window_.emplace(render::Window::Options{.title = "Molar, debrief", .size_px = plan.size_px});
+  DebriefWindow(const DebriefPlan& plan, DebriefGuide* guide) : player_(plan), scene_(player_.scene()) {
+    window_.emplace(render::Window::Options{
+        .title = "Molar, debrief", .size_px = plan.size_px, .full_screen = plan.full_screen, .monitor = plan.monitor});
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
       throw render::GpuError("debrief: OpenGL cannot draw its panel, use --headless");
     render::RenderOptions options;
     options.backend = rendererForWindow(plan.backend, printMessage);
-    on_processor_ = options.backend == render::Backend::cpu || render::currentGraphicsCard().is_software;
-    scene_.open(options);
-    ladder_.emplace(1.0 / 20.0, on_processor_ ? static_cast<int>(render::kQualitySteps.size()) - 1 : 0);
-    state_.transport.setLength(scene_.length_s());
+    player_.open(options, options.backend == render::Backend::cpu || render::currentGraphicsCard().is_software);
+    if (guide != nullptr) steering_.emplace(*guide, player_);
     state_.choice = plan.choice;
-    first_s_ = plan.at_s;
+    scene_.runs().front()->addWords(plan.unsealed);
     updateRuns();
   }
   ~DebriefWindow() {
@@ -79,63 +74,24 @@ class DebriefWindow {
   DebriefWindow& operator=(const DebriefWindow&) = delete;
 
   int run() {
-    const Clock::time_point begun = Clock::now();
-    Clock::time_point before = begun;
-    while (!closing_) {
+    Clock::time_point before = Clock::now();
+    // Whoever steers it ends it; the display cannot.
+    while (steering_ ? !steering_->isOver() : !closing_) {
       // What an event takes, a clip some minutes, is no time of the play.
       const Clock::time_point handled = Clock::now();
       takeEvents();
+      if (steering_) steering_->take();
       before += Clock::now() - handled;
       const Clock::time_point now = Clock::now();
       const double passed_s = secondsBetween(std::exchange(before, now), now);
-      if (!scene_.isPrepared())
-        prepare(begun);
-      else
-        state_.transport.advance(passed_s);
-      followVoice();
+      if (player_.advance(passed_s)) updateRuns();
       draw(now, passed_s);
     }
-    tellJumps();
+    if (const std::string jumps = player_.jumpsText(); !jumps.empty()) std::puts(jumps.c_str());
     return 0;
   }
 
  private:
-  void prepare(Clock::time_point begun) {
-    const Clock::time_point from = Clock::now();
-    while (secondsBetween(from, Clock::now()) < kPrepareFor_s && scene_.prepare(kPart_s)) {
-    }
-    state_.prepared_share = scene_.isPrepared() ? 1.0 : std::min(0.999, scene_.preparedShare());
-    if (!scene_.isPrepared()) return;
-    std::size_t bytes = 0, keyframes = 0;
-    for (const auto& run : scene_.runs()) {
-      bytes += run->moments().bytes(), keyframes += run->moments().keyframes();
-      for (const std::string& remark : run->remarks()) printMessage(run->name() + ": " + remark);
-    }
-    printMessage(fmt::format("run again in {:.1f} s: {} keyframes, {:.0f} MB", secondsBetween(begun, Clock::now()),
-                             keyframes, static_cast<double>(bytes) / 1e6));
-    state_.transport.setLength(scene_.length_s());
-    state_.transport.goTo(first_s_);
-    openVoice();
-    shown_.reset();
-    updateRuns();
-  }
-
-  /// Of the first session.
-  void openVoice() {
-    const DebriefRun& run = *scene_.runs().front();
-    try {
-      voice_.emplace(run.path(), run.moments().start().dt_s);
-    } catch (const assets::LoadError& damage) {
-      printMessage(damage.what());
-    }
-  }
-  void followVoice() {
-    const Transport& transport = state_.transport;
-    if (voice_)
-      voice_->follow(transport.position_s(),
-                     transport.isPlaying() && !transport.isBackwards() && transport.speed() == 1.0);
-  }
-
   void updateRuns() {
     state_.runs.clear();
     for (const auto& run : scene_.runs()) {
@@ -164,11 +120,11 @@ class DebriefWindow {
     ImGuiIO& io = ImGui::GetIO();
     if (const auto* moved = std::get_if<render::PointerMoved>(&event)) {
       io.MousePos = {static_cast<float>(moved->to_px.x), static_cast<float>(moved->to_px.y)};
-      if (moved->button == render::MouseButton::right) scene_.turn(moved->by_px), view_changed_ = true;
+      if (moved->button == render::MouseButton::right) scene_.turn(moved->by_px), player_.changeView();
     } else if (const auto* button = std::get_if<render::ButtonPressed>(&event)) {
       io.MouseDown[button->button == render::MouseButton::right ? 1 : 0] = button->down;
     } else if (const auto* wheel = std::get_if<render::WheelTurned>(&event)) {
-      scene_.magnify(wheel->notches > 0.0 ? 1 : -1), view_changed_ = true;
+      scene_.magnify(wheel->notches > 0.0 ? 1 : -1), player_.changeView();
     } else if (const auto* typed = std::get_if<render::LetterTyped>(&event)) {
       if (state_.note && !std::exchange(skips_letter_, false)) addLetter(*state_.note, typed->letter);
     } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
@@ -218,7 +174,7 @@ class DebriefWindow {
 
   bool actOnTime(DebriefAction action) {
     constexpr double kLittle_s = 1.0, kFar_s = 10.0;
-    Transport& transport = state_.transport;
+    Transport& transport = player_.transport();
     switch (action) {
       case DebriefAction::play:
         transport.playOrPause();
@@ -295,7 +251,7 @@ class DebriefWindow {
   void goToMark(int direction) {
     std::vector<double> times_s;
     for (const SessionMark& mark : state_.runs.front().marks) times_s.push_back(mark.t_s);
-    state_.transport.goToNext(times_s, direction);
+    player_.transport().goToNext(times_s, direction);
   }
 
   void actOnPicture(DebriefAction action) {
@@ -319,32 +275,24 @@ class DebriefWindow {
         choice.has_line = !choice.has_line;
         break;
       case DebriefAction::first_view:
-        scene_.backToFirst(), view_changed_ = true;
+        scene_.backToFirst(), player_.changeView();
         break;
       case DebriefAction::magnify:
-        scene_.magnify(1), view_changed_ = true;
+        scene_.magnify(1), player_.changeView();
         break;
       case DebriefAction::shrink:
-        scene_.magnify(-1), view_changed_ = true;
+        scene_.magnify(-1), player_.changeView();
         break;
       default:
         break;
     }
   }
 
-  /// What is shown, at full quality.
-  render::Image fullPicture() {
-    scene_.draw(picturePx(), render::kQualitySteps.front().quality);
-    shown_.reset();
-    return scene_.image();
-  }
-
   void savePicture() {
-    scene_.goTo(state_.transport.position_s());  // a dragging hand left it at a keyframe
-    const std::string name = freeName(scene_.runs().front()->path(), state_.transport.position_s(), ".png");
+    const std::string name = freeName(scene_.runs().front()->path(), player_.transport().position_s(), ".png");
     try {
       calibration::OutputFile file(name, false);
-      savePng(fullPicture(), file);
+      savePng(player_.fullPicture(picturePx()), file);
       say("picture: " + name);
     } catch (const calibration::CalibrationError& refusal) {
       say(refusal.what());
@@ -354,7 +302,7 @@ class DebriefWindow {
   /// The window stands still meanwhile, and says how far it is.
   void saveClip() {
     const double from_s = state_.clip_from_s.value_or(0.0),
-                 to_s = state_.clip_to_s.value_or(state_.transport.length_s());
+                 to_s = state_.clip_to_s.value_or(player_.transport().length_s());
     if (!state_.clip_from_s || !(to_s > from_s)) return say("mark the clip first: I at its start, O at its end");
     const std::string name = freeName(scene_.runs().front()->path(), from_s, "-clip");
     const auto count = static_cast<int>((to_s - from_s) * kClipRate_Hz) + 1;
@@ -364,8 +312,7 @@ class DebriefWindow {
     try {
       calibration::OutputFolder folder(name, false, {});
       for (int n = 0; n < count && !closing_; ++n) {
-        scene_.goTo(from_s + n / kClipRate_Hz);
-        const render::Image image = fullPicture();
+        const render::Image image = player_.fullPicture(picturePx(), from_s + n / kClipRate_Hz);
         calibration::writePng(fmt::format("{}/frame_{:05}.png", folder.temporaryPath(), n), {image.w, image.h},
                               image.rgba);
         say(fmt::format("clip: {} of {} pictures", n + 1, count));
@@ -391,59 +338,20 @@ class DebriefWindow {
                     window_px - glm::ivec2(0, kDebriefHeader_px + debriefPanelHeight_px(state_.runs.size())));
   }
 
-  struct Shown {
-    double position_s = -1.0, prepared_share = -1.0;
-    glm::ivec2 px{0};
-    PictureChoice choice;
-    bool is_refined = false, is_near = false;  ///< at full quality; of a moment beside it
-  };
-
   void draw(Clock::time_point now, double passed_s) {
     const glm::ivec2 window_px = window_->framebufferSize_px();
     if (window_px.x <= 0 || window_px.y <= 0) return;
     if (!state_.said.empty() && secondsBetween(said_at_, now) > kSaid_s) state_.said.clear();
-    const bool is_new = drawPictures(now);
-    present(passed_s);
-    // Without a refresh to wait for, a core would be spent on nothing.
-    if (!is_new && !state_.transport.isPlaying()) std::this_thread::sleep_for(kIdle);
-    if (jump_at_) jumps_ms_.push_back(1e3 * secondsBetween(*std::exchange(jump_at_, std::nullopt), Clock::now()));
-  }
-
-  /// Only when something has changed; roughly where it jumps, better when nothing has changed for a while. False: the
-  /// picture was kept.
-  bool drawPictures(Clock::time_point now) {
-    const glm::ivec2 px = picturePx();
-    const double position_s = state_.transport.position_s();
-    const bool is_same = shown_ && shown_->position_s == position_s && shown_->px == px &&
-                         shown_->choice == state_.choice && !view_changed_ &&
-                         (scene_.isPrepared() || now - drawn_at_ < std::chrono::seconds(2));
-    if (is_same && (shown_->is_refined || secondsBetween(drawn_at_, now) < kStill_s)) return false;
-    // A hand on the time line is followed at once and roughly; where it rests comes the moment itself.
-    if (is_same && scrubs_ && !shown_->is_near) return false;
-    const bool jumps = !is_same && shown_ && !state_.transport.isPlaying() && shown_->position_s != position_s;
-    const bool is_near = scrubs_ && !is_same, refines = is_same && !scrubs_ && scene_.isPrepared();
-    if (scene_.isPrepared() && (!refines || shown_->is_near)) {
-      if (jumps) jump_at_ = now;
-      is_near ? scene_.goNear(position_s) : scene_.goTo(position_s);
+    const bool is_new = player_.draw(picturePx(), state_.choice);
+    if (is_new) {
+      const auto edges_mm = scene_.edges_mm();
+      for (std::size_t n = 0; n < state_.runs.size(); ++n) state_.runs[n].edges_mm = edges_mm[n];
     }
-    scene_.choice = state_.choice;
-    const Clock::time_point begun = Clock::now();
-    const bool is_rough = on_processor_ && (is_near || jumps);
-    const auto look = refines                                               ? DebriefRun::Look::now
-                      : state_.transport.isPlaying() && scene_.isPrepared() ? DebriefRun::Look::each_second
-                                                                            : DebriefRun::Look::never;
-    scene_.draw(px,
-                refines    ? render::kQualitySteps.front().quality
-                : is_rough ? kScrubQuality
-                           : ladder_->quality(),
-                look);
-    const auto edges_mm = scene_.edges_mm();
-    for (std::size_t n = 0; n < state_.runs.size(); ++n) state_.runs[n].edges_mm = edges_mm[n];
-    if (!refines && !is_near && !is_rough) ladder_->add(secondsBetween(begun, Clock::now()), true);
-    shown_ = Shown{position_s, state_.prepared_share, px, state_.choice, refines, is_near};
-    view_changed_ = false;
-    drawn_at_ = Clock::now();
-    return true;
+    present(passed_s);
+    player_.noteShown();
+    if (steering_) steering_->tell(is_new);
+    // Without a refresh to wait for, a core would be spent on nothing.
+    if (!is_new && !player_.transport().isPlaying()) std::this_thread::sleep_for(kIdle);
   }
 
   void present(double passed_s) {
@@ -455,41 +363,34 @@ class DebriefWindow {
     scene_.showOnWindow({0, kDebriefHeader_px}, window_px);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
+    state_.transport = player_.transport();
+    state_.prepared_share = player_.preparedShare();
     const DebriefPanelInput input = drawDebriefPanel(state_, window_px);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     window_->present();
+    // Whoever drags elsewhere is not let go by a mouse that does nothing here.
+    if (input.go_to_s || scrubs_) player_.setScrubbing(input.go_to_s.has_value());
     scrubs_ = input.go_to_s.has_value();
-    if (input.go_to_s) state_.transport.goTo(*input.go_to_s);
+    if (input.go_to_s) player_.transport().goTo(*input.go_to_s);
     if (input.choice) state_.choice = *input.choice;
-    if (input.plays) state_.transport.playOrPause();
-  }
-
-  void tellJumps() {
-    if (jumps_ms_.empty()) return;
-    std::ranges::sort(jumps_ms_);
-    std::printf("%zu jumps: median %.0f ms, longest %.0f ms until shown\n", jumps_ms_.size(),
-                jumps_ms_[jumps_ms_.size() / 2], jumps_ms_.back());
+    if (input.plays) player_.transport().playOrPause();
   }
 
   PanelContext context_;
   std::optional<render::Window> window_;  // outlives what is drawn in its context
-  DebriefScene scene_;
-  bool on_processor_ = false;
-  std::optional<render::QualityLadder> ladder_;
+  DebriefPlayer player_;
+  DebriefScene& scene_;
+  std::optional<DebriefSteering> steering_;
   DebriefPanelState state_;
-  std::optional<DebriefVoice> voice_;
-  std::optional<Shown> shown_;
-  Clock::time_point drawn_at_{}, said_at_{};
-  std::optional<Clock::time_point> jump_at_;
-  std::vector<double> jumps_ms_;
-  double first_s_ = 0.0, note_s_ = 0.0;
+  Clock::time_point said_at_{};
+  double note_s_ = 0.0;
   std::deque<render::WindowEvent> pending_;
-  bool view_changed_ = false, closing_ = false, skips_letter_ = false, scrubs_ = false;
+  bool closing_ = false, skips_letter_ = false, scrubs_ = false;
 };
 
 }  // namespace
 
-int showDebrief(const DebriefPlan& plan) { return DebriefWindow(plan).run(); }
+int showDebrief(const DebriefPlan& plan, DebriefGuide* guide) { return DebriefWindow(plan, guide).run(); }
 
 }  // namespace app

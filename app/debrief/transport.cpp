@@ -41,6 +41,12 @@ void Transport::shuttle(int direction) {
 
 void Transport::changeSpeed(int steps) { speed_ = std::clamp(speed_ + steps, 0, static_cast<int>(kSpeeds.size()) - 1); }
 
+void Transport::setSpeed(double speed) {
+  if (!(speed > 0.0)) return;
+  const auto farness = [speed](double of) { return std::abs(std::log2(of / speed)); };
+  speed_ = static_cast<int>(std::ranges::min_element(kSpeeds, {}, farness) - kSpeeds.begin());
+}
+
 void Transport::goTo(double t_s) {
   if (std::isfinite(t_s)) position_s_ = std::clamp(t_s, 0.0, length_s_);
 }

@@ -31,6 +31,8 @@ class Transport {
   void shuttle(int direction);
   /// Twice as fast a step, within kSpeeds.
   void changeSpeed(int steps);
+  /// To the nearest of kSpeeds.
+  void setSpeed(double speed);
 
   void goTo(double t_s);
   void jump(double by_s) { goTo(position_s_ + by_s); }

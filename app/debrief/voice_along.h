@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "app/evaluation/voice/voice_track.h"
@@ -22,12 +23,18 @@ class VoiceAlong {
   };
   /// `waiting`: samples that were handed on since the newest that began, and were not played yet.
   Piece next(double position_s, bool plays_along, std::size_t waiting);
+  /// Of a hand that drags: kGrain_s from a new position on, faded in and out; nothing where it rests.
+  Piece grain(double position_s);
+  static constexpr double kGrain_s = 0.08;
 
  private:
+  std::vector<float> samplesFrom(double& at, std::size_t count);
+
   VoiceTrack track_;
   double tick_s_, rate_Hz_, step_;  ///< samples of the track in one of the card
   double next_ = 0.0;               ///< of the track
   bool is_on_ = false;
+  std::optional<double> grain_s_;  ///< of the newest grain
 };
 
 }  // namespace app

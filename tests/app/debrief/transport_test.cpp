@@ -29,6 +29,17 @@ TEST(Transport, PlaysAtItsSpeedAndStopsAtTheEnd) {
   EXPECT_EQ(transport.position_s(), 0.0) << "from the beginning";
 }
 
+TEST(Transport, ASpeedThatIsAskedForIsTheNearest) {
+  Transport transport(10.0);
+  for (const auto& [asked, is] :
+       {std::pair(0.25, 0.25), std::pair(3.0, 4.0), std::pair(0.7, 0.5), std::pair(1e9, 8.0)}) {
+    transport.setSpeed(asked);
+    EXPECT_EQ(transport.speed(), is) << asked;
+  }
+  for (const double none : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) transport.setSpeed(none);
+  EXPECT_EQ(transport.speed(), 8.0);
+}
+
 TEST(Transport, IsShuttledBothWays) {
   Transport transport(100.0);
   transport.goTo(50.0);

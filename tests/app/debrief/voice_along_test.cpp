@@ -54,6 +54,25 @@ TEST(VoiceAlong, WhatIsHeardIsWhatWasSaidAtTheTickThatIsShown) {
   }
 }
 
+TEST(VoiceAlong, AHandThatDragsHearsAGrainOfEachPosition) {
+  const tests::ScratchFolder scratch;
+  VoiceAlong along(rampIn(scratch), kTick_s, 48'000.0);
+  along.next(1.0, true, 0);
+  const VoiceAlong::Piece grain = along.grain(2.0);
+  EXPECT_TRUE(grain.begins);
+  ASSERT_EQ(grain.samples.size(), 3'840u);
+  EXPECT_EQ(grain.samples.front(), 0.0F);
+  EXPECT_EQ(grain.samples.back(), 0.0F);
+  // Its first sample is of the moment; faded in over 5 ms.
+  EXPECT_NEAR(grain.samples[240], sampleAt(2.005), 1e-4);
+  const VoiceAlong::Piece rests = along.grain(2.0);
+  EXPECT_FALSE(rests.begins);
+  EXPECT_TRUE(rests.samples.empty());
+  EXPECT_EQ(along.grain(2.1).samples.size(), 3'840u);
+  // It goes on from where the hand has let go.
+  EXPECT_NEAR(along.next(2.1, true, 0).samples[0], sampleAt(2.1), 1e-4);
+}
+
 TEST(VoiceAlong, IsSilentWhereItStandsAndBeginsAnew) {
   const tests::ScratchFolder scratch;
   VoiceAlong along(rampIn(scratch), kTick_s, 48'000.0);
