@@ -1,5 +1,5 @@
-// What is looked at before a session of an evaluation may begin: case, device, disk, recording, rig. Red: it does not
-// begin. Start-up only.
+// What is looked at before a session of an evaluation may begin: case, device, disk, recording, rules, rig. Red: it
+// does not begin. Start-up only.
 #pragma once
 
 #include <string>
@@ -11,6 +11,7 @@
 namespace app {
 
 /// `folder`: of the study; it need not be there yet. `voice`: words on what is recorded of it.
-std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const std::string& folder, const std::string& voice);
+std::vector<Check> evaluationChecks(const RehearsalPlan& plan, const StudyTemplate& study, const std::string& folder,
+                                    const std::string& voice);
 
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,8 @@
 #include "app/commands/evaluation_checks.h"
 #include "app/commands/evaluation_setup.h"
 #include "app/debrief/bookmarks.h"
+#include "app/debrief/debrief_plan.h"
+#include "app/debrief/log_bookmarks.h"
 #include "app/evaluation/console/console.h"
 #include "app/evaluation/evaluation_desk.h"
 #include "app/evaluation/rule_check.h"
@@ -73,6 +76,7 @@ class EvaluationSession {
     if (!study_.tools().empty()) options_.rehearsal.tools = study_.tools();
     std::optional<RehearsalPlan> plan = composeRehearsal(options_.rehearsal);
     if (!plan) return 0;
+    debrief_ = debriefPlanOf(options_.rehearsal, *plan);
     // Nobody looks into them while questions are asked; each rehearsal opens its own.
     plan->windows.reset();
     if (!prepare(*plan)) return 1;
@@ -100,7 +104,8 @@ class EvaluationSession {
     auto console = std::make_unique<Console>(
         Console::Parts{study_, *course_, clock_, *book_, consent_text_, [] { return wasInterrupted(); },
                        [this] { voice_->follow(now()); }, [this] { return voice_->state(clock_.now_ns()); },
-                       [this] { return voice_->missing(); }},
+                       [this] { return voice_->missing(); },
+                       [this](DebriefGuide& guide) { return showRecording(guide); }},
         ConsoleAddress{options_.page, options_.share});
     console_ = console.get();
     people_ = std::move(console);
@@ -113,7 +118,7 @@ class EvaluationSession {
   }
 
   bool prepare(const RehearsalPlan& plan) {
-    const std::vector<Check> checks = evaluationChecks(plan, options_.out, voice_->plan());
+    const std::vector<Check> checks = evaluationChecks(plan, study_, options_.out, voice_->plan());
     for (const Check& check : checks)
       if (check.light != CheckLight::green)
         printMessage(fmt::format("{}: {} ({})", check.name, check.words,
@@ -222,12 +227,36 @@ class EvaluationSession {
                   {"taken_over", std::int64_t{figures.taken_over}}});
   }
 
+  /// In the surgeon's display, steered from the page. Why not, or nothing.
+  std::string showRecording(DebriefGuide& guide) {
+    debrief_.sessions = {book_->recording()};
+    if (book_->isSealed())
+      debrief_.voice_opener = [this](std::uint64_t number, std::string_view sealed) -> std::optional<std::string> {
+        const SecretKey* const key = book_->seal()->key(SealedStream::audio);
+        return key == nullptr ? std::nullopt : openedWith(*key, {book_->place().folder, kVoiceTable, number}, sealed);
+      };
+    std::string trouble;
+    try {
+      if (options_.rehearsal.plan.headless)
+        followDebriefUnseen(debrief_, guide);
+      else
+        showDebrief(debrief_, &guide);
+    } catch (const std::runtime_error& refusal) {
+      trouble = refusal.what();
+      course_->log(now(), "system", "debrief.trouble", {{"why", trouble}});
+      printMessage(trouble);
+    }
+    return trouble;
+  }
+
   /// Those of words in the debrief, the others after it.
   void askAll(Phase phase) {
     if (wasInterrupted()) return;
     enter(phase);
-    if (phase == Phase::debrief) printMessage("to look at moments: molar debrief " + book_->recording());
+    if (phase == Phase::debrief && console_ == nullptr)
+      printMessage("to look at moments: molar debrief " + book_->recording());
     people_->ask(phase);
+    if (phase == Phase::debrief && console_ != nullptr) saveBookmarks();
     voice_->follow(now());
     book_->writeTables(study_);
   }
@@ -235,13 +264,8 @@ class EvaluationSession {
   /// Notes, bookmarks and problems as moments of `molar debrief`.
   void saveBookmarks() {
     Bookmarks bookmarks(Bookmarks::fileFor(book_->recording()));
-    for (const LogEvent& event : book_->events()) {
-      if (!event.tick || (event.type != "note" && event.type != "bookmark" && event.type != "problem")) continue;
-      const char* const key = event.type == "note" ? "text" : event.type == "problem" ? "title" : "label";
-      const std::string* const words = book_->isSealed() ? nullptr : event.text(key);
-      bookmarks.set(static_cast<double>(*event.tick) / rate_Hz_,
-                    event.type + (words != nullptr && !words->empty() ? ": " + *words : std::string()));
-    }
+    for (const Bookmark& one : logBookmarks(book_->events(), 1.0 / rate_Hz_, !book_->isSealed()))
+      bookmarks.set(one.t_s, one.note);
     if (!bookmarks.all().empty()) bookmarks.save();
   }
 
@@ -287,6 +311,7 @@ class EvaluationSession {
   std::optional<VoiceDesk> voice_;
   std::unique_ptr<SessionPeople> people_;
   Console* console_ = nullptr;  ///< they, where they are at a page
+  DebriefPlan debrief_;
   double rate_Hz_ = 1000.0;
 };
 

@@ -1,6 +1,7 @@
 #include "app/commands/evaluation_setup.h"
 
 #include <algorithm>
+#include <array>
 
 #include "app/evaluation/evaluator_terminal.h"
 #include "app/text/anonymous_id.h"
@@ -54,6 +55,25 @@ void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study
   if (options.page.empty() && options.script.empty() && !isTerminalThere())
     throw UsageError(
         "evaluate: consent and questions are asked at a terminal, run it in one or give --page or --script");
+}
+
+DebriefPlan debriefPlanOf(const RehearseOptions& main, const RehearsalPlan& plan) {
+  using enum render::DisplayMode;
+  // Those that fill a part of a window like any other.
+  constexpr std::array kWithinWindow{side_by_side, top_bottom, anaglyph, anaglyph_red_cyan};
+  constexpr glm::ivec2 kUnseen_px{960, 540};
+  DebriefPlan debrief;
+  debrief.patient = main.patient;
+  debrief.backend = plan.backend;
+  debrief.choice.mode = plan.first_frame.mode;
+  debrief.choice.layers = plan.first_frame.layers;
+  if (std::ranges::find(kWithinWindow, plan.display) != kWithinWindow.end()) debrief.choice.display = plan.display;
+  debrief.choice.has_line = !main.no_line;
+  debrief.loupes = main.loupes;
+  debrief.full_screen = plan.full_screen;
+  debrief.monitor = plan.monitor;
+  if (plan.headless) debrief.size_px = kUnseen_px;
+  return debrief;
 }
 
 }  // namespace app

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "app/commands/evaluation_session.h"
+#include "app/debrief/debrief_plan.h"
 #include "app/evaluation/study_template.h"
+#include "app/rehearsal/rehearsal_plan.h"
 
 namespace app {
 
@@ -12,5 +14,8 @@ void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study
 
 /// A block at the same place with the same hand; nothing of it is recorded.
 RehearseOptions warmUpOptions(const RehearseOptions& main, const StudyTemplate& study);
+
+/// The recording in the surgeon's display, as the rehearsal was: layers, stereo, monitor.
+DebriefPlan debriefPlanOf(const RehearseOptions& main, const RehearsalPlan& plan);
 
 }  // namespace app

@@ -18,6 +18,7 @@ void addSeat(CommandLine& molar) {
   command.option("--recording", options->recording, "Descriptor of the recording").wholeFrom(3, 1'000'000).required();
   command.option("--feed", options->feed, "Descriptor of what the servo is given").wholeFrom(3, 1'000'000).required();
   command.option("--words", options->words, "Descriptor to answer on").wholeFrom(3, 1'000'000).required();
+  command.option("--states", options->states, "Descriptor of memory for states to go on from").wholeFrom(3, 1'000'000);
   command.option("--measures", options->ids, "Ids of measures of the bone, like O2.plan").separatedByCommas();
   command.does([options] {
     for (const std::string& id : options->ids)

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "app/commands/bundle_extras.h"
 #include "app/commands/study_key.h"
 #include "app/study/audit.h"
 #include "app/study/bundle/bundle_check.h"
@@ -28,6 +29,7 @@ namespace {
 struct OwnerOptions {
   std::string study, participant, stream, today, out, session, file, problem, into, rater;
   StudyKeyOption key;
+  BundleExtras extras;
   bool dry_run = false, force = false;
 };
 
@@ -81,12 +83,23 @@ int retain(const OwnerOptions& options) {
 int exportBundle(const OwnerOptions& options) {
   if (!options.out.ends_with(".zip")) throw UsageError("--out " + options.out + ": name it .zip");
   const auto owner = options.key.openedFor(options.study);
-  const WrittenBundle written =
-      writeBundle(options.study, options.session, owner ? &*owner : nullptr, options.out, options.force);
+  const PrivateStudyKeys* const key = owner ? &*owner : nullptr;
+  const BundleExtras& wanted = options.extras;
+  const bool is_wrapped = !wanted.recipients.empty();
+  const BundleScratch scratch(options.out);
+  // In the open it lies only where nobody else looks, if it is to be encrypted.
+  const std::string file = is_wrapped ? scratch.file("bundle.zip") : options.out;
+  const WrittenBundle written = writeBundle(options.study, options.session, key, file, options.force || is_wrapped,
+                                            moreOfSession(options.study, wanted, key, scratch));
+  if (!wanted.pdf.empty() && !printReport(file, wanted.pdf, options.force, scratch))
+    printMessage("--pdf " + wanted.pdf + ": chromium is not installed, report.html prints from any browser");
+  if (is_wrapped) encryptFor(wanted.recipients, file, options.out + ".age", options.force);
   for (const std::string& remark : written.remarks) printMessage(remark);
   audit(options.study, nowUnix_s(), "export",
         {{"sessions", joined(written.sessions)},
          {"signed", owner.has_value()},
+         {"voice", wanted.voice},
+         {"encrypted", is_wrapped},
          {"words", std::string(owner ? "open" : "as they stand")}});
   if (!owner) printMessage(options.out + ": not signed, and what is sealed stays closed: --key FILE does both");
   return 0;
@@ -147,11 +160,17 @@ void addBundleCommands(CommandLine& study, const std::shared_ptr<OwnerOptions>& 
   bundle.option("--out", options->out, "File to write").valueNamed("FILE.zip").required();
   bundle.option("--session", options->session, "One session alone, as P07-1").valueNamed("SESSION");
   options->key.addTo(bundle, "Private key of the study: signs the bundle, and opens words and answers for it");
+  bundle.flag("--voice", options->extras.voice, "With the voice of those who allow audio and reuse");
+  bundle.flag("--pictures", options->extras.pictures, "With pictures of the moments that were noted, where allowed");
+  bundle.option("--pdf", options->extras.pdf, "The report as PDF too, beside the bundle, by Chromium where it is there")
+      .valueNamed("FILE.pdf");
+  bundle.option("--recipient", options->extras.recipients, "Encrypt for this key of age, age1…; writes FILE.zip.age")
+      .repeated();
   bundle.flag("--force", options->force, "Replace a file that exists");
   bundle.footer(
       "report.html in the shape of the Common Industry Format, study.csv and study.json, each session's recording, "
       "log, "
-      "template and tables; the same bytes on every machine. Sound and pictures stay in the study.");
+      "template and tables; the same bytes on every machine. Sound and pictures only where they are asked for.");
   bundle.does([options] { return exportBundle(*options); });
 
   CommandLine& check = study.command("check", "Whether a bundle is as it was written: names each changed file");

@@ -56,6 +56,10 @@ class InputFeedReader {
   /// Borrows the descriptor.
   explicit InputFeedReader(int descriptor) : memory_(descriptor) {}
 
+  /// Where it is: a number that another reader of the same feed may continue at.
+  std::uint64_t place() const { return at_; }
+  void continueAt(std::uint64_t place) { at_ = place; }
+
   /// None: there is no more yet. Throws SessionError: what is there is no feed.
   std::optional<FedBatch> next();
 

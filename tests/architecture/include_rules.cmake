@@ -100,7 +100,7 @@ set(third_parties
   "libevdev/" "haptics"
   "boost/math/" "app/study"
   "sodium|zip\\.h" "app/study"
-  "boost/(asio|beast)|turbojpeg" "app/evaluation"
+  "boost/(asio|beast|interprocess)|turbojpeg" "app/evaluation"
   "libusb" "haptics"
   "webrtc/" "app/evaluation"
   "GLFW/" "render|app"

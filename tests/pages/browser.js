@@ -27,6 +27,14 @@ export async function pageAt(browser, station, where = "/", size = kSizes[0]) {
   await page.setViewport(size);
   await page.evaluateOnNewDocument(() => {
     window.violations = [];
+    // The newest socket, to say by it what no page says.
+    const Real = window.WebSocket;
+    window.WebSocket = class extends Real {
+      constructor(...all) {
+        super(...all);
+        window.molarSocket = this;
+      }
+    };
     document.addEventListener("securitypolicyviolation", (event) => window.violations.push(`${event.violatedDirective} ${event.blockedURI} ${event.sourceFile}`));
   });
   page.on("pageerror", (error) => page.faults.push(`error: ${error.message}`));

@@ -23,9 +23,9 @@ export async function consentByKeys(page, refused = []) {
   }
 }
 
-/** From the start into the first task. `both`: { evaluator, participant } pages. */
-export async function toFirstTask({ evaluator, participant }, refused = []) {
-  await goOn(evaluator, "consent");
+/** From the start, or from the consent, into the first task. */
+export async function toFirstTask({ evaluator, participant, is_in_consent = false }, refused = []) {
+  if (!is_in_consent) await goOn(evaluator, "consent");
   await consentByKeys(participant, refused);
   await goOn(evaluator, "warm-up");
   await goOn(evaluator, "tasks");

@@ -104,6 +104,12 @@ export class Station {
     return Number(this.url.split(":").at(-1));
   }
 
+  recording() {
+    const study = path.join(this.#folder, "study");
+    const session = fs.readdirSync(study).find((name) => fs.existsSync(path.join(study, name, "session.molar")));
+    return path.join(study, session, "session.molar");
+  }
+
   /** The log so far, or [] while the participant has not allowed it. */
   events(type = null) {
     const study = path.join(this.#folder, "study");
@@ -111,6 +117,19 @@ export class Station {
     if (!session) return [];
     const lines = fs.readFileSync(path.join(study, session, "events.jsonl"), "utf8").split("\n").slice(0, -1);
     return lines.map((line) => JSON.parse(line)).filter((event) => type === null || event.type === type);
+  }
+
+  /** All processes that it has started, and theirs. */
+  besides() {
+    const all = [];
+    const add = (pid) => {
+      for (const child of fs.readFileSync(`/proc/${pid}/task/${pid}/children`, "utf8").trim().split(" ").filter(Boolean)) {
+        all.push(Number(child));
+        add(child);
+      }
+    };
+    add(this.#process.pid);
+    return all;
   }
 
   /** The process that serves the page: by its command line. */

@@ -126,6 +126,10 @@ void Console::hear(const PageEvent& said, std::int64_t at_ns) {
   if (closing_) return refuse(said, "the session is closed");
   if (event.source == "participant" && event.type != "consent" && event.type != "answer" && event.type != "submit")
     return refuse(said, "that is the evaluator's to say");
+  // What is said of a moment that is looked at has its place in the recording.
+  if (debrief_ && debrief_->prepared_share >= 1.0 &&
+      (event.type == "note" || event.type == "bookmark" || event.type == "problem"))
+    event.data.emplace_back("moment_s", debrief_->t_s);
   event.data.emplace_back("rtt_ms", said.round_trip_ms);
   const std::string type = event.type;
   if (desk_ != nullptr) {
@@ -160,6 +164,8 @@ void Console::poll() {
   for (const PageLink::Heard& heard : link_->take()) {
     if (const auto* said = std::get_if<PageEvent>(&heard.word)) hear(*said, heard.at_ns);
     if (const auto* asked = std::get_if<PagePairs>(&heard.word)) pair(*asked);
+    if (const auto* steered = std::get_if<PageSteers>(&heard.word); steered != nullptr && debrief_)
+      steered_.push_back(*steered);
     if (const auto* lives = std::get_if<PageLives>(&heard.word)) {
       is_due_ = is_due_ || lives->pages != pages_;
       pages_ = lives->pages;
@@ -209,6 +215,8 @@ PageNow Console::now() {
   }
   if (parts_.voice) now.voice = parts_.voice();
   now.closing = closing_;
+  now.debrief = debrief_;
+  now.debrief_trouble = debrief_trouble_;
   return now;
 }
 
@@ -222,6 +230,13 @@ void Console::ask(Phase phase) {
   is_ready_ = true;
   is_due_ = true;
   if (phase == Phase::warm_up || phase == Phase::tasks) return;
+  if (phase == Phase::debrief && parts_.debrief) {
+    debrief_.emplace();
+    tell();
+    debrief_trouble_ = parts_.debrief(*this);
+    debrief_.reset();
+    is_due_ = true;
+  }
   while (!goes_on_ && !parts_.is_cancelled()) {
     poll();
     std::this_thread::sleep_for(kAsking);
@@ -265,18 +280,38 @@ void Console::see(const Frame& frame) {
       points_told_ -= points_told_ > 0 ? 1 : 0;
     }
   }
-  showPicture(frame);
+  if (ConsoleTime::now() - pictured_at_ >= kBetweenPictures) showPicture(frame.picture);
 }
 
 /// Only where it is allowed, and somebody looks.
-void Console::showPicture(const Frame& frame) {
-  const auto now = ConsoleTime::now();
-  if (now - pictured_at_ < kBetweenPictures || !parts_.course.allows("picture") || !pictures_.isWanted()) return;
-  const render::Image picture = frame.picture();
+void Console::showPicture(const std::function<render::Image()>& made) {
+  if (!parts_.course.allows("picture") || !pictures_.isWanted()) return;
+  if (picture_asked_ns_ == 0) picture_asked_ns_ = parts_.clock.now_ns();
+  const render::Image picture = made();
+  // On its way: the next frame has it.
   if (picture.w <= 0) return;
-  pictured_at_ = now;
-  pictures_.write(picture, parts_.clock.now_ns());
+  pictured_at_ = ConsoleTime::now();
+  is_picture_due_ = false;
+  pictures_.write(picture, std::exchange(picture_asked_ns_, 0));
 }
+
+void Console::follow(const Shown& shown) {
+  const bool is_moved = debrief_ && (debrief_->t_s != shown.t_s || debrief_->plays != shown.plays ||
+                                     debrief_->speed != shown.speed || debrief_->values.tick != shown.values.tick);
+  is_due_ = is_due_ || is_moved;
+  debrief_ = PageNow::Debrief{shown.t_s,   shown.length_s, shown.tick_s, shown.prepared_share,
+                              shown.speed, shown.plays,    shown.values, {}};
+  debrief_->incidents.assign(shown.incidents.begin(), shown.incidents.end());
+  poll();
+  // One that stands still is sent again, so that it is as young as what it shows.
+  constexpr std::chrono::milliseconds kBetweenSame{500};
+  const auto since = ConsoleTime::now() - pictured_at_;
+  is_picture_due_ = is_picture_due_ || shown.is_new_picture;
+  const bool is_due = (is_picture_due_ && since >= kBetweenPictures) || since >= kBetweenSame;
+  if (shown.prepared_share >= 1.0 && is_due) showPicture(shown.picture);
+}
+
+std::vector<DebriefGuide::Steered> Console::takeSteered() { return std::exchange(steered_, {}); }
 
 void Console::close(bool is_verified, std::size_t rules, std::size_t deviate) {
   closing_ = PageNow::Closing{true, is_verified, rules, deviate, parts_.book.place().folder};

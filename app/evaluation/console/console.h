@@ -19,6 +19,7 @@
 #include "app/evaluation/console/page_pictures.h"
 #include "app/evaluation/console/page_state.h"
 #include "app/evaluation/console/pairing.h"
+#include "app/evaluation/debrief_guide.h"
 #include "app/evaluation/session_book.h"
 #include "app/evaluation/session_clock.h"
 #include "app/evaluation/session_people.h"
@@ -34,7 +35,7 @@ struct ConsoleAddress {
   bool is_shared = false;
 };
 
-class Console : public SessionPeople, public Spectator {
+class Console : public SessionPeople, public Spectator, public DebriefGuide {
  public:
   struct Parts {
     const StudyTemplate& study;
@@ -47,6 +48,8 @@ class Console : public SessionPeople, public Spectator {
     std::function<void()> follow_voice = {};
     std::function<std::optional<VoiceState>()> voice = {};
     std::function<std::string()> voice_missing = {};
+    /// Shows the recording until the guide ends it; returns why it cannot be shown, or nothing. May be empty.
+    std::function<std::string(DebriefGuide&)> debrief = {};
   };
   /// Borrows all. Prints the address. Throws UsageError: it cannot be opened.
   Console(Parts parts, const ConsoleAddress& address, std::string program = "/proc/self/exe");
@@ -60,6 +63,11 @@ class Console : public SessionPeople, public Spectator {
 
   void see(const Frame& frame) override;
   bool endsRehearsal() const override { return warm_up_end_ns_ && goes_on_; }
+
+  void follow(const Shown& shown) override;
+  std::vector<Steered> takeSteered() override;
+  bool allowsVoice() const override { return parts_.course.allows("audio"); }
+  bool isOver() const override { return goes_on_ || parts_.is_cancelled(); }
 
   /// Around the rehearsals.
   void beginWarmUp(double seconds);
@@ -83,7 +91,7 @@ class Console : public SessionPeople, public Spectator {
   void tell();
   PageNow now();
   std::string missing() const;
-  void showPicture(const Frame& frame);
+  void showPicture(const std::function<render::Image()>& made);
 
   Parts parts_;
   PageAddress address_;
@@ -104,6 +112,11 @@ class Console : public SessionPeople, public Spectator {
   std::size_t points_told_ = 0;
   std::optional<PageNow::Servo> servo_;
   std::optional<PageNow::Closing> closing_;
+  std::optional<PageNow::Debrief> debrief_;
+  std::string debrief_trouble_;
+  std::vector<Steered> steered_;
+  std::int64_t picture_asked_ns_ = 0;  ///< 0: none is on its way
+  bool is_picture_due_ = false;        ///< of the debrief: one was drawn that no page has
   std::uint64_t serial_ = 0;
   int pages_ = 0;
   bool is_ready_ = false, is_due_ = true;  ///< the checks are there; something has changed

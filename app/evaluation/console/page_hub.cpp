@@ -112,10 +112,12 @@ bool PageHub::hear(int number, std::string_view text, std::int64_t now_ns) {
     write(number, now_ns);
   } else if (kind == "event") {
     event(client, &said, now_ns);
-  } else if (kind == "steer" && number == writer_) {
+  } else if (kind == "steer") {
     std::string up =
         dumped({{"kind", "steer"}, {"what", textIn(said, "what")}, {"value", said.value("value", HubJson())}});
-    if (pageWordFrom(up) && up_.size() < kMostUpTexts) up_.push_back(std::move(up));
+    if (!pageWordFrom(up)) return ++client.nonsense <= kMostNonsense;
+    // Who only sees steers nothing.
+    if (number == writer_ && up_.size() < kMostUpTexts) up_.push_back(std::move(up));
   } else {
     return ++client.nonsense <= kMostNonsense;
   }
@@ -200,6 +202,7 @@ std::string PageHub::stateFor(Client& client, std::int64_t now_ns) const {
   if (client.role == Role::participant) {
     // What is written about him is not his to read meanwhile.
     for (const char* key : {"notes", "prompts", "checks", "course"}) state[key] = HubJson::array();
+    state["debrief"] = nullptr;
     if (state.contains("task") && state["task"].is_object())
       state["task"]["success"] = state["task"]["fail"] = HubJson::array();
     return dumped(state);

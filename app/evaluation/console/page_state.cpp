@@ -12,6 +12,15 @@
 #include "app/evaluation/task_measures.h"
 
 namespace app {
+
+/// Where something of the log lies in the recording: a note, a bookmark, a task.
+struct LoggedMoment {
+  std::size_t seq = 0;
+  std::string type, text;
+  std::optional<std::uint64_t> tick;
+  double moment_s = 0.0;  ///< where there is no tick: as it was shown in the debrief
+};
+
 namespace {
 
 using PageJson = nlohmann::ordered_json;
@@ -58,9 +67,37 @@ PageJson ruleOf(const std::optional<Rule>& rule, const PageNow& now) {
   return all;
 }
 
+/// On one bar: what the log tells, and the incidents of the recording. Figures with all their digits: they are those
+/// of `molar replay --to T --json`.
+PageJson debriefOf(const PageNow::Debrief& of, const std::vector<LoggedMoment>& logged) {
+  constexpr std::size_t kMostIncidents = 300;
+  std::vector<std::pair<double, PageJson>> marks;
+  for (const LoggedMoment& one : logged) {
+    const double t_s = one.tick ? static_cast<double>(*one.tick) * of.tick_s : one.moment_s;
+    marks.emplace_back(t_s, PageJson{{"t_s", t_s}, {"type", one.type}, {"text", one.text}, {"seq", one.seq}});
+  }
+  for (std::size_t n = 0; n < of.incidents.size() && n < kMostIncidents; ++n)
+    marks.emplace_back(of.incidents[n].t_s,
+                       PageJson{{"t_s", of.incidents[n].t_s}, {"type", "error"}, {"text", of.incidents[n].what}});
+  std::ranges::stable_sort(marks, {}, &std::pair<double, PageJson>::first);
+  PageJson all = PageJson::array();
+  for (auto& [t_s, mark] : marks) all.push_back(std::move(mark));
+  return {{"t_s", of.t_s},
+          {"duration_s", of.length_s},
+          {"prepared", of.prepared_share},
+          {"playing", of.plays},
+          {"speed", of.speed},
+          {"tick", of.values.tick},
+          {"force_N", of.values.force_N},
+          {"removed_mm3", of.values.removed_mm3},
+          {"bone_digest", fmt::format("{:016x}", of.values.bone_digest)},
+          {"marks", std::move(all)}};
+}
+
 }  // namespace
 
 struct PageState::Told {
+  std::vector<LoggedMoment> moments;
   PageJson checks = PageJson::array(), notes = PageJson::array();
   std::map<std::string, int> prompts;
   std::map<std::string, PageJson> answers;  ///< by questionnaire
@@ -100,6 +137,15 @@ void PageState::add(const LogEvent& event) {
   for (const char* key : {"text", "label", "reason", "title"})
     if (const std::string* const text = event.text(key)) note["text"] = *text;
   if (const auto severity = event.number("severity")) note["severity"] = *severity;
+  const auto moment_s = event.number("moment_s");
+  if (event.tick || moment_s) {
+    const std::string type = event.type.starts_with("task.") ? "task" : event.type;
+    const std::string text = event.type == "problem" ? event.textOr("title")
+                             : type == "task"        ? event.textOr("task") + " " + event.textOr("result")
+                                                     : note.value("text", "");
+    if (told_->moments.size() < kMostNotes)
+      told_->moments.push_back({number, type, text, event.tick, moment_s.value_or(0.0)});
+  }
   told_->notes.push_back(std::move(note));
   if (told_->notes.size() > kMostNotes) told_->notes.erase(told_->notes.begin());
 }
@@ -201,7 +247,8 @@ std::string PageState::text(const PageNow& now) const {
                      {"answers", answers == told_->answers.end() ? PageJson::object() : answers->second},
                      {"locked", course_.isLocked(of.id)}});
   }
-  state["debrief"] = PageJson();
+  state["debrief"] = now.debrief ? debriefOf(*now.debrief, told_->moments) : PageJson();
+  if (!now.debrief_trouble.empty()) state["debrief_trouble"] = now.debrief_trouble;
   state["closing"] = PageJson();
   if (now.closing)
     state["closing"] = {{"done", now.closing->is_done},

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/evaluation/debrief_guide.h"
 #include "app/evaluation/evaluation_course.h"
 #include "app/evaluation/voice/voice_state.h"
 
@@ -47,6 +48,15 @@ struct PageNow {
     std::string folder;
   };
   std::optional<Closing> closing;
+  /// The recording as the surgeon's display shows it.
+  struct Debrief {
+    double t_s = 0.0, length_s = 0.0, tick_s = 0.001, prepared_share = 0.0, speed = 1.0;
+    bool plays = false;
+    MomentValues values;
+    std::vector<DebriefGuide::Mark> incidents;
+  };
+  std::optional<Debrief> debrief;  ///< none: none is shown
+  std::string debrief_trouble;     ///< why, where one should be
 };
 
 class PageState {

@@ -96,6 +96,22 @@ std::optional<PageWord> eventFrom(const json& said) {
   return made;
 }
 
+/// Play and pause need no value; a time is one of the first two days, a speed within its bounds.
+std::optional<PageWord> steerFrom(const json& said) {
+  constexpr double kLongest_s = 172'800.0;
+  const std::string* const what = pageText(said, "what");
+  const auto known = what == nullptr ? kDebriefSteers.end() : std::ranges::find(kDebriefSteers, *what);
+  if (known == kDebriefSteers.end()) return {};
+  PageSteers steered{static_cast<DebriefSteer>(known - kDebriefSteers.begin()), 0.0};
+  if (steered.what == DebriefSteer::play || steered.what == DebriefSteer::pause) return steered;
+  const bool is_speed = steered.what == DebriefSteer::speed;
+  const auto value = pageNumber(said, "value");
+  if (!value || *value < (is_speed ? kLeastDebriefSpeed : 0.0) || *value > (is_speed ? kMostDebriefSpeed : kLongest_s))
+    return {};
+  steered.value = *value;
+  return steered;
+}
+
 }  // namespace
 
 std::string framed(std::string_view text) {
@@ -157,10 +173,7 @@ std::optional<PageWord> pageWordFrom(std::string_view text) {
     if (!request || std::abs(*request) > static_cast<double>(kMostNumber) || digits == nullptr) return {};
     return PagePairs{static_cast<std::int64_t>(*request), *digits};
   }
-  if (*kind != "steer") return {};
-  const std::string* const what = pageText(said, "what");
-  if (what == nullptr) return {};
-  return PageSteers{*what, pageNumber(said, "value").value_or(0.0)};
+  return *kind == "steer" ? steerFrom(said) : std::nullopt;
 }
 
 std::string acknowledged(const std::string& page, std::uint64_t number) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <variant>
 
+#include "app/evaluation/debrief_guide.h"
 #include "app/study/session_log.h"
 
 namespace app {
@@ -50,10 +51,8 @@ struct PagePairs {
   std::int64_t request = 0;
   std::string digits;
 };
-struct PageSteers {
-  std::string what;
-  double value = 0.0;
-};
+/// Of the debrief.
+using PageSteers = DebriefGuide::Steered;
 using PageWord = std::variant<PageEvent, PageServes, PageLives, PagePairs, PageSteers>;
 
 /// None: nonsense.

@@ -5,11 +5,15 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/evaluation/child_process.h"
 #include "app/evaluation/seat/follower.h"
+#include "app/evaluation/seat/seat_arena.h"
 #include "app/evaluation/seat/seat_keeper.h"
 #include "app/evaluation/seat/seat_words.h"
 #include "app/session/input_feed.h"
@@ -36,13 +40,35 @@ StoredStart startOf(int recording) {
     }
 }
 
+/// All that a state is: it lies in the arena.
+struct Followed {
+  Followed(StoredStart start, const std::vector<std::string>& ids) : follower(std::move(start), ids) {}
+
+  Follower follower;
+  std::vector<std::optional<double>> said;
+  std::uint64_t ticks = 0, place = 0;  ///< followed; of the feed, behind them
+  double kept_s = 0.0;
+  bool deviates = false;
+};
+
 class Seat {
  public:
-  explicit Seat(const SeatOptions& options)
-      : words_to_(options.words), feed_(options.feed), follower_(startOf(options.recording), options.ids) {}
+  explicit Seat(const SeatOptions& options) : words_to_(options.words), states_(options.states), feed_(options.feed) {
+    if (states_ >= 0 && SeatArena::open()) of_ = static_cast<Followed*>(SeatArena::bringBack(states_));
+    is_brought_back_ = of_ != nullptr;
+    if (is_brought_back_) {
+      feed_.continueAt(of_->place);
+      return;
+    }
+    const SeatArena::Inside inside;
+    of_ = std::make_unique<Followed>(startOf(options.recording), options.ids).release();
+  }
+  ~Seat() { delete of_; }
+  Seat(const Seat&) = delete;
+  Seat& operator=(const Seat&) = delete;
 
   int run() {
-    if (keep()) say({.kind = SeatWord::Kind::began});
+    if (keep(false)) say({.kind = SeatWord::Kind::began, .tick = of_->ticks, .number = is_brought_back_ ? 2U : 0U});
     send();
     for (;;) {
       keeper_.beat();
@@ -57,63 +83,76 @@ class Seat {
 
  private:
   void follow(const FedBatch& batch) {
-    follower_.add(batch.commands);
+    {
+      const SeatArena::Inside inside;
+      of_->follower.add(batch.commands);
+    }
     for (std::size_t n = 0; n < batch.ticks.size(); ++n) {
       const FedTick& fed = batch.ticks[n];
-      const auto why = follower_.step(fed.input);
-      ++ticks_;
-      if (!deviates_ && (why || digestOf(follower_.tick()) != fed.digest)) {
-        deviates_ = true;
-        say({.kind = SeatWord::Kind::deviates, .tick = fed.input.index});
-      }
+      step(fed);
       sayValues();
       if (n % kBetweenBeats == 0) keeper_.beat();
-      if (n + 1 == batch.ticks.size() || ticks_ % kBetweenThroughs == 0) sayThrough();
-      const double now_s = follower_.tick().t_s;
-      if (now_s - kept_s_ < kBetweenStates_s) continue;
-      kept_s_ = now_s;
-      sayThrough();
-      keep();
+      if (n + 1 == batch.ticks.size() || of_->ticks % kBetweenThroughs == 0) sayThrough();
     }
+    of_->place = feed_.place();
+    const double now_s = of_->follower.tick().t_s;
+    if (now_s - of_->kept_s < kBetweenStates_s) return;
+    of_->kept_s = now_s;
+    keep(true);
   }
 
-  /// All until here is said. False: this process goes on from here, as another one has died.
-  bool keep() {
-    const bool is_whole = keeper_.keep();
-    if (!is_whole) say({.kind = SeatWord::Kind::began, .tick = ticks_, .number = 1});
+  void step(const FedTick& fed) {
+    const SeatArena::Inside inside;
+    const auto why = of_->follower.step(fed.input);
+    ++of_->ticks;
+    if (of_->deviates || (!why && digestOf(of_->follower.tick()) == fed.digest)) return;
+    of_->deviates = true;
+    say({.kind = SeatWord::Kind::deviates, .tick = fed.input.index});
+  }
+
+  /// All until here is said. False: this process goes on from here, as another one has died. The older half stores the
+  /// state, for a process that knows nothing of these.
+  bool keep(bool stores) {
+    const bool is_whole = keeper_.keep([&] {
+      if (stores && states_ >= 0) SeatArena::keep(states_, of_);
+    });
+    if (!is_whole) say({.kind = SeatWord::Kind::began, .tick = of_->ticks, .number = 1});
     send();
     return is_whole;
   }
 
   void sayValues() {
-    const std::span<const std::optional<double>> values = follower_.measures().values();
-    said_.resize(values.size());
+    const std::span<const std::optional<double>> values = of_->follower.measures().values();
+    if (of_->said.size() != values.size()) {
+      const SeatArena::Inside inside;
+      of_->said.resize(values.size());
+    }
     for (std::size_t n = 0; n < values.size(); ++n) {
-      if (values[n] == said_[n]) continue;
-      said_[n] = values[n];
+      if (values[n] == of_->said[n]) continue;
+      of_->said[n] = values[n];
       say({.kind = values[n] ? SeatWord::Kind::value : SeatWord::Kind::no_value,
-           .tick = follower_.tick().index,
+           .tick = of_->follower.tick().index,
            .number = n,
            .value = values[n].value_or(0.0)});
     }
   }
   void sayThrough() {
     keeper_.beat();
-    say({.kind = SeatWord::Kind::through, .tick = follower_.tick().index, .number = keeper_.processor_ns()});
+    say({.kind = SeatWord::Kind::through, .tick = of_->follower.tick().index, .number = keeper_.processor_ns()});
     send();
   }
   void say(const SeatWord& word) {
-    waiting_.push_back(word);
-    if (waiting_.size() == kMostSeatWords) send();
+    waiting_[waiting_count_++] = word;
+    if (waiting_count_ == waiting_.size()) send();
   }
 
   /// Waits where the rehearsal is slow to read, and is at an end where that is gone.
   void send() {
-    while (!waiting_.empty()) {
+    while (waiting_count_ > 0) {
       const ssize_t sent =
-          ::send(words_to_, waiting_.data(), waiting_.size() * sizeof(SeatWord), MSG_DONTWAIT | MSG_NOSIGNAL);
+          ::send(words_to_, waiting_.data(), waiting_count_ * sizeof(SeatWord), MSG_DONTWAIT | MSG_NOSIGNAL);
       if (sent > 0) {
-        waiting_.clear();
+        waiting_count_ = 0;
       } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
         constexpr int kPatience_ms = 100;
         pollfd room{words_to_, POLLOUT, 0};
@@ -134,21 +173,20 @@ class Seat {
     return ::recv(words_to_, &nothing, sizeof nothing, MSG_DONTWAIT) == 0;
   }
 
-  int words_to_;
+  int words_to_, states_;
   InputFeedReader feed_;
-  Follower follower_;
+  Followed* of_ = nullptr;
   SeatKeeper keeper_;
-  std::vector<SeatWord> waiting_;
-  std::vector<std::optional<double>> said_;
-  std::uint64_t ticks_ = 0;
-  double kept_s_ = 0.0;
-  bool deviates_ = false;
+  std::array<SeatWord, kMostSeatWords> waiting_;
+  std::size_t waiting_count_ = 0;
+  bool is_brought_back_ = false;
 };
 
 }  // namespace
 
 int runSeat(const SeatOptions& options) {
-  stepAside({options.recording, options.feed, options.words});
+  if (options.states >= 0) SeatArena::startAtFixedAddresses();
+  stepAside({options.recording, options.feed, options.words, options.states});
   return Seat(options).run();
 }
 

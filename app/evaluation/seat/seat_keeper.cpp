@@ -44,7 +44,7 @@ SeatKeeper::SeatKeeper() {
 
 void SeatKeeper::leave(int status) { ::_exit(status); }
 
-bool SeatKeeper::keep() {
+bool SeatKeeper::keep(const std::function<void()>& first) {
   const bool is_first = is_first_;
   is_first_ = false;
   // Children of older parents fall to the first.
@@ -62,6 +62,7 @@ bool SeatKeeper::keep() {
     if (child < 0 && !is_first) return true;
     if (child < 0) leave(kGivenUp);
     if (is_whole) shared_->newest = number, shared_->deaths = 0;
+    if (is_whole && first) first();
     watch(number);
     if (++shared_->deaths > kMostDeaths) leave(kGivenUp);
   }

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 
 namespace app {
 
@@ -19,8 +20,9 @@ class SeatKeeper {
   SeatKeeper();
 
   /// Returns in the child, which must beat() from now on: false where another one did and died. The parent never
-  /// returns: it exits with the child's status. After kMostDeaths since the last keep() it gives up.
-  bool keep();
+  /// returns: it does `first` once, as it is now, and exits with the child's status. After kMostDeaths since the last
+  /// keep() it gives up.
+  bool keep(const std::function<void()>& first = {});
   /// It works. Also adds its processor time.
   void beat();
   /// Of all children together.

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "app/evaluation/child_process.h"
+#include "app/evaluation/seat/seat_arena.h"
 #include "app/evaluation/seat/seat_keeper.h"
 
 namespace app {
@@ -31,11 +33,15 @@ std::string joinedIds(const std::vector<std::string>& ids) {
 }  // namespace
 
 SeatLink::SeatLink(const InputFeed& feed, std::vector<std::string> ids, std::string program)
-    : feed_(feed), book_(std::move(ids)), program_(std::move(program)) {}
+    : feed_(feed), book_(std::move(ids)), program_(std::move(program)) {
+  states_ = ::memfd_create("molar seat states", MFD_CLOEXEC);
+  if (states_ >= 0 && ::ftruncate(states_, SeatArena::kStates_bytes) != 0) ::close(std::exchange(states_, -1));
+}
 
 SeatLink::~SeatLink() {
   end();
   if (recording_ >= 0) ::close(recording_);
+  if (states_ >= 0) ::close(states_);
 }
 
 void SeatLink::start(const std::string& recording) {
@@ -47,6 +53,7 @@ void SeatLink::start(const std::string& recording) {
 void SeatLink::launch() {
   ++starts_;
   has_spoken_ = false;
+  followed_at_launch_ = book_.followed();
   heard_ = Clock::now();
   std::array<int, 2> ends{-1, -1};
   if (recording_ < 0 || ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -59,7 +66,12 @@ void SeatLink::launch() {
                                  "--feed",      std::to_string(feed_.descriptor()),
                                  "--words",     std::to_string(ends[1])};
   if (!book_.ids().empty()) words.insert(words.end(), {"--measures", joinedIds(book_.ids())});
-  process_ = startBeside(program_, std::move(words), std::array{recording_, feed_.descriptor(), ends[1]});
+  std::vector<int> handed{recording_, feed_.descriptor(), ends[1]};
+  if (states_ >= 0 && trusts_states_) {
+    words.insert(words.end(), {"--states", std::to_string(states_)});
+    handed.push_back(states_);
+  }
+  process_ = startBeside(program_, std::move(words), handed);
   ::close(ends[1]);
   if (process_ == 0) giveUp();
 }
@@ -71,6 +83,8 @@ void SeatLink::end() {
 
 void SeatLink::begin(std::string why) {
   end();
+  // What it had kept may be what it fell over.
+  if (starts_ > 1 && book_.followed() <= followed_at_launch_) trusts_states_ = false;
   is_missed_ = true;
   news_.push_back({"seat.lost", {{"why", std::move(why)}}});
   if (starts_ == kMostStarts || feed_.hasEnded()) {
@@ -135,7 +149,8 @@ void SeatLink::tellNews() {
   const auto back = [this](const char* how) {
     news_.push_back({"seat.back", {{"how", std::string(how)}, {"followed", static_cast<std::int64_t>(followed())}}});
   };
-  if (book_.begun() > begun_told_ && std::exchange(is_missed_, false)) back("from the first tick on");
+  if (book_.begun() > begun_told_ && std::exchange(is_missed_, false))
+    back(book_.isBroughtBack() ? "from a stored state on" : "from the first tick on");
   begun_told_ = book_.begun();
   if (book_.takenOver() > taken_told_) back("from a kept state on, as its process died");
   taken_told_ = book_.takenOver();

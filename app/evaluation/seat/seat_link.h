@@ -56,10 +56,11 @@ class SeatLink : public BoneSource {
   const InputFeed& feed_;
   SeatBook book_;
   std::string program_;
-  int recording_ = -1, words_ = -1, process_ = 0;
+  int recording_ = -1, words_ = -1, states_ = -1, process_ = 0;
+  bool trusts_states_ = true;  ///< until a process that knew one fell before it had said anything
   int starts_ = 0;
   bool is_lost_ = false, has_told_deviation_ = false, has_spoken_ = false;
-  std::uint64_t begun_told_ = 0, taken_told_ = 0;
+  std::uint64_t begun_told_ = 0, taken_told_ = 0, followed_at_launch_ = 0;
   Clock::time_point heard_{};
   bool is_up_ = false, is_missed_ = false;
   std::vector<std::uint32_t> lags_;

@@ -47,7 +47,9 @@ bool SeatBook::take(std::span<const SeatWord> words, std::uint64_t made) {
       processor_ns_ = std::max(processor_ns_, word.number);
     }
     if (word.kind == SeatWord::Kind::deviates && (!deviates_ || word.tick < *deviates_)) deviates_ = word.tick;
-    if (word.kind == SeatWord::Kind::began) ++(word.number == 0 ? begun_ : taken_over_);
+    if (word.kind != SeatWord::Kind::began) continue;
+    ++(word.number == 1 ? taken_over_ : begun_);
+    if (word.number != 1) is_brought_back_ = word.number == 2;
   }
   return true;
 }

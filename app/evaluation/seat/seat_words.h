@@ -21,7 +21,7 @@ struct SeatWord {
     no_value = 2,  ///< of id `number`, from this tick on
     through = 3,   ///< all ticks until this one are followed; `number`: ns of processor time so far
     deviates = 4,  ///< this tick came out otherwise than the servo's
-    began = 5,     ///< a process goes on after this many ticks; `number` 1: another one died
+    began = 5,     ///< a process goes on after this many ticks; `number` 1: another one died, 2: from a stored state
   };
   static constexpr std::uint32_t kMark = 0x7461'6573;
 
@@ -53,6 +53,8 @@ class SeatBook {
   std::uint64_t processor_ns() const { return processor_ns_; }
   /// Processes that were started, and those that took the work over from one that died.
   std::uint64_t begun() const { return begun_; }
+  /// The one that was started last knew a stored state.
+  bool isBroughtBack() const { return is_brought_back_; }
   std::uint64_t takenOver() const { return taken_over_; }
 
  private:
@@ -66,6 +68,7 @@ class SeatBook {
   std::vector<std::deque<Since>> values_;  ///< by id, in order of ticks
   std::uint64_t followed_ = 0, processor_ns_ = 0, begun_ = 0, taken_over_ = 0;
   std::optional<std::uint64_t> deviates_;
+  bool is_brought_back_ = false;
 };
 
 }  // namespace app

@@ -45,7 +45,8 @@ std::string notesTable(const std::vector<LogEvent>& events) {
 
 class BundleMaker {
  public:
-  BundleMaker(const std::string& study, const PrivateStudyKeys* owner) : study_(study), owner_(owner) {}
+  BundleMaker(const std::string& study, const PrivateStudyKeys* owner, const MoreOfSession& more)
+      : study_(study), owner_(owner), more_(more) {}
 
   void add(const StudySession& session) {
     const std::string at = "sessions/" + session.folder + "/";
@@ -65,6 +66,11 @@ class BundleMaker {
       entries_.push_back({at + name, csvText(table), ""});
       if (name.starts_with("answers-")) answered_.insert(name.substr(8, name.size() - 8 - 4));
     }
+    if (more_)
+      for (ZipEntry& entry : more_(session, said.events, report_.remarks)) {
+        entry.name = at + entry.name;
+        entries_.push_back(std::move(entry));
+      }
     report_.sessions.push_back(accountOf(study_, session, said.events));
     sessions_.push_back(session.folder);
   }
@@ -100,6 +106,7 @@ class BundleMaker {
  private:
   const std::string& study_;
   const PrivateStudyKeys* owner_;
+  const MoreOfSession& more_;
   std::vector<ZipEntry> entries_;
   CifReport report_;
   std::set<std::string> answered_;
@@ -109,9 +116,9 @@ class BundleMaker {
 }  // namespace
 
 WrittenBundle writeBundle(const std::string& study, const std::string& session, const PrivateStudyKeys* owner,
-                          const std::string& file, bool overwrite) {
+                          const std::string& file, bool overwrite, const MoreOfSession& more) {
   calibration::OutputFile out(file, overwrite);
-  BundleMaker maker(study, owner);
+  BundleMaker maker(study, owner, more);
   WrittenBundle written;
   for (const StudySession& one : thoseThatCount(sessionsIn(study))) {
     if (!session.empty() && one.folder != session) continue;

@@ -4,10 +4,14 @@
 // disk.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "app/study/bundle/zip_file.h"
 #include "app/study/privacy/study_keys.h"
+#include "app/study/session_log.h"
+#include "app/study/study_folder.h"
 
 namespace app {
 
@@ -15,9 +19,14 @@ struct WrittenBundle {
   std::vector<std::string> sessions, remarks;
 };
 
+/// More of a session for its folder in the bundle, and remarks on what is left out; `said`: its log, opened where it
+/// can be. Empty: none.
+using MoreOfSession = std::function<std::vector<ZipEntry>(
+    const StudySession& session, const std::vector<LogEvent>& said, std::vector<std::string>& remarks)>;
+
 /// Whole or not at all, read back and checked before it gets its name. `session` empty: all that were closed. Throws
 /// LoadError, UsageError, CalibrationError.
 WrittenBundle writeBundle(const std::string& study, const std::string& session, const PrivateStudyKeys* owner,
-                          const std::string& file, bool overwrite);
+                          const std::string& file, bool overwrite, const MoreOfSession& more = {});
 
 }  // namespace app

@@ -110,6 +110,14 @@ TEST_F(EvaluateCommand, WithKeysWordsAreSealedForTheOwnerAlone) {
   EXPECT_EQ(changed.status, 1);
   EXPECT_EQ(changed.out, "sessions/P01-1/session.molar was changed\n");
 
+  // Looked at again: what is closed is told, the key opens it, another recording needs none.
+  const std::string looks =
+      "debrief " + at("study/P01-1/session.molar") + " --headless --size 64x48 --force --snapshot " + at("moment.png");
+  EXPECT_NE(molar(looks).err.find("voice and words are sealed, --key"), std::string::npos);
+  const ProgramOutput with_key = molar(looks + owner);
+  EXPECT_EQ(with_key.status, 0) << with_key.err;
+  EXPECT_EQ(with_key.err.find("sealed"), std::string::npos) << with_key.err;
+
   // Taken back: the chain and the recording stay.
   EXPECT_EQ(molar("study withdraw " + at("study") + " P01 --stream words --dry-run").out,
             "P01-1/keys/words.key\nP01-1/session.bookmarks.json\n");
@@ -223,6 +231,19 @@ TEST_F(BoneRules, FireLiveAtTheTicksOfTheRecordingTwiceAlike) {
   std::filesystem::remove_all(at("study"));
   ASSERT_EQ(molar(boneSession()).status, 0);
   EXPECT_EQ(read("study/P01-1/events.jsonl"), first);
+}
+
+TEST_F(BoneRules, OverWhatTheCaseNeverTellsTheSessionIsNotBegun) {
+  std::string text = kBoneTemplate;
+  text.replace(text.find("O1.bone > 4 mm3"), 15, "O10.second_molar == 0 mm3");
+  write("bone.toml", text);
+  const ProgramOutput said = molar(boneSession());
+  EXPECT_EQ(said.status, 1);
+  EXPECT_NE(
+      said.err.find("rules: task on: O10.second_molar cannot be told here, the case has no numbered second molar"),
+      std::string::npos)
+      << said.err;
+  EXPECT_FALSE(std::filesystem::exists(at("study/P01-1/session.molar")));
 }
 
 TEST_F(EvaluateCommand, RefusesInOneLine) {

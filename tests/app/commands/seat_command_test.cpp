@@ -49,7 +49,11 @@ class SeatCommand : public ProgramTest {
       if (n % 1000 == 999 || n + 1 == count) recorder_->drain();
     }
     link_->update(next_ - 1, kLong);
-    for (const BoneSource::News& one : link_->takeNews()) ++news_[one.type];
+    for (const BoneSource::News& one : link_->takeNews()) {
+      ++news_[one.type];
+      for (const auto& [key, value] : one.data)
+        if (key == "how") how_ = std::get<std::string>(value);
+    }
     ASSERT_EQ(link_->followed(), next_);
     for (std::uint64_t tick = first; tick < next_; ++tick)
       ASSERT_EQ(link_->value("O1.bone", tick), found_[tick]) << tick;
@@ -90,6 +94,7 @@ class SeatCommand : public ProgramTest {
   std::uint64_t next_ = 0;
   std::vector<std::optional<double>> found_;
   std::map<std::string, int> news_;
+  std::string how_;  ///< the newest process came back
 };
 
 TEST_F(SeatCommand, TellsWhatAServoHereFindsInEveryTick) {
@@ -116,10 +121,11 @@ TEST_F(SeatCommand, KilledStoppedOrBothItTellsTheSame) {
   goOn(300);
   EXPECT_EQ(link_->figures().taken_over, 2);
   EXPECT_EQ(news_["seat.lost"], 0);
-  // All of it, with what it kept: another begins with the first tick.
+  // All of it, with the states in its memory: another begins with the one that was stored.
   kill(-link_->process(), SIGKILL);
   goOn(1200);
   EXPECT_EQ(link_->figures().starts, 2);
+  EXPECT_EQ(how_, "from a stored state on");
   kill(-link_->process(), SIGSTOP);
   goOn(1200);
   EXPECT_EQ(link_->figures().starts, 3);

@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "app/evaluation/voice/speech_watch.h"
 #include "app/evaluation/voice/voice_desk.h"
@@ -128,6 +130,62 @@ TEST_F(VoiceCommand, RecordsSpeechAndSilenceWithTheirTimes) {
   const auto at_tick = track->timeOfTick(5001.0);
   ASSERT_TRUE(at_tick);
   EXPECT_NEAR(static_cast<double>(*at_tick - kBegin_ns) * 1e-9, 5.0, 0.001);
+}
+
+/// V-05, the whole chain by the clock: a microphone that is a file, the process that records it, the clock's map, the
+/// ticks. Clicks every ten seconds are where they were, at the end as at the beginning.
+class VoiceChainSoak : public VoiceCommand {
+ protected:
+  static std::int64_t clock_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+};
+
+TEST_F(VoiceChainSoak, AClickIsAtItsTickAtTheStartAndAtTheEnd) {
+  const char* const asked = std::getenv("MOLAR_SOAK_MINUTES");
+  const int seconds = asked == nullptr ? 32 : std::max(1, std::atoi(asked)) * 60 + 2;
+  constexpr int kEvery_s = 10, kRate_Hz = 48'000;
+  constexpr std::int64_t kClick_s = 1;
+  std::vector<float> sound(static_cast<std::size_t>(seconds) * kRate_Hz, 0.0F);
+  for (int s = kClick_s; s < seconds; s += kEvery_s) sound[static_cast<std::size_t>(s) * kRate_Hz] = 0.9F;
+  tests::writeSound(scratch_.file("heard.flac"), sound);
+  now_ns_ = clock_ns();
+  consent(true);
+  desk_.emplace(VoiceDesk::Parts{course_, microphoneFrom("file:" + scratch_.file("heard.flac") + ",realtime"),
+                                 study_.silence_s, false, -1, MOLAR_PROGRAM});
+  desk_->begin(session(), nullptr, {now_ns_, {}});
+  const std::int64_t first_tick_ns = now_ns_;
+  const auto tickNow = [&] { return static_cast<std::uint64_t>((now_ns_ - first_tick_ns) / 1'000'000); };
+  course_.startTask({now_ns_, 0});
+  while (now_ns_ - first_tick_ns < static_cast<std::int64_t>(seconds) * kSecond_ns) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    now_ns_ = clock_ns();
+    desk_->follow({now_ns_, tickNow()});
+  }
+  desk_->finish({now_ns_, tickNow()});
+  const auto on = ofType("voice.on");
+  ASSERT_EQ(on.size(), 1u);
+  auto track = VoiceTrack::of(session(), 1000.0);
+  ASSERT_TRUE(track);
+  // Where each is found, by the map from samples to the clock.
+  std::vector<double> off_ms;
+  std::vector<float> heard(kRate_Hz);
+  for (std::int64_t s = kClick_s; s * kRate_Hz + kRate_Hz < track->frames(); s += kEvery_s) {
+    track->read(s * kRate_Hz - kRate_Hz / 2, heard);
+    const auto loudest = std::ranges::max_element(heard) - heard.begin();
+    ASSERT_GT(heard[static_cast<std::size_t>(loudest)], 0.5F) << s;
+    const std::int64_t frame = s * kRate_Hz - kRate_Hz / 2 + loudest;
+    const std::int64_t t_ns = on[0]->t_ns + s * kSecond_ns;
+    off_ms.push_back(static_cast<double>(track->frameAt(t_ns) - frame) / 48.0);
+    // And by its tick.
+    const auto at_tick = track->timeOfTick(static_cast<double>(t_ns - first_tick_ns) / 1e6);
+    ASSERT_TRUE(at_tick);
+    EXPECT_NEAR(static_cast<double>(*at_tick - t_ns) / 1e6, 0.0, 5.0) << s;
+  }
+  ASSERT_GE(off_ms.size(), 2u);
+  const auto [least, most] = std::ranges::minmax(off_ms);
+  std::printf("%zu clicks in %d s: first %.1f ms off, last %.1f, from %.1f to %.1f\n", off_ms.size(), seconds,
+              off_ms.front(), off_ms.back(), least, most);
+  EXPECT_LT(std::max(std::abs(off_ms.front()), std::abs(off_ms.back())), 40.0);
+  EXPECT_LT(std::abs(off_ms.back() - off_ms.front()), 10.0);
 }
 
 TEST_F(VoiceCommand, WithoutTheConsentNothingIsOpenedAndNoByteIsKept) {

@@ -5,6 +5,7 @@ import { digitOf, isText, press, rated, typed } from "./keys.js";
 
 const kNotes = ["warm-up", "tasks", "debrief", "questionnaires", "close"];
 const kSpeeds = [0.25, 0.5, 1, 2, 4];
+const kOnItsWay_ms = 700;
 
 /** Whether notes belong into this phase. */
 export function takesNotes(state) {
@@ -48,18 +49,41 @@ function act(app, does, when) {
   app.show();
 }
 
+/** Where the bar stands: where it was sent to just now, else where the station is. */
+export function position(app) {
+  const { debrief } = app.state;
+  const wanted = app.wanted;
+  return wanted && performance.now() - wanted.at_ms < kOnItsWay_ms ? wanted.t_s : debrief.t_s;
+}
+
+/** `what`: "scrub" while a hand moves, else the moment itself. */
+export function goTo(app, t_s, what = "seek") {
+  const { debrief } = app.state;
+  if (!debrief || debrief.prepared < 1) return;
+  const to_s = Math.min(debrief.duration_s, Math.max(0, t_s));
+  app.wanted = { t_s: to_s, at_ms: performance.now() };
+  app.steer(what, to_s);
+  app.show();
+}
+
 /** The bar of the debrief; true: the key was one of its own. */
-export function steered(app, key) {
+export function steered(app, key, is_held = false) {
   const debrief = app.state?.debrief;
-  if (app.state?.phase !== "debrief" || !debrief) return false;
+  if (app.state?.phase !== "debrief" || !debrief || debrief.prepared < 1) return false;
   const marks = (debrief.marks ?? []).map((mark) => mark.t_s).sort((a, b) => a - b);
   const near = 0.05;
+  const t_s = position(app);
+  const how = is_held ? "scrub" : "seek";
+  const plays = () => {
+    app.wanted = null;
+    app.steer(debrief.playing ? "pause" : "play", null);
+  };
   const moves = {
-    " ": () => app.steer(debrief.playing ? "pause" : "play", null),
-    ArrowLeft: () => app.steer("seek", Math.max(0, debrief.t_s - 1)),
-    ArrowRight: () => app.steer("seek", Math.min(debrief.duration_s, debrief.t_s + 1)),
-    ",": () => app.steer("seek", marks.filter((t_s) => t_s < debrief.t_s - near).at(-1) ?? 0),
-    ".": () => app.steer("seek", marks.find((t_s) => t_s > debrief.t_s + near) ?? debrief.duration_s),
+    " ": plays,
+    ArrowLeft: () => goTo(app, t_s - 1, how),
+    ArrowRight: () => goTo(app, t_s + 1, how),
+    ",": () => goTo(app, marks.filter((mark_s) => mark_s < t_s - near).at(-1) ?? 0),
+    ".": () => goTo(app, marks.find((mark_s) => mark_s > t_s + near) ?? debrief.duration_s),
     "-": () => app.steer("speed", kSpeeds.filter((speed) => speed < debrief.speed).at(-1) ?? kSpeeds[0]),
     "+": () => app.steer("speed", kSpeeds.find((speed) => speed > debrief.speed) ?? kSpeeds.at(-1)),
   };
@@ -92,7 +116,7 @@ export function listenAsEvaluator(app) {
     // Enter and space press the button that has the focus.
     if ((key === "Enter" || key === " ") && target.closest("button, a, summary")) return;
     if (event.shiftKey && /^[0-9]$/.test(key)) return;
-    if (!app.line && steered(app, key)) return event.preventDefault();
+    if (!app.line && steered(app, key, event.repeat)) return event.preventDefault();
     if (event.repeat && /^[0-9]$/.test(key)) return event.preventDefault();
     if (!app.line) former = document.activeElement;
     if (/^[0-9?]$/.test(key) || ["Escape", "Enter", "ArrowUp", "ArrowDown"].includes(key)) {

@@ -1,13 +1,13 @@
 // The notes, oldest first, with what is on its way or was refused, and below them the line that is being typed. The one
 // thing on the page that scrolls: it follows the newest unless the evaluator has scrolled back.
 
-import { takesNotes } from "./evaluator_keys.js";
+import { goTo, position, takesNotes } from "./evaluator_keys.js";
 import { minutes, minutesExactly, number, severityName } from "./format.js";
 import { h } from "./h.js";
 import { isText, rated } from "./keys.js";
 
 const kNames = { note: "note", prompt: "prompt", bookmark: "bookmark", help: "help", problem: "problem", task: "task", consent: "consent" };
-const kSigns = { bookmark: "⚑", prompt: "▸", help: "?", problem: "!", task: "■" };
+const kSigns = { error: "▲", bookmark: "⚑", prompt: "▸", help: "?", problem: "!", task: "■" };
 const kTaskWords = { "task.start": "begins", "task.pause": "pauses", "task.resume": "goes on" };
 const kOpen = {
   behaviour: "behaviour",
@@ -31,7 +31,7 @@ export function following(showPage) {
 
 export function notes(app) {
   const { state, outbox } = app;
-  const shown = (state.notes ?? []).map((note) => kept(app, note));
+  const shown = isReplayed(state) ? replayed(app) : (state.notes ?? []).map((note) => kept(app, note));
   const waiting = outbox.told.filter((event) => event.type in kNames).map((event) => going(app, event));
   const refused = outbox.refused.map((event) => going(app, event));
   return h(
@@ -42,14 +42,35 @@ export function notes(app) {
   );
 }
 
+function isReplayed({ phase, debrief }) {
+  return phase === "debrief" && debrief !== null && debrief !== undefined && debrief.prepared >= 1;
+}
+
+// In the debrief by their place in the recording, with its incidents between them; what has none comes last.
+function replayed(app) {
+  const { notes: all = [], debrief } = app.state;
+  const bySeq = new Map(all.map((note) => [note.seq, note]));
+  const t_s = position(app);
+  const near = debrief.marks.findLastIndex((mark) => mark.t_s <= t_s + 0.05);
+  const placed = new Set();
+  const rows = debrief.marks.map((mark, n) => {
+    const jump = () => goTo(app, mark.t_s);
+    const is_now = n === near;
+    const note = bySeq.get(mark.seq);
+    if (note) placed.add(mark.seq);
+    return note ? kept(app, note, mark.t_s, jump, is_now) : row(`i${n}`, { time: minutes(mark.t_s), kind: "error", text: mark.text, severity: null, sort: "incident", jump, is_now });
+  });
+  return [...rows, ...all.filter((note) => !placed.has(note.seq)).map((note) => kept(app, note))];
+}
+
 function none(state) {
   return takesNotes(state) ? "No notes yet. 1 behaviour, 2 comment." : "Notes belong after the consent.";
 }
 
-function row(key, { time, kind, text, severity, sort, after = null, jump = null }) {
+function row(key, { time, kind, text, severity, sort, after = null, jump = null, is_now = false }) {
   return h(
     "li",
-    { key, class: `note ${sort}` },
+    { key, class: `note ${sort}${is_now ? " at" : ""}`, "aria-current": is_now ? "true" : null },
     jump ? h("button", { class: "time", onclick: jump, title: "show this moment" }, time) : h("span", { class: "time" }, time),
     h("span", { class: `kind ${kind}` }, kSigns[kind] && h("i", { "aria-hidden": "true" }, kSigns[kind]), kind),
     h("span", { class: "text" }, text),
@@ -71,10 +92,10 @@ function taskText({ type, task, result, by, text }) {
   return `${task ?? ""}: ${result ?? ""}${by ? `, by ${by}` : ""}${text ? `, ${text}` : ""}`;
 }
 
-function kept(app, note) {
+// `t_s`: its place in the recording.
+function kept(app, note, t_s = note.at_s, jump = null, is_now = false) {
   const kind = note.type === "note" ? note.kind : note.type.split(".")[0];
-  const jump = app.state.phase === "debrief" && app.state.debrief ? () => app.steer("seek", note.at_s) : null;
-  return row(`n${note.seq}`, { time: minutes(note.at_s), kind, text: textOf(note, app.state), severity: note.severity, sort: "kept", jump });
+  return row(`n${note.seq}`, { time: minutes(t_s), kind, text: textOf(note, app.state), severity: note.severity, sort: "kept", jump, is_now });
 }
 
 // Not yet on the station's disk, or refused by it: nothing typed goes without a word.

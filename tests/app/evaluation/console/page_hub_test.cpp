@@ -175,6 +175,20 @@ TEST_F(PageHubTest, WhoSaysTooMuchOrNonsenseIsDroppedAndNothingGrows) {
   EXPECT_EQ(answers, PageHub::kMostReplies);
 }
 
+TEST_F(PageHubTest, WhoWritesSteersTheDebriefAndNonsenseIsCounted) {
+  const int writer = hub_.join(PageHub::Role::evaluator, "a", 1), other = hub_.join(PageHub::Role::evaluator, "b", 2);
+  const int participant = hub_.join(PageHub::Role::participant, "c", 3);
+  const std::string seek = R"({"kind":"steer","what":"seek","value":12.5})";
+  hub_.hear(other, seek, 4), hub_.hear(participant, seek, 4);
+  EXPECT_TRUE(hub_.takeUp().empty());
+  hub_.hear(writer, seek, 5);
+  ASSERT_EQ(hub_.takeUp().size(), 1u);
+  for (int n = 0; n < PageHub::kMostNonsense; ++n)
+    ASSERT_TRUE(hub_.hear(writer, R"({"kind":"steer","what":"seek","value":-1})", 6));
+  EXPECT_FALSE(hub_.hear(writer, R"({"kind":"steer","what":"seek","value":-1})", 6));
+  EXPECT_TRUE(hub_.takeUp().empty());
+}
+
 TEST_F(PageHubTest, PairingIsTheSessionsToDecide) {
   const std::int64_t asked = hub_.pair("123456");
   const auto up = hub_.takeUp();

@@ -108,6 +108,33 @@ TEST_F(PageStateTest, NotesAndPromptsStandInTheOrderOfTheLog) {
   EXPECT_EQ(notes[3]["type"], "task.pause");
 }
 
+TEST_F(PageStateTest, TheDebriefHasNotesAndIncidentsOnOneBarWithEveryDigitOfItsFigures) {
+  goToTasks(true);
+  EXPECT_TRUE(now()["debrief"].is_null());
+  say("note", {{"kind", std::string("comment")}, {"text", std::string("deep")}});
+  EXPECT_FALSE(
+      course_.take({at(9.0).t_ns, {}, "evaluator", "bookmark", {{"label", std::string()}, {"moment_s", 2.5}}}));
+  // What has no place in the recording is on no bar.
+  EXPECT_FALSE(course_.take({at(9.5).t_ns, {}, "evaluator", "note", {{"kind", std::string("behaviour")}}}));
+  PageNow with;
+  with.debrief.emplace();
+  with.debrief->t_s = 1.0 / 3.0, with.debrief->length_s = 7.0, with.debrief->tick_s = 0.1;
+  with.debrief->prepared_share = 1.0;
+  with.debrief->values = {.tick = 3, .t_s = 0.3, .force_N = 2.0 / 3.0, .removed_mm3 = 1e-17, .bone_digest = 0xabc};
+  with.debrief->incidents = {{1.5, "the canal was touched"}};
+  const json debrief = now(with)["debrief"];
+  EXPECT_EQ(debrief["t_s"].get<double>(), 1.0 / 3.0);
+  EXPECT_EQ(debrief["force_N"].get<double>(), 2.0 / 3.0);
+  EXPECT_EQ(debrief["removed_mm3"].get<double>(), 1e-17);
+  EXPECT_EQ(debrief["bone_digest"], "0000000000000abc");
+  std::vector<std::string> told;
+  for (const json& mark : debrief["marks"])
+    told.push_back(mark["type"].get<std::string>() + " " + std::to_string(mark["t_s"].get<double>()).substr(0, 3));
+  // Task and note at tick 5.
+  EXPECT_EQ(told, (std::vector<std::string>{"task 0.5", "note 0.5", "error 1.5", "bookmark 2.5"}));
+  EXPECT_EQ(debrief["marks"][1]["seq"], now()["notes"][1]["seq"]);
+}
+
 TEST_F(PageStateTest, WordsThatAreNotKeptAreNotShown) {
   goToTasks(false);
   say("note", {{"kind", std::string("comment")}, {"text", std::string("canary")}});

@@ -79,6 +79,25 @@ TEST(PageWords, WhatIsNoMessageIsTold) {
   EXPECT_TRUE(pageWordFrom(R"({"kind":"alive","pages":2})"));
 }
 
+TEST(PageWords, ADebriefIsSteeredByFiveWordsWithinTheirBounds) {
+  const auto steered = [](const std::string& what, const std::string& value) {
+    const auto word = pageWordFrom(R"({"kind":"steer","what":")" + what + R"(","value":)" + value + "}");
+    return word ? std::optional(std::get<PageSteers>(*word)) : std::nullopt;
+  };
+  EXPECT_EQ(steered("seek", "12.5")->value, 12.5);
+  EXPECT_EQ(steered("seek", "12.5")->what, DebriefSteer::seek);
+  EXPECT_EQ(steered("scrub", "0")->what, DebriefSteer::scrub);
+  EXPECT_EQ(steered("play", "null")->what, DebriefSteer::play);
+  EXPECT_EQ(steered("pause", "[7]")->value, 0.0);
+  EXPECT_EQ(steered("speed", "0.25")->value, 0.25);
+  for (const auto& [what, value] : {std::pair("seek", "-0.1"), std::pair("seek", "null"), std::pair("seek", "\"3\""),
+                                    std::pair("seek", "1e300"), std::pair("scrub", "200000"), std::pair("speed", "0"),
+                                    std::pair("speed", "4.1"), std::pair("fly", "1"), std::pair("", "1")})
+    EXPECT_FALSE(steered(what, value)) << what << " " << value;
+  EXPECT_FALSE(pageWordFrom(R"({"kind":"steer","what":4,"value":1})"));
+  EXPECT_FALSE(pageWordFrom(R"({"kind":"steer"})"));
+}
+
 TEST(PageWordsMutants, DamagedMessagesAreReadOrRefused) {
   std::size_t understood = 0;
   mutants::forEachMutant({kPageNote, framed(kPageNote)}, 5000,

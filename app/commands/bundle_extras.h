@@ -1,0 +1,45 @@
+// What a bundle has beside its tables, where it is asked for and the participant allows it: the voice, pictures of the
+// moments that were noted; its report as PDF; all of it encrypted for named recipients. Main thread; the time of the
+// recorded steps for pictures, some seconds for the rest.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/study/bundle/study_bundle.h"
+
+namespace app {
+
+/// Files that live as long as this, beside the bundle and for its owner alone.
+class BundleScratch {
+ public:
+  /// Throws UsageError: no folder can be made there.
+  explicit BundleScratch(const std::string& beside);
+  ~BundleScratch();
+  BundleScratch(const BundleScratch&) = delete;
+  BundleScratch& operator=(const BundleScratch&) = delete;
+  std::string file(const std::string& name) const;
+
+ private:
+  std::string folder_;
+};
+
+struct BundleExtras {
+  bool voice = false, pictures = false;
+  std::string pdf;                      ///< file; empty: none
+  std::vector<std::string> recipients;  ///< of age: "age1…"; empty: not encrypted
+};
+
+/// Voice only with the words yes on audio and reuse, from the first event of the log on; pictures only with picture.
+/// What is left out is told in a remark. `owner` null: what is sealed stays closed. Borrows all.
+MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted, const PrivateStudyKeys* owner,
+                            const BundleScratch& scratch);
+
+/// Its report.html, printed by Chromium. False: that is not installed. Throws UsageError.
+bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const BundleScratch& scratch);
+
+/// Throws UsageError: age is not installed, knows no such recipient, or the file exists.
+void encryptFor(const std::vector<std::string>& recipients, const std::string& bundle, const std::string& to,
+                bool overwrite);
+
+}  // namespace app
