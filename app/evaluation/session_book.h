@@ -31,6 +31,8 @@ class SessionBook {
 
   /// Makes the folder, writes what was kept until now, and the template byte for byte. Throws UsageError.
   void open(const std::string& template_text);
+  /// Why the log is not written any more; none: it is.
+  std::optional<std::string> trouble() const { return log_ ? log_->trouble() : std::nullopt; }
   /// The study has keys: what people say stands sealed in the folder.
   bool isSealed() const { return seal_.has_value(); }
   /// For sound; null: the study has no keys.

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include <glm/glm.hpp>
 
@@ -22,6 +23,8 @@ class Spectator {
     const haptics::Tick& newest;
     std::optional<double> clearance_mm;  ///< of the tool to the nearest structure at risk
     double rate_Hz = 1000.0;             ///< of the servo
+    /// Why nothing is recorded any more.
+    const std::function<std::optional<std::string>()>& recording_trouble;
     /// Made at each call: some 10 µs; some milliseconds. The picture: of the surgeon, of one eye, as it was when it was
     /// first asked for; none where nothing was drawn, and while it is on its way from the graphics card.
     const std::function<haptics::LoopFigures()>& servo;

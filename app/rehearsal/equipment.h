@@ -43,6 +43,8 @@ class Equipment {
   std::vector<ControlRequest> takeRequests();
   Workstation::ToolButton toolButton() const { return workstation_->toolButton(); }
   StationHealth health();
+  /// Why nothing is recorded any more; none: it is, or was not to be.
+  std::optional<std::string> recordingTrouble() const { return workstation_->recordingTrouble(); }
 
  private:
   PoseSource source_;

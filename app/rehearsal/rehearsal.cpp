@@ -395,7 +395,7 @@ class Rehearsal {
     std::optional<double> nearest_mm;
     for (const std::optional<double>& one : clearance_.now())
       if (one && (!nearest_mm || *one < *nearest_mm)) nearest_mm = one;
-    plan_.spectator->see({newest_, nearest_mm, equipment_.rate_Hz(), servo_figures_, picture_});
+    plan_.spectator->see({newest_, nearest_mm, equipment_.rate_Hz(), recording_trouble_, servo_figures_, picture_});
   }
 
   RehearsalFigures finish(Ending ending) {
@@ -466,6 +466,9 @@ class Rehearsal {
   haptics::Tick newest_;
   FieldClarity clarity_;
   const std::function<haptics::LoopFigures()> servo_figures_ = [this] { return station().figures(); };
+  const std::function<std::optional<std::string>()> recording_trouble_ = [this] {
+    return equipment_.recordingTrouble();
+  };
   const std::function<render::Image()> picture_ = [this] { return view_.shownPicture(); };
 };
 

@@ -203,8 +203,11 @@ PageNow Console::now() {
   if (desk_ != nullptr) {
     now.task_s = desk_->task_s();
     now.measure = [this](std::string_view id) { return desk_->measure(id); };
-    now.is_recording = true;
+    now.is_recording = recording_trouble_.empty();
   }
+  if (!recording_trouble_.empty()) now.not_kept = "the session is not recorded any more: " + recording_trouble_;
+  if (const auto trouble = parts_.book.trouble())
+    now.not_kept += (now.not_kept.empty() ? "" : "; ") + std::string("notes are not kept any more: ") + *trouble;
   now.course.assign(points_.begin() + static_cast<std::ptrdiff_t>(points_told_), points_.end());
   points_told_ = points_.size();
   now.servo = servo_;
@@ -270,6 +273,7 @@ void Console::see(const Frame& frame) {
   if (now - figured_at_ > kBetweenFigures) {
     figured_at_ = now;
     servo_ = PageNow::Servo{frame.rate_Hz, frame.servo().missed};
+    recording_trouble_ = frame.recording_trouble().value_or("");
   }
   if (now - point_at_ >= kBetweenPoints) {
     point_at_ = now;

@@ -112,6 +112,7 @@ class Console : public SessionPeople, public Spectator, public DebriefGuide {
   std::size_t points_told_ = 0;
   std::optional<PageNow::Servo> servo_;
   std::optional<PageNow::Closing> closing_;
+  std::string recording_trouble_;
   std::optional<PageNow::Debrief> debrief_;
   std::string debrief_trouble_;
   std::vector<Steered> steered_;

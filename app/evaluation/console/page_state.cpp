@@ -216,6 +216,7 @@ std::string PageState::text(const PageNow& now) const {
   state["servo"] =
       now.servo ? PageJson{{"rate_Hz", rounded(now.servo->rate_Hz, 1)}, {"missed", now.servo->missed}} : PageJson();
   state["recording"] = now.is_recording;
+  if (!now.not_kept.empty()) state["not_kept"] = now.not_kept;
   state["seat"] = now.seat_lag_ms ? PageJson{{"lag_ms", rounded(*now.seat_lag_ms, 1)}} : PageJson();
   state["voice"] = now.voice ? PageJson{{"level_dB", rounded(now.voice->level_db, 1)},
                                         {"speech", now.voice->speech},

@@ -40,6 +40,7 @@ struct PageNow {
   };
   std::optional<Servo> servo;  ///< none: no rehearsal goes on
   bool is_recording = false;
+  std::string not_kept;  ///< what is not kept any more, and why: the recording, the log; empty: all is
   std::optional<double> seat_lag_ms;
   std::optional<VoiceState> voice;  ///< none: it is not recorded
   struct Closing {

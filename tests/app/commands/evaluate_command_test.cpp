@@ -110,6 +110,16 @@ TEST_F(EvaluateCommand, WithKeysWordsAreSealedForTheOwnerAlone) {
   EXPECT_EQ(changed.status, 1);
   EXPECT_EQ(changed.out, "sessions/P01-1/session.molar was changed\n");
 
+  // With what is asked for: pictures of the moments, the same twice; a voice that was never recorded is told of.
+  const std::string more = "study export " + at("study") + owner + " --pictures --voice --out ";
+  const ProgramOutput with_pictures = molar(more + at("M.zip"));
+  ASSERT_EQ(with_pictures.status, 0) << with_pictures.err;
+  EXPECT_NE(with_pictures.err.find("P01-1: voice: "), std::string::npos) << with_pictures.err;
+  ASSERT_EQ(molar(more + at("N.zip")).status, 0);
+  EXPECT_NE(read("M.zip").find("sessions/P01-1/pictures/01-"), std::string::npos);
+  EXPECT_TRUE(read("M.zip") == read("N.zip"));
+  EXPECT_EQ(molar("study check " + at("M.zip") + " --study " + at("study")).status, 0);
+
   // Looked at again: what is closed is told, the key opens it, another recording needs none.
   const std::string looks =
       "debrief " + at("study/P01-1/session.molar") + " --headless --size 64x48 --force --snapshot " + at("moment.png");
@@ -134,6 +144,30 @@ TEST_F(EvaluateCommand, WithKeysWordsAreSealedForTheOwnerAlone) {
   EXPECT_FALSE(std::filesystem::exists(at("study/P01-1")));
   expectRefusal("study retain " + at("study"), "set the clock");
   EXPECT_NE(read("study/audit.jsonl").find("\"type\":\"retain\""), std::string::npos);
+}
+
+TEST_F(EvaluateCommand, ABundleIsPrintedAndEncryptedForWhoIsNamed) {
+  if (std::system("command -v age-keygen >/dev/null") != 0)
+    GTEST_SKIP() << "age is not installed (apt-get install age)";
+  ASSERT_EQ(molar(session("P01")).status, 0);
+  ASSERT_EQ(std::system(("age-keygen -o " + at("id") + " 2>/dev/null").c_str()), 0);
+  std::string key = read("id");
+  key = key.substr(key.find("age1"));
+  key = key.substr(0, key.find('\n'));
+  const std::string line = "study export " + at("study") + " --out " + at("F.zip");
+  ASSERT_EQ(molar(line).status, 0);
+  const std::string plain = read("F.zip");
+  std::filesystem::remove(at("F.zip"));
+  const ProgramOutput wrapped = molar(line + " --recipient " + key);
+  ASSERT_EQ(wrapped.status, 0) << wrapped.err;
+  // Only the encrypted one is left, and it opens to the bundle.
+  EXPECT_FALSE(std::filesystem::exists(at("F.zip")));
+  EXPECT_EQ(read("F.zip.age").find("session.molar"), std::string::npos);
+  ASSERT_EQ(std::system(("age -d -i " + at("id") + " -o " + at("D.zip") + " " + at("F.zip.age")).c_str()), 0);
+  EXPECT_TRUE(read("D.zip") == plain);
+  expectRefusal(line + " --recipient " + key, "it exists");
+  expectRefusal(line + " --force --recipient nobody", "age refuses it");
+  EXPECT_FALSE(std::filesystem::exists(at("F.zip")));
 }
 
 TEST_F(EvaluateCommand, TheStudysCommandsRefuseInOneLine) {

@@ -47,6 +47,7 @@ function banner(app) {
       "Go on writing: notes are kept here with their times and follow later.",
       outbox.waiting.length > 0 && ` ${outbox.waiting.length} waiting.`,
     );
+  if (state.not_kept) return h("p", { key: "banner", class: "banner red", role: "alert" }, `${state.not_kept}. The session goes on.`);
   if (!state.writer)
     return h(
       "p",

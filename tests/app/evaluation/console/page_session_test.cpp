@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "app/evaluation/console/page_address.h"
 #include "app/evaluation/console/page_link.h"
 #include "app/study/session_log.h"
 #include "tests/app/commands/program.h"
@@ -335,6 +336,10 @@ TEST_F(PageSession, WhatContradictsItselfIsRefused) {
   expectRefusal(session + "--page 127.0.0.1:0 --pace fast", "--pace fast");
   expectRefusal(session + "--page 127.0.0.1:0 --script " + at("page.toml"), "--script");
   expectRefusal(session + "--share", "--page");
+  // A second program on the port: one line, before anything begins.
+  const PageAddress taken("127.0.0.1:0", false);
+  expectRefusal(session + "--page " + taken.text(), "cannot be opened");
+  EXPECT_FALSE(std::filesystem::exists(at("study")));
 }
 
 }  // namespace

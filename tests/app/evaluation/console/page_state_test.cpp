@@ -145,6 +145,13 @@ TEST_F(PageStateTest, WordsThatAreNotKeptAreNotShown) {
   EXPECT_EQ(now()["notes"][1]["kind"], "comment");
 }
 
+TEST_F(PageStateTest, WhatIsNotKeptAnyMoreIsTold) {
+  EXPECT_FALSE(now().contains("not_kept"));
+  PageNow with;
+  with.not_kept = "the session is not recorded any more: the disk is full";
+  EXPECT_EQ(now(with)["not_kept"], with.not_kept);
+}
+
 TEST_F(PageStateTest, EachPhaseAsksItsOwnQuestionnaires) {
   goToTasks(true);
   EXPECT_TRUE(now()["questionnaires"].empty());
