@@ -9,6 +9,8 @@
 #include "assets/ct_volume.h"
 #include "assets/mesh.h"
 #include "assets/operative_site.h"
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
 
 namespace assets {
 
@@ -36,6 +38,8 @@ struct Patient {
   MeshModel face;     ///< may be empty
   /// It is the built-in one, placed by the teeth: what a face is like, not the patient's.
   bool has_built_in_face = false;
+  /// The head around the jaw, by the lower teeth; none: as the scan lies.
+  std::optional<calibration::Pose<calibration::Patient, calibration::Face>> X_PF;
 
   /// Tooth or canal were found by the program, and no person has confirmed them.
   bool isProposed() const {

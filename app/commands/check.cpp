@@ -10,6 +10,7 @@
 #include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/message.h"
+#include "assets/patient/statement_file.h"
 #include "calibration/output_file.h"
 #include "calibration/png_file.h"
 
@@ -20,11 +21,16 @@ constexpr glm::ivec2 kSnapshot_px{1280, 800};
 
 struct CheckPageOptions {
   std::string patient, snapshot;
-  bool force = false;
+  bool force = false, is_reviewed = false;
 };
 
 int checkPage(const CheckPageOptions& options) {
   const std::string folder = patientNamed(options.patient);
+  if (options.is_reviewed) {
+    assets::reviewStatement(folder);
+    printMessage("deidentified.toml says now that a person has looked at the pictures");
+    return 0;
+  }
   if (options.snapshot.empty()) {
     showCheckPage(folder, printMessage);
     return 0;
@@ -46,6 +52,8 @@ void addCheck(CommandLine& molar) {
   command.option("PATIENT", options->patient, kPatientHelp).required();
   command.option("--snapshot", options->snapshot, "The page as a picture, PNG, without a window");
   command.flag("--force", options->force, "Replace the picture if it exists");
+  command.flag("--pictures-reviewed", options->is_reviewed,
+               "You looked at all pictures of a DICOM scan and they name nobody: said in deidentified.toml");
   command.does([options] { return checkPage(*options); });
 }
 

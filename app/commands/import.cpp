@@ -1,6 +1,7 @@
 // `molar import SOURCE --out PATIENT` and `molar inspect SOURCE`: scans become patient folders, de-identified.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include "app/commands/dicom_options.h"
 #include "app/commands/dicom_report.h"
 #include "app/commands/segmenter.h"
+#include "app/commands/stop_signals.h"
 #include "app/options/jaw_clicks_file.h"
 #include "app/session/data_folder.h"
 #include "app/station/patient_list.h"
@@ -31,6 +33,7 @@
 #include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/patient/statement_file.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
@@ -140,6 +143,22 @@ std::string wordsOn(const assets::Patient& patient) {
   return text;
 }
 
+constexpr std::array kSeals = {"none", "broken", "of another machine", "of this machine"};
+
+nlohmann::json jsonOf(const assets::StatementFacts& statement) {
+  return {{"reviewed", statement.is_reviewed},
+          {"signature", kSeals[static_cast<std::size_t>(statement.seal)]},
+          {"of_this_volume", statement.is_of_volume}};
+}
+
+std::string wordsOn(const assets::StatementFacts& statement) {
+  return fmt::format("identity     removed by software, {}; statement {}, signature {}\n",
+                     statement.is_reviewed ? "pictures reviewed by a person"
+                                           : "not reviewed (molar check PATIENT --pictures-reviewed)",
+                     statement.is_of_volume ? "of this volume" : "of another volume",
+                     kSeals[static_cast<std::size_t>(statement.seal)]);
+}
+
 /// "hu", "hu+1024", or the grey values of air, muscle and dentine.
 assets::GreyMap scaleOf(const std::string& text) {
   if (text == "hu") return {};
@@ -237,8 +256,8 @@ assets::ImportedScan importFile(const ImportOptions& options, nlohmann::json& re
 }
 
 assets::ImportedScan importAny(ImportOptions& options) {
-  std::optional<calibration::OutputFile> file;
-  if (!options.report.empty()) file.emplace(options.report, options.force);
+  // Whether it can be written, before the work.
+  if (!options.report.empty()) calibration::OutputFile(options.report, options.force);
   nlohmann::json report;
   StageClock clock;
   options.choices.stage = [&clock](std::string_view stage) { clock.begin(stage); };
@@ -246,7 +265,7 @@ assets::ImportedScan importAny(ImportOptions& options) {
     clock.end();
     if (report.is_null()) return;
     report["stages"] = clock.stages();
-    if (file) file->commit(report.dump(2) + "\n");
+    if (!options.report.empty()) calibration::OutputFile(options.report, options.force).commit(report.dump(2) + "\n");
   };
   const bool is_dicom = isDicomOrServer(options.source, options.dicom);
   try {
@@ -267,6 +286,9 @@ std::string nameOf(const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
+
+constexpr const char* kStopped = "import: stopped, nothing was imported";
+constexpr std::string_view kStoppedLine = "molar: import: stopped, nothing was imported\n";
 
 int import(ImportOptions options) {
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
@@ -291,14 +313,21 @@ int import(ImportOptions options) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     options.out = newPatientPath(usualPatientFolder(), now.time_since_epoch().count());
   }
+  auto at_once = std::make_unique<StopsWithALine>(kStoppedLine);
   assets::ImportedScan imported = importAny(options);
   assets::Patient& patient = imported.patient;
   patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
-  if (!options.no_face && patient.site)
+  if (options.choices.keep_face && !options.no_face && !placeOwnFace(patient))
+    printMessage("the scan shows too little skin for a face");
+  if (!options.no_face && patient.site && patient.face.parts.empty())
     if (const std::string why_not = placeBuiltInFace(patient); !why_not.empty())
       printMessage("without a face: " + why_not);
+  at_once.reset();
+  const StopSignals signals;
   assets::savePatient(patient, options.out, options.force, imported.origin ? &*imported.origin : nullptr,
-                      options.choices.clicks.isEmpty() ? "" : jawClicksText(options.choices.clicks));
+                      options.choices.clicks.isEmpty() ? "" : jawClicksText(options.choices.clicks), [&] {
+                        if (signals.isAsked()) throw UsageError(kStopped);
+                      });
   // Edits of another import of this folder.
   std::error_code ignored;
   std::filesystem::remove(checkLogPath(options.out), ignored);
@@ -322,8 +351,16 @@ int inspect(const InspectOptions& options) {
     std::fputs((options.json ? dicomReportJson(survey) : dicomReportText(survey)).c_str(), stdout);
     return 0;
   }
-  const assets::Patient patient = assets::loadPatient(patientNamed(options.patient));
-  std::fputs((options.json ? jsonOf(patient).dump(2) + "\n" : wordsOn(patient)).c_str(), stdout);
+  const std::string folder = patientNamed(options.patient);
+  const assets::Patient patient = assets::loadPatient(folder);
+  const auto statement = assets::statementIn(folder);
+  if (options.json) {
+    nlohmann::json out = jsonOf(patient);
+    out["deidentified"] = statement ? jsonOf(*statement) : nlohmann::json(nullptr);
+    std::fputs((out.dump(2) + "\n").c_str(), stdout);
+  } else {
+    std::fputs((wordsOn(patient) + (statement ? wordsOn(*statement) : std::string())).c_str(), stdout);
+  }
   return 0;
 }
 
@@ -372,7 +409,8 @@ void addImport(CommandLine& molar) {
               "Grey values: hu, hu+1000, hu+1024 or AIR,MUSCLE,DENTINE [judged by their histogram]")
       .excludes(window);
   command.flag("--no-face", options->no_face, "Without the built-in face, which stands for lips, cheek and tongue");
-  command.flag("--keep-face", options->choices.keep_face, "Keep the skin, by which the patient can be recognised");
+  command.flag("--keep-face", options->choices.keep_face,
+               "Keep the skin, by which the patient can be recognised, as the face");
   command.flag("--keep-age-band", options->choices.keep_age_band, "Keep the patient's age in decades, and sex");
   command.does([options] { return import(*options); });
 }

@@ -63,6 +63,7 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
     return one;
   }
   one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
+  one.X_PF = one.patient.X_PF.value_or(assets::kFaceAxes_PF);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
   if (options.flap == "closed") {
     auto gum = closedGum(one.patient);

@@ -118,7 +118,7 @@ int see(const SeeOptions& options) {
   if (!options.dry) frame.field = moistField(patient, guides.cut, of_patient);
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
   if (options.view.namesRig() && hasNoPatientPose(frame.rig) && of_patient)
-    frame.rig.X_WP = placePatientAtSite(patient, assets::kFaceAxes_PF);
+    frame.rig.X_WP = placePatientAtSite(patient, patient.X_PF.value_or(assets::kFaceAxes_PF));
   frame.tool_visible = false;
   if (!options.tool_at_mm.empty())
     frame.X_PT.translation_mm = {options.tool_at_mm[0], options.tool_at_mm[1], options.tool_at_mm[2]};

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -15,9 +14,9 @@
 #include <string_view>
 #include <thread>
 
+#include "app/commands/stop_signals.h"
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
-#include "assets/scan/confined_child.h"
 
 namespace app {
 namespace {
@@ -80,29 +79,6 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-volatile std::sig_atomic_t stop_asked = 0;
-
-/// While it runs a signal to this program stops it first, and its end is told to nobody else.
-class StopSignals {
- public:
-  StopSignals() {
-    stop_asked = 0;
-    struct sigaction stop {};
-    stop.sa_handler = [](int) { stop_asked = 1; };
-    for (std::size_t n = 0; n < kStops.size(); ++n) sigaction(kStops[n], &stop, &before_[n]);
-  }
-  ~StopSignals() {
-    for (std::size_t n = 0; n < kStops.size(); ++n) sigaction(kStops[n], &before_[n], nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
- private:
-  static constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
-  std::array<struct sigaction, kStops.size()> before_{};
-  assets::DefaultChildSignal child_;
-};
-
 /// Its exit status. Throws LoadError.
 int runToEnd(std::vector<std::string> words, const std::string& folder, std::chrono::seconds limit) {
   std::vector<std::string> environment = plainEnvironment(folder);
@@ -129,7 +105,7 @@ int runToEnd(std::vector<std::string> words, const std::string& folder, std::chr
   for (pid_t ended = 0; (ended = ::waitpid(process, &status, WNOHANG)) != process;) {
     if (ended < 0 && errno != EINTR) throw assets::LoadError("--segment-with: how it ended cannot be told; retry");
     const bool is_late = std::chrono::steady_clock::now() > end;
-    if (is_late || stop_asked != 0) {
+    if (is_late || signals.isAsked()) {
       ::kill(-process, SIGKILL);
       ::waitpid(process, &status, 0);
       throw assets::LoadError(is_late ? "--segment-with: it took longer than " + std::to_string(limit.count() / 60) +

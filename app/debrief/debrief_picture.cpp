@@ -33,7 +33,7 @@ calibration::Rig DebriefPicture::firstRig(const DebriefRun& run, glm::ivec2 px, 
   const double shape = static_cast<double>(px.x) / std::max(1, px.y);
   calibration::Rig rig =
       calibration::desktopRig(px, calibration::kDeskMonitorWidth_mm / loupes * std::max(0.6, shape / kUsualShape));
-  rig.X_WP = placePatientAtSite(run.patient(), assets::kFaceAxes_PF);
+  rig.X_WP = placePatientAtSite(run.patient(), run.patient().X_PF.value_or(assets::kFaceAxes_PF));
   return rig;
 }
 

@@ -59,7 +59,8 @@ DebriefRun::DebriefRun(const std::string& session, const std::string& patient_fo
 
 glm::dvec3 DebriefRun::down_P() const {
   if (const auto& recorded = moments_.start().setup.down_P) return *recorded;
-  return glm::conjugate(placePatientAtSite(patient_, assets::kFaceAxes_PF).rotation) * glm::dvec3(0.0, -1.0, 0.0);
+  return glm::conjugate(placePatientAtSite(patient_, patient_.X_PF.value_or(assets::kFaceAxes_PF)).rotation) *
+         glm::dvec3(0.0, -1.0, 0.0);
 }
 
 void DebriefRun::beginFlap(const StoredStart& start) {

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <functional>
 #include <utility>
-#include <vector>
 
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_toml.h"
 #include "assets/patient/scan_origin_toml.h"
+#include "assets/patient/statement_file.h"
 #include "assets/scan/vdb_file.h"
 #include "assets/scenery/face_frame.h"
 #include "assets/toml_reader.h"
 #include "calibration/output_file.h"
-#include "calibration/record/sha256.h"
 
 namespace assets {
 
@@ -49,21 +48,6 @@ void separate(MeshModel both, MeshModel& gingiva, MeshModel& face) {
     (part.name.starts_with(kGingivaPrefix) ? gingiva : face).parts.push_back(std::move(part));
 }
 
-/// SHA-256 of a file that was just written.
-std::string digestOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  calibration::Sha256 hash;
-  std::vector<char> block(1 << 20);
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0) {
-    const auto count = static_cast<std::size_t>(file.gcount());
-    hash.add({reinterpret_cast<const std::uint8_t*>(block.data()), count});
-  }
-  std::string digits;
-  for (const std::uint8_t byte : hash.finish())
-    for (const int nibble : {byte >> 4, byte & 15}) digits += "0123456789abcdef"[nibble];
-  return digits;
-}
-
 bool isInside(const glm::dvec3& p_P_mm, const VolumeGrid& grid) {
   const glm::dvec3 index = grid.indexFromPoint(p_P_mm);
   return glm::all(glm::greaterThanEqual(index, glm::dvec3(-0.5))) &&
@@ -82,7 +66,7 @@ struct ScanWords {
 };
 
 void write(const Patient& patient, const std::string& folder, bool overwrite, const ScanWords& scan,
-           const std::string& clicks) {
+           const std::string& clicks, const std::function<void()>& before_commit) {
   calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement, kClicks});
   const fs::path written = output.temporaryPath();
   calibration::OutputFile(written / kToml, false).commit(patientToml(patient) + scan.table);
@@ -91,20 +75,22 @@ void write(const Patient& patient, const std::string& folder, bool overwrite, co
   const MeshModel meshes_P = joined(patient.gingiva, patient.face);
   if (!meshes_P.parts.empty()) writeGltf(modelInFaceFrame(meshes_P), (written / kMeshes).string());
   if (scan.statement)
-    calibration::OutputFile(written / kStatement, false).commit(scan.statement(digestOf(written / kVolume)));
+    calibration::OutputFile(written / kStatement, false)
+        .commit(sealedStatement(scan.statement(digestOfFile((written / kVolume).string()))));
+  if (before_commit) before_commit();
   output.commit();
 }
 
 }  // namespace
 
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin,
-                 const std::string& clicks) {
+                 const std::string& clicks, const std::function<void()>& before_commit) {
   ScanWords scan;
   if (origin != nullptr) {
     scan.table = scanTable(*origin);
     scan.statement = [origin](const std::string& digest) { return deidentificationStatement(*origin, digest); };
   }
-  write(patient, folder, overwrite, scan, clicks);
+  write(patient, folder, overwrite, scan, clicks, before_commit);
 }
 
 void savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks) {
@@ -120,7 +106,7 @@ void savePatientAgain(const Patient& patient, const std::string& folder, const s
         renewed.replace(at, renewed.find('\n', at) - at, kDigestKey + quotedToml(digest));
       return renewed;
     };
-  write(patient, folder, true, scan, clicks);
+  write(patient, folder, true, scan, clicks, {});
 }
 
 std::string clicksPath(const std::string& folder) { return (fs::path(folder) / kClicks).string(); }

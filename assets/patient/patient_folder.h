@@ -17,9 +17,10 @@ namespace assets {
 
 /// Throws as OutputFolder: no parent folder, not writable, already present without `overwrite`, or present with other
 /// content, which would be lost. `origin`: of a DICOM scan; it is written, and not read back. `clicks`: of
-/// clicks.json; empty: none is written.
+/// clicks.json; empty: none is written. `before_commit`: called when all is written beside the folder; if it throws,
+/// nothing is left of it.
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin = nullptr,
-                 const std::string& clicks = {});
+                 const std::string& clicks = {}, const std::function<void()>& before_commit = {});
 
 /// Replaces a patient folder by the patient after edits; what is told of its scan stays. Throws as savePatient().
 void savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks);

@@ -22,10 +22,26 @@ std::string exact(double value) {
 
 std::string exact(const glm::dvec3& v) { return "[" + exact(v.x) + ", " + exact(v.y) + ", " + exact(v.z) + "]"; }
 
-glm::dvec3 unitVector(TomlReader& keys, const char* key) {
-  const glm::dvec3 direction = keys.vector("site", key, 1.001);
-  if (std::abs(glm::length(direction) - 1.0) > 1.0e-3) keys.refuse("site", key, "give a direction of length 1");
+glm::dvec3 unitVector(TomlReader& keys, const char* key, const char* table = "site") {
+  const glm::dvec3 direction = keys.vector(table, key, 1.001);
+  if (std::abs(glm::length(direction) - 1.0) > 1.0e-3) keys.refuse(table, key, "give a direction of length 1");
   return direction;
+}
+
+using HeadPose = calibration::Pose<calibration::Patient, calibration::Face>;
+
+std::string headTable(const HeadPose& X_PF) {
+  const glm::dmat3 axes_P = glm::mat3_cast(X_PF.rotation);
+  return "\n[head]\nleft_P = " + exact(axes_P[0]) + "\nup_P = " + exact(axes_P[1]) +
+         "\norigin_P_mm = " + exact(X_PF.translation_mm) + '\n';
+}
+
+HeadPose headIn(TomlReader& keys) {
+  const glm::dvec3 left_P = unitVector(keys, "left_P", "head"), up_P = unitVector(keys, "up_P", "head");
+  if (std::abs(glm::dot(left_P, up_P)) > 1.0e-3) keys.refuse("head", "up_P", "it is not at a right angle to left_P");
+  const glm::dvec3 forward_P = glm::normalize(glm::cross(left_P, up_P));
+  return {glm::normalize(glm::quat_cast(glm::dmat3(left_P, glm::cross(forward_P, left_P), forward_P))),
+          keys.vector("head", "origin_P_mm", kMaxCoordinate_mm)};
 }
 
 int toothNumber(TomlReader& keys, const char* key) {
@@ -80,6 +96,7 @@ std::string patientToml(const Patient& patient) {
   if (patient.site)
     text << "\n[site]\nfdi = " << patient.site->fdi << "\ncentre_P_mm = " << exact(patient.site->centre_P_mm)
          << "\naxis_P = " << exact(patient.site->axis_P) << '\n';
+  if (patient.X_PF) text << headTable(*patient.X_PF);
   text << "\n[classification]\niso_hu = " << exact(patient.classification.iso_hu)
        << "\nsigma_hu = " << exact(patient.classification.sigma_hu)
        << "\n\n[mandibular_canal]\nradius_mm = " << exact(patient.mandibular_canal_radius_mm) << "\nline_P_mm = [\n";
@@ -105,6 +122,7 @@ Patient patientFromToml(const std::string& text, const std::string& where) {
     readOldSite(keys, patient);
   else
     readSite(keys, patient);
+  if (keys.has("head")) patient.X_PF = headIn(keys);
   const char* canal = keys.has("canal") ? "canal" : "mandibular_canal";  // the name in older folders
   patient.mandibular_canal_radius_mm = keys.number(canal, "radius_mm", {0.01, 20.0, "mm"});
   patient.mandibular_canal_P_mm = keys.vectors(canal, "line_P_mm", kMaxCoordinate_mm, kMaxCanalPoints);

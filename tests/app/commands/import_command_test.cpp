@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -92,6 +93,21 @@ std::string fillWithCanaries(Elements& file, int) {
         if (tag % 3 == 0) canary = inUtf16(canary);
         file[tag] = text(type.substr(0, 2), canary);
       }
+  // And every other element of the groups that describe persons, places, dates and devices, whatever it is (E.1-1 and
+  // more).
+  for (const std::uint32_t group : {0x0008u, 0x0010u, 0x0018u, 0x0020u, 0x0032u, 0x0038u, 0x0040u, 0x0054u, 0x0070u,
+                                    0x0088u, 0x0400u, 0x3006u, 0x300au, 0x300eu, 0x4000u, 0x4008u})
+    for (std::uint32_t number = 0x0001; number < 0x0800; number += 1 + number / 0x0100) {
+      const std::uint32_t tag = group << 16 | number;
+      constexpr std::array kKinds = {"LO", "PN", "ST", "UC", "UN", "SH"};
+      const std::string canary = number % 5 == 0   ? "\x1b$B"
+                                                     "CANARY"
+                                                     "\x1b(B"            // ISO 2022
+                                 : number % 5 == 1 ? "C\xc3\xa4 CANARY"  // UTF-8
+                                 : number % 5 == 2 ? inUtf16("CANARY")
+                                                   : "CANARY-" + std::to_string(tag);
+      if (!file.contains(tag)) file[tag] = text(kKinds[number % kKinds.size()], canary);
+    }
   const std::string nested = element(0x00100010, text("PN", "CANARY^NESTED")) +
                              element(0x00081115, sequence({element(0x0008103e, text("LO", "CANARY DEEP"))}));
   file[0x00081140] = sequence({nested, nested});

@@ -31,10 +31,12 @@ class ProgramTest : public testing::Test {
     // Rehearsals are recorded there, beside the files of the test.
     std::filesystem::remove_all(dataFolder());
     setenv("XDG_DATA_HOME", dataFolder().c_str(), 1);
+    setenv("XDG_CONFIG_HOME", (dataFolder() + ".config").c_str(), 1);
   }
   void TearDown() override {
     std::filesystem::remove_all(folder_);
     std::filesystem::remove_all(dataFolder());
+    std::filesystem::remove_all(dataFolder() + ".config");
   }
 
   std::string dataFolder() const { return folder_.string() + ".data"; }

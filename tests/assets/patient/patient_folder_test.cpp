@@ -43,6 +43,7 @@ Patient somebody() {
   patient.site = {38, {45.0 + 1.0 / 3.0, 42.1, 24.0}, glm::normalize(glm::dvec3(1, -2, 3))};
   patient.mandibular_canal_P_mm = {{1.0 / 3.0, 2, 3}, {4, 5e-7, -6}};
   patient.mandibular_canal_radius_mm = 1.1;
+  patient.X_PF = {glm::normalize(glm::dquat(0.7, 0.6, -0.2, 0.1)), {12.5, -40.0, 1.0 / 3.0}};
   patient.gingiva.parts = {triangle("Gum lower")};
   patient.face.parts = {triangle("Skin"), triangle("Lips")};
   return patient;
@@ -70,6 +71,18 @@ TEST(PatientFolder, RoundTrips) {
   EXPECT_EQ(loaded.site->axis_P, saved.site->axis_P);
   EXPECT_EQ(loaded.mandibular_canal_P_mm, saved.mandibular_canal_P_mm);
   EXPECT_EQ(loaded.mandibular_canal_radius_mm, 1.1);
+  ASSERT_TRUE(loaded.X_PF);
+  EXPECT_EQ(loaded.X_PF->translation_mm, saved.X_PF->translation_mm);
+  EXPECT_NEAR(std::abs(glm::dot(loaded.X_PF->rotation, saved.X_PF->rotation)), 1.0, 1e-12);
+}
+
+TEST(PatientToml, RefusesAHeadThatIsNone) {
+  std::string text = assets::patientToml(somebody());
+  const std::size_t at = text.find("up_P = ");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, text.find('\n', at) - at, "up_P = [1.0, 0.0, 0.0]");
+  EXPECT_NE(tests::refusalOf<assets::LoadError>([&] { assets::patientFromToml(text, "p"); }).find("right angle"),
+            std::string::npos);
 }
 
 TEST(PatientFolder, TakesOverTheVolumeItWasJustWrittenWith) {

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <string>
 #include <string_view>
 
 namespace {
 
 constexpr std::int16_t kNoText = -32768;
-constexpr glm::ivec3 kSize(200, 120, 8);
+constexpr glm::ivec3 kSize(220, 120, 8);
 
 /// 5 x 7 digits, a row of bits each.
 constexpr std::array<std::array<int, 7>, 10> kDigits = {{{14, 17, 19, 21, 25, 17, 14},
@@ -38,30 +39,39 @@ std::vector<std::int16_t> clean(unsigned seed) {
   return grey;
 }
 
-/// The line's height.
-int write(std::string_view digits, int scale, int slices, std::int16_t bright, std::vector<std::int16_t>& grey) {
+/// Digits `height` pixels high, the nearest of their 5 x 7 dots.
+void writeHigh(std::string_view digits, int height, int slices, std::int16_t bright, std::vector<std::int16_t>& grey) {
+  const int width = 5 * height / 7;
   for (int z = 0; z < slices; ++z)
     for (std::size_t d = 0; d < digits.size(); ++d)
-      for (int y = 0; y < 7 * scale; ++y)
-        for (int x = 0; x < 5 * scale; ++x)
-          if ((kDigits[static_cast<std::size_t>(digits[d] - '0')][static_cast<std::size_t>(y / scale)] >>
-                   (4 - x / scale) &
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          if ((kDigits[static_cast<std::size_t>(digits[d] - '0')][static_cast<std::size_t>(7 * y / height)] >>
+                   (4 - 5 * x / width) &
                1) != 0)
-            grey[indexOf(4 + static_cast<int>(d) * 6 * scale + x, 5 + y, z)] = bright;
-  return 7 * scale;
+            grey[indexOf(2 + static_cast<int>(d) * (width + height / 7 + 1) + x, 5 + y, z)] = bright;
+}
+void write(std::string_view digits, int scale, int slices, std::int16_t bright, std::vector<std::int16_t>& grey) {
+  writeHigh(digits, 7 * scale, slices, bright, grey);
 }
 
+// Numbers of eight digits at six sizes: of a hundred and twenty at least nineteen of twenty are found and blanked.
 TEST(BurntInText, IsFoundAtEverySizeAndBlankedInEverySlice) {
-  for (const int scale : {1, 2, 3, 4}) {
-    std::vector<std::int16_t> grey = clean(static_cast<unsigned>(scale));
-    const int height = write("20481957", scale, kSize.z, 3000, grey);
-    const auto boxes = assets::burntInText(kSize, grey, kNoText);
-    ASSERT_EQ(boxes.size(), 1U) << scale;
-    EXPECT_EQ(boxes[0].low.y, 5);
-    EXPECT_EQ(boxes[0].end.y, 5 + height);
-    assets::blankText(kSize, boxes, kNoText, grey);
-    EXPECT_EQ(std::ranges::count(grey, std::int16_t{3000}), 0);
-  }
+  std::mt19937 random(20);
+  int written = 0, found = 0;
+  for (const int height : {7, 9, 12, 14, 21, 28})
+    for (int round = 0; round < 20; ++round) {
+      std::vector<std::int16_t> grey = clean(static_cast<unsigned>(height + 100 * round));
+      std::string digits;
+      while (digits.size() < 8) digits += "023456789"[random() % 9];  // a 1 is too narrow to count
+      writeHigh(digits, height, kSize.z, 3000, grey);
+      ++written;
+      const auto boxes = assets::burntInText(kSize, grey, kNoText);
+      if (boxes.size() != 1 || boxes[0].low.y != 5 || boxes[0].end.y != 5 + height) continue;
+      assets::blankText(kSize, boxes, kNoText, grey);
+      found += std::ranges::count(grey, std::int16_t{3000}) == 0 ? 1 : 0;
+    }
+  EXPECT_GE(found, written * 95 / 100) << "of " << written;
 }
 
 TEST(BurntInText, RaisesNoAlarmOnPicturesWithout) {

@@ -1,0 +1,63 @@
+#include "app/commands/stop_signals.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace app {
+namespace {
+
+constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
+using Actions = std::array<struct sigaction, kStops.size()>;
+
+volatile std::sig_atomic_t stop_asked = 0;
+std::string_view line_of_stop;
+
+Actions handledBy(void (*handler)(int)) {
+  Actions before{};
+  struct sigaction stop {};
+  stop.sa_handler = handler;
+  for (std::size_t n = 0; n < kStops.size(); ++n) {
+    ::sigaction(kStops[n], nullptr, &before[n]);
+    // As nohup leaves it.
+    if (before[n].sa_handler != SIG_IGN) ::sigaction(kStops[n], &stop, nullptr);
+  }
+  return before;
+}
+
+void restore(const Actions& before) {
+  for (std::size_t n = 0; n < kStops.size(); ++n) ::sigaction(kStops[n], &before[n], nullptr);
+}
+
+void sayAndEnd(int number) {
+  const ssize_t ignored = ::write(STDERR_FILENO, line_of_stop.data(), line_of_stop.size());
+  static_cast<void>(ignored);
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
+}  // namespace
+
+struct StopSignals::Before {
+  Actions actions;
+};
+struct StopsWithALine::Before {
+  Actions actions;
+};
+
+StopSignals::StopSignals() {
+  stop_asked = 0;
+  before_ = std::make_unique<Before>(Before{handledBy([](int) { stop_asked = 1; })});
+}
+StopSignals::~StopSignals() { restore(before_->actions); }
+
+bool StopSignals::isAsked() const { return stop_asked != 0; }
+
+StopsWithALine::StopsWithALine(std::string_view line) {
+  line_of_stop = line;
+  before_ = std::make_unique<Before>(Before{handledBy(sayAndEnd)});
+}
+StopsWithALine::~StopsWithALine() { restore(before_->actions); }
+
+}  // namespace app

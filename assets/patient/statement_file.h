@@ -1,0 +1,32 @@
+// deidentified.toml of a patient folder: the statement of what an imported scan kept and dropped
+// (scan_origin_toml.h), signed with this machine's key, not reviewed until a person has looked at the pictures and says
+// so. Any thread; the digest of the volume takes 1 s per GB.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace assets {
+
+enum class Seal { none, broken, of_another_machine, of_this_machine };
+
+struct StatementFacts {
+  bool is_reviewed = false;  ///< a person has looked at the pictures
+  Seal seal = Seal::none;
+  bool is_of_volume = false;  ///< the volume beside it is the one that it is of
+};
+
+/// The text with a new signature after it, in place of any old one; without one where the machine can keep no key.
+std::string sealedStatement(std::string text);
+
+/// None: the folder has no statement. Throws LoadError: it cannot be read.
+std::optional<StatementFacts> statementIn(const std::string& folder);
+
+/// A person has looked at all pictures: they name nobody. Throws LoadError: the folder has no statement, or one that
+/// was changed or is of another volume; CalibrationError: it cannot be written.
+void reviewStatement(const std::string& folder);
+
+/// SHA-256 of a file; hexadecimal digits.
+std::string digestOfFile(const std::string& path);
+
+}  // namespace assets
