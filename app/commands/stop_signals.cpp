@@ -21,7 +21,8 @@ Actions handledBy(void (*handler)(int)) {
   for (std::size_t n = 0; n < kStops.size(); ++n) {
     ::sigaction(kStops[n], nullptr, &before[n]);
     // As nohup leaves it.
-    if (before[n].sa_handler != SIG_IGN) ::sigaction(kStops[n], &stop, nullptr);
+    const bool is_left = kStops[n] == SIGHUP && before[n].sa_handler == SIG_IGN;
+    if (!is_left) ::sigaction(kStops[n], &stop, nullptr);
   }
   return before;
 }

@@ -56,7 +56,7 @@ TEST(SoftTissueRemovalRealData, AWholeHeadKeepsNoFace) {
   const std::filesystem::path patients = tests::sharedData("patients");
   MOLAR_NEEDS(patients);
   tests::HeadPhantomOptions options;
-  options.spacing_mm = 0.9;
+  options.spacing_mm = 1.2;
   options.noise_hu = options.cupping_hu = 0.0;  // so that dense is bone, here
   options.slope = 1.0, options.offset = 0.0;
   tests::HeadPhantom head = tests::headPhantom(patients, options);
