@@ -82,10 +82,16 @@ Line spacedEvenly(const Line& line) {
     walked_mm += piece_mm;
   }
   out.push_back(line.back());
-  return length_mm < kLeastCanal_mm ? Line{} : out;
+  return out;
 }
 
 }  // namespace
+
+double wayLength_mm(const Line& line_P_mm) {
+  double length_mm = 0.0;
+  for (std::size_t p = 1; p < line_P_mm.size(); ++p) length_mm += glm::distance(line_P_mm[p - 1], line_P_mm[p]);
+  return length_mm;
+}
 
 Line pointsOfWay(const VolumeGrid& cells, const std::vector<std::size_t>& way) {
   Line points;
@@ -93,7 +99,7 @@ Line pointsOfWay(const VolumeGrid& cells, const std::vector<std::size_t>& way) {
   return points;
 }
 
-Line canalThrough(const HalfJaw& half, const Line& way_P_mm, CanalEnds ends) {
+Line centredCanal(const HalfJaw& half, const Line& way_P_mm, CanalEnds ends) {
   if (way_P_mm.size() < 2) return {};
   Line line;
   for (const glm::dvec3& p : way_P_mm) line.push_back(half.grid.indexFromPoint(p));

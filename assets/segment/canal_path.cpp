@@ -8,7 +8,7 @@
 
 #include "assets/load_error.h"
 #include "assets/segment/canal_line.h"
-#include "assets/segment/cheapest_path.h"
+#include "assets/segment/canal_search.h"
 
 namespace assets {
 namespace {
@@ -16,10 +16,7 @@ namespace {
 constexpr double kEndSlab_mm = 2.5, kRamusOverBite_mm = 2.0, kBehindShare = 0.75, kFrontShare = 0.38,
                  kPremolar_mm = 3.5, kBodyShare = 0.62;
 constexpr std::size_t kEndCells = 60;
-constexpr double kAroundClicks_mm = 8.0, kOffBone_mm = 2.0;
-/// A proposal follows what looks like canal. Between clicks there is one: a stretch that hardly looks so, as where a
-/// root lies on it, is shorter than a detour through marrow.
-constexpr CanalCosts kProposed{0.03F, 6.0F, 6.0F}, kClicked{0.2F, 2.0F, 1.5F};
+constexpr double kAroundClicks_mm = 8.0;
 
 using Line = std::vector<glm::dvec3>;
 
@@ -82,12 +79,24 @@ std::vector<std::size_t> pathThrough(const HalfJaw& half, const EndPlaces& ends)
   const auto body = bestCells(half, [&](glm::ivec3 p) { return std::abs(p.y - front) < slab && p.z < body_k; });
   if (ramus.empty() || body.empty()) return {};
 
-  return cheapestPath(half.grid.size, canalCost(half, kProposed), body, ramus);
+  return canalWay(half, body, ramus);
 }
 
+/// The jaw's voxels around points.
+CellBox boxAround(const VolumeGrid& grid, const Line& points_P_mm, double margin_mm) {
+  glm::dvec3 low_P_mm = points_P_mm.front(), high_P_mm = points_P_mm.front();
+  for (const glm::dvec3& p : points_P_mm) low_P_mm = glm::min(low_P_mm, p), high_P_mm = glm::max(high_P_mm, p);
+  const glm::dvec3 far = glm::dvec3(grid.size) + 1e3;
+  const auto cell_at = [&](const glm::dvec3& p_P_mm) {
+    return glm::ivec3(glm::clamp(glm::floor(grid.indexFromPoint(p_P_mm)), -far, far));
+  };
+  return CellBox{cell_at(low_P_mm - margin_mm), cell_at(high_P_mm + margin_mm) + 2}.grown(0, grid.size);
+}
+
+/// Found in cells, with both foramina, and centred in voxels.
 std::optional<CanalProposal> proposedCanal(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
                                            bool is_right) {
-  const HalfJaw half = halfIn(scene, boxOfHalf(scene, is_right), Roots::keep_off, 1);
+  const HalfJaw half = halfIn(scene, boxOfHalf(scene, is_right), coarseEdge(scene.jaw.grid));
   if (half.score.empty()) return std::nullopt;
   const VolumeGrid& grid = half.grid;
   const double middle_P_mm = scene.arch.centre_P_mm.y - 20.0;
@@ -95,61 +104,48 @@ std::optional<CanalProposal> proposedCanal(const CanalScene& scene, const std::v
                  scene.sheet.slope, (middle_P_mm - grid.origin_P_mm.y) / grid.spacing_mm,
                  frontEnd_P_mm(teeth, is_right)};
   if (ends.front_j) ends.front_j = (*ends.front_j - grid.origin_P_mm.y) / grid.spacing_mm;
+  const Line found = pointsOfWay(grid, pathThrough(half, ends));
+  if (found.size() < 2) return std::nullopt;
+  Line way = wayToForamen(half, found.front(), Foramen::mental, is_right);
+  std::ranges::reverse(way);
+  way.insert(way.end(), found.begin(), found.end());
+  const Line behind = wayToForamen(half, found.back(), Foramen::mandibular, is_right);
+  way.insert(way.end(), behind.begin(), behind.end());
+  constexpr double kAround_mm = 4.0;
+  const HalfJaw fine = boneIn(scene, boxAround(scene.jaw.grid, way, kAround_mm), 1);
   CanalProposal canal;
   canal.is_right = is_right;
-  canal.line_P_mm = canalThrough(half, pointsOfWay(half.grid, pathThrough(half, ends)), CanalEnds::drawn);
-  return canal.line_P_mm.size() >= 2 ? std::optional(std::move(canal)) : std::nullopt;
+  canal.line_P_mm = centredCanal(fine.smooth_hu.empty() ? half : fine, way, CanalEnds::kept);
+  return wayLength_mm(canal.line_P_mm) >= kLeastCanal_mm ? std::optional(std::move(canal)) : std::nullopt;
 }
 
 [[noreturn]] void refuseClicks(bool is_right, const std::string& why) {
   throw LoadError(std::string("clicks: canal on the ") + (is_right ? "right: " : "left: ") + why);
 }
 
-/// The jaw's cell that is nearest to a click.
-std::optional<std::size_t> boneAt(const HalfJaw& half, const glm::dvec3& p_P_mm) {
-  std::optional<std::size_t> nearest;
-  double least_mm = 2.0 * kOffBone_mm;
-  const VolumeGrid& grid = half.grid;
-  forCellsNear(grid.indexFromPoint(p_P_mm), kOffBone_mm, grid.spacing_mm, grid.size,
-               [&](glm::ivec3 ijk, double away_mm) {
-                 if (half.solid[grid.index(ijk)] != 0 && away_mm < least_mm)
-                   least_mm = away_mm, nearest = grid.index(ijk);
-               });
-  return nearest;
-}
-
 CanalProposal clickedCanal(const CanalScene& scene, const Line& clicks, bool is_right) {
-  const VolumeGrid& grid = scene.jaw.grid;
-  glm::dvec3 low_P_mm = clicks.front(), high_P_mm = clicks.front();
-  for (const glm::dvec3& p : clicks) low_P_mm = glm::min(low_P_mm, p), high_P_mm = glm::max(high_P_mm, p);
-  const glm::dvec3 far = glm::dvec3(grid.size) + 1e3;
-  const auto cell_at = [&](const glm::dvec3& p_P_mm) {
-    return glm::ivec3(glm::clamp(glm::floor(grid.indexFromPoint(p_P_mm)), -far, far));
-  };
-  const CellBox around =
-      CellBox{cell_at(low_P_mm - kAroundClicks_mm), cell_at(high_P_mm + kAroundClicks_mm) + 2}.grown(0, grid.size);
+  const CellBox around = boxAround(scene.jaw.grid, clicks, kAroundClicks_mm);
   if (around.isEmpty()) refuseClicks(is_right, "its points lie outside the lower jaw");
-  const HalfJaw half = halfIn(scene, around, Roots::may_touch, 1);
+  const HalfJaw half = halfIn(scene, around, 1);
   if (half.score.empty()) refuseClicks(is_right, "there is hardly any bone between its points");
   std::vector<std::size_t> stops;
   for (std::size_t n = 0; n < clicks.size(); ++n) {
-    const auto cell = boneAt(half, clicks[n]);
-    if (!cell) refuseClicks(is_right, "point " + std::to_string(n + 1) + " lies more than 2 mm off the lower jaw");
-    stops.push_back(*cell);
+    stops.push_back(boneNear(half, clicks[n]));
+    if (stops.back() == half.grid.voxelCount())
+      refuseClicks(is_right, "point " + std::to_string(n + 1) + " lies more than 2 mm off the lower jaw");
   }
-  const std::vector<float> cost = canalCost(half, kClicked);
   std::vector<std::size_t> way{stops.front()};
   for (std::size_t n = 1; n < stops.size(); ++n) {
-    const std::vector<std::size_t> next =
-        cheapestPath(half.grid.size, cost, std::span(&stops[n - 1], 1), std::span(&stops[n], 1));
+    const std::vector<std::size_t> next = canalWay(half, std::span(&stops[n - 1], 1), std::span(&stops[n], 1));
     if (next.empty()) refuseClicks(is_right, "no way through bone joins its points");
     way.insert(way.end(), next.begin() + 1, next.end());
   }
   CanalProposal canal;
   canal.is_right = is_right;
   canal.is_confirmed = true;
-  canal.line_P_mm = canalThrough(half, pointsOfWay(half.grid, way), CanalEnds::kept);
-  if (canal.line_P_mm.size() < 2) refuseClicks(is_right, "it is shorter than 15 mm, click both of its ends");
+  if (way.size() > 1) canal.line_P_mm = centredCanal(half, pointsOfWay(half.grid, way), CanalEnds::kept);
+  if (wayLength_mm(canal.line_P_mm) < kLeastCanal_mm)
+    refuseClicks(is_right, "it is shorter than 15 mm, click both of its ends");
   if (canal.line_P_mm.front().y > canal.line_P_mm.back().y) std::ranges::reverse(canal.line_P_mm);
   return canal;
 }

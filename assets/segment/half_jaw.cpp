@@ -80,7 +80,7 @@ CellBox boxOfHalf(const CanalScene& scene, bool is_right) {
   return box;
 }
 
-HalfJaw halfIn(const CanalScene& scene, const CellBox& box, Roots roots, int edge) {
+HalfJaw boneIn(const CanalScene& scene, const CellBox& box, int edge) {
   const Mandible& jaw = scene.jaw;
   const ToothRegions& teeth = scene.regions;
   const glm::ivec3 size = glm::max(box.size(), glm::ivec3(0));
@@ -98,37 +98,34 @@ HalfJaw halfIn(const CanalScene& scene, const CellBox& box, Roots roots, int edg
   const glm::ivec3 cells = half.grid.size;
   const double spacing_mm = half.grid.spacing_mm;
   CellMask barred(half.solid.size());
-  for (std::size_t n = 0; n < barred.size(); ++n)
-    barred[n] = half.solid[n] == 0 || (roots == Roots::keep_off && half.tooth[n] != 0) ? 1 : 0;
+  for (std::size_t n = 0; n < barred.size(); ++n) barred[n] = half.solid[n] == 0 ? 1 : 0;
   const std::vector<float> depth_mm = exactDistance_mm(cells, spacing_mm, barred);
   half.may_hold.resize(half.solid.size());
   for (std::size_t n = 0; n < barred.size(); ++n)
     half.may_hold[n] = static_cast<double>(depth_mm[n]) > kInside_mm && half.tooth[n] == 0 ? 1 : 0;
   if (!half.isUsable()) return half;
 
-  half.smooth_hu = meansIn(size, edge, croppedTo(box, jaw.grid.size, jaw.hounsfield));
+  half.hounsfield = meansIn(size, edge, croppedTo(box, jaw.grid.size, jaw.hounsfield));
+  half.smooth_hu = half.hounsfield;
   const auto holds = [&](std::size_t n) { return half.may_hold[n] != 0; };
   const float usual_hu = valueAtShare(valuesWhere(half.smooth_hu, holds), 0.5);
   for (std::size_t n = 0; n < barred.size(); ++n)
     if (!holds(n)) half.smooth_hu[n] = usual_hu;
   smoothCells(cells, kPathSmooth_mm / spacing_mm, half.smooth_hu);
-  half.score = darkTubeness(cells, kTube_mm / spacing_mm, half.smooth_hu);
-  const float tube = std::max(1.0F, valueAtShare(valuesWhere(half.score, holds), 0.97));
-  const float bright_hu = valueAtShare(valuesWhere(half.smooth_hu, holds), 0.75);
-  for (std::size_t n = 0; n < barred.size(); ++n)
-    half.score[n] = 0.7F * std::clamp(half.score[n] / tube, 0.0F, 2.0F) +
-                    0.5F * std::clamp((bright_hu - half.smooth_hu[n]) / 500.0F, 0.0F, 1.5F);
   return half;
 }
 
-std::vector<float> canalCost(const HalfJaw& half, const CanalCosts& costs) {
-  std::vector<float> cost(half.score.size(), 0.0F);
-  for (std::size_t n = 0; n < cost.size(); ++n)
-    if (half.solid[n] != 0)
-      cost[n] = half.may_hold[n] != 0 ? costs.least + std::exp(-2.2F * half.score[n])
-                : half.tooth[n] != 0  ? costs.in_tooth
-                                      : costs.near_surface;
-  return cost;
+HalfJaw halfIn(const CanalScene& scene, const CellBox& box, int edge) {
+  HalfJaw half = boneIn(scene, box, edge);
+  if (half.smooth_hu.empty()) return half;
+  const auto holds = [&](std::size_t n) { return half.may_hold[n] != 0; };
+  half.score = darkTubeness(half.grid.size, kTube_mm / half.grid.spacing_mm, half.smooth_hu);
+  const float tube = std::max(1.0F, valueAtShare(valuesWhere(half.score, holds), 0.97));
+  const float bright_hu = valueAtShare(valuesWhere(half.smooth_hu, holds), 0.75);
+  for (std::size_t n = 0; n < half.score.size(); ++n)
+    half.score[n] = 0.7F * std::clamp(half.score[n] / tube, 0.0F, 2.0F) +
+                    0.5F * std::clamp((bright_hu - half.smooth_hu[n]) / 500.0F, 0.0F, 1.5F);
+  return half;
 }
 
 }  // namespace assets

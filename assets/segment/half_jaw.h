@@ -23,7 +23,8 @@ struct CanalScene {
 
 struct HalfJaw {
   VolumeGrid grid;
-  std::vector<float> smooth_hu, score;  ///< score: of a canal, 0 to 2
+  std::vector<float> hounsfield;        ///< as scanned
+  std::vector<float> smooth_hu, score;  ///< what cannot hold a canal as grey as marrow; score: of a canal, 0 to 2
   CellMask solid, tooth, may_hold;      ///< may_hold: deep in the bone
 
   bool isUsable() const;
@@ -32,22 +33,13 @@ struct HalfJaw {
 /// Cells of the jaw on one side, up to a little over the bite.
 CellBox boxOfHalf(const CanalScene& scene, bool is_right);
 
-/// Along a root the ligament is a dark sheet, which a proposal keeps off as off the bone's surface. Between the ends of
-/// a canal that a person knows its roots may touch it.
-enum class Roots { keep_off, may_touch };
-
-/// `box`: of the jaw; `edge`: of its voxels in a cell. No score where there is hardly any bone.
-HalfJaw halfIn(const CanalScene& scene, const CellBox& box, Roots roots, int edge);
+/// `box`: of the jaw; `edge`: of its voxels in a cell. Without score; hardly any bone: nothing but the masks.
+HalfJaw boneIn(const CanalScene& scene, const CellBox& box, int edge);
+/// With it.
+HalfJaw halfIn(const CanalScene& scene, const CellBox& box, int edge);
 
 /// Of the jaw's voxels, to make cells of about 0.7 mm.
 int coarseEdge(const VolumeGrid& grid);
-
-/// What a step through each cell costs; not positive: no way leads through it. `least`: in what looks most like canal;
-/// the higher, the more a detour through marrow costs.
-struct CanalCosts {
-  float least = 0.03F, in_tooth = 6.0F, near_surface = 6.0F;
-};
-std::vector<float> canalCost(const HalfJaw& half, const CanalCosts& costs);
 
 float valueAtShare(std::vector<float> values, double share);
 
