@@ -40,6 +40,8 @@ struct Patient {
   bool has_built_in_face = false;
   /// The head around the jaw, by the lower teeth; none: as the scan lies.
   std::optional<calibration::Pose<calibration::Patient, calibration::Face>> X_PF;
+  /// A layer of usual thickness over the bone, not the patient's (import/modelled_gum.h).
+  bool has_modelled_gum = false;
 
   /// Tooth or canal were found by the program, and no person has confirmed them.
   bool isProposed() const {

@@ -1,6 +1,7 @@
 #include "app/check_page/check_run.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -11,6 +12,7 @@
 #include <fmt/core.h>
 
 #include "app/case/gutter_plan.h"
+#include "app/check_page/check_picture.h"
 #include "app/options/jaw_clicks_file.h"
 #include "assets/import/found_jaw.h"
 #include "assets/import/tooth_site.h"
@@ -29,37 +31,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostLog_bytes = 1u << 24;
 constexpr double kClick_px = 4.0, kTurn_rad_per_px = 0.01, kMostTilt_rad = 1.4, kHuPerPx = 6.0;
-
-/// What a folder holds, as if it had just been found.
-assets::JawSegmentation stored(const assets::Patient& patient) {
-  assets::JawSegmentation jaw;
-  const assets::CtVolume& ct = patient.ct;
-  if (!ct.tooth.empty())
-    for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(ct)) {
-      if (assets::isUpper(fdi)) continue;
-      const auto number = static_cast<std::uint8_t>(fdi);
-      const assets::VoxelSum sum = assets::voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] == number; });
-      assets::FoundTooth tooth;
-      tooth.fdi = fdi, tooth.volume_mm3 = volume_mm3;
-      tooth.centre_P_mm = ct.grid.origin_P_mm + ct.grid.spacing_mm * sum.sum / sum.count;
-      if (!patient.found || (patient.found->tooth && patient.operatedTooth() == fdi)) tooth.told_fdi = fdi;
-      jaw.teeth.push_back(tooth);
-    }
-  if (patient.mandibular_canal_P_mm.size() >= 2) {
-    assets::CanalProposal canal;
-    canal.line_P_mm = patient.mandibular_canal_P_mm;
-    canal.radius_mm = patient.mandibular_canal_radius_mm;
-    canal.is_confirmed = !patient.found || patient.found->canal;
-    canal.is_right = assets::isRight(patient.operatedTooth());
-    jaw.canals.push_back(std::move(canal));
-  }
-  // From the right to the left along the arch.
-  std::ranges::sort(jaw.teeth, {}, [](const assets::FoundTooth& tooth) {
-    const int place = assets::positionOf(tooth.fdi);
-    return assets::isRight(tooth.fdi) ? -place : place;
-  });
-  return jaw;
-}
 
 bool exists(const std::string& path) {
   std::error_code error;
@@ -150,8 +121,9 @@ CheckRun::CheckRun(std::string folder, ReportLine report)
         return CheckMenu(std::move(edits.now), may_edit_, edits.saved);
       }()),
       page_(views_),
-      painted_(patient_.ct, stored(patient_)),
+      painted_(patient_.ct, foundIn(patient_)),
       stroke_(menu_, painted_, views_, page_, patient_.ct),
+      canal_(menu_),
       logged_(menu_.edits()),
       was_logged_saved_(!menu_.isChanged()) {
   menu_.moveCursor(patient_.focus_P_mm());
@@ -224,6 +196,8 @@ void CheckRun::step() {
       is_changed_ = true;
       if (answer->refusal.empty()) {
         stroke_.leave();
+        canal_.leave();
+        if (answer->halves) canal_.take(std::move(*answer->halves));
         painted_.take(std::move(answer->jaw));
         shown_ = std::move(answer->clicks);
         painted_.follow(menu_.edits().clicks().voxels, [](std::size_t, assets::VoxelLabel) {});
@@ -268,6 +242,7 @@ void CheckRun::save() {
     try {
       const assets::Patient checked = checkedPatient(std::move(patient), std::move(jaw), edits);
       assets::savePatientAgain(checked, folder_, jawClicksText(edits.clicks()));
+      keepCheckPicture(checked, folder_);
       return std::string();
     } catch (const std::exception& error) {
       return calibration::withoutTemporaryNames(error.what());
@@ -293,14 +268,26 @@ bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
   if (isSaving()) return true;
   if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) {
     pointer_px_ = moved->to_px;
-    if (stroke_.isDrawn())
-      stroke_.moveTo(pointer_px_ - page_.cornerOf(held_view_, window_px), page_.sizeOf(held_view_, window_px));
-    else
+    const glm::dvec2 in_view_px = pointer_px_ - page_.cornerOf(held_view_, window_px);
+    const glm::ivec2 view_px = page_.sizeOf(held_view_, window_px);
+    if (stroke_.isDrawn()) {
+      stroke_.moveTo(in_view_px, view_px);
+    } else if (canal_.isHeld()) {
+      const JawViews::Plane plane = views_.planeOf(held_view_, menu_.cursor_P_mm(), page_.look, view_px);
+      canal_.moveTo(plane.at(in_view_px), plane.normal_P());
+    } else {
       drag(*moved);
-    if (menu_.tool() == CheckTool::brush) is_changed_ = true;
+    }
+    if (menu_.tool() == CheckTool::brush || canal_.isHeld()) is_changed_ = true;
   }
   if (const auto* const wheel = std::get_if<render::WheelTurned>(&event)) turnWheel(wheel->notches, window_px);
   if (const auto* const letter = std::get_if<render::LetterTyped>(&event)) {
+    if (letter->letter == U'w' || letter->letter == U'W') {
+      // Bone and teeth, teeth alone, soft tissue.
+      static constexpr std::array kRanges{GreyRange{}, GreyRange{600.0, 3200.0}, GreyRange{-250.0, 450.0}};
+      range_ = (range_ + 1) % kRanges.size();
+      page_.range = kRanges[range_];
+    }
     menu_.type(letter->letter);
     return answer(CheckMenu::Answer::none);
   }
@@ -312,6 +299,11 @@ bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
       menu_.refuseLast("stopped");
       return answer(CheckMenu::Answer::none);
     }
+    const auto view = viewUnder(pointer_px_, window_px);
+    const bool is_slice = view && view->view != JawView::solid && view->view != JawView::panoramic;
+    if (key->down && key->key == render::Key::erase && menu_.tool() == CheckTool::canal && is_slice &&
+        canal_.removeAt(found().canals, view->at_px, inView(view->view, window_px)))
+      return answer(CheckMenu::Answer::none);
     return answer(menu_.take(*key));
   }
   if (const auto* const button = std::get_if<render::ButtonPressed>(&event);
@@ -333,12 +325,20 @@ std::optional<ViewPlace> CheckRun::viewUnder(const glm::dvec2& at_px, glm::ivec2
   return view != nullptr ? std::optional(*view) : std::nullopt;
 }
 
+HeldCanal::InView CheckRun::inView(JawView view, glm::ivec2 window_px) const {
+  const JawViews::Plane plane = views_.planeOf(view, menu_.cursor_P_mm(), page_.look, page_.sizeOf(view, window_px));
+  return [plane](const glm::dvec3& p_P_mm) { return plane.of(p_P_mm); };
+}
+
 void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
   const auto place = page_.placeAt(menu_, at_px, window_px);
   if (!place) return;
   if (const auto* const view = std::get_if<ViewPlace>(&*place)) {
     const bool is_slice = view->view != JawView::solid && view->view != JawView::panoramic;
-    if (menu_.tool() == CheckTool::brush && is_slice) {
+    if (menu_.tool() == CheckTool::canal && is_slice &&
+        canal_.press(found().canals, view->at_px, inView(view->view, window_px))) {
+      held_view_ = view->view;
+    } else if (menu_.tool() == CheckTool::brush && is_slice) {
       held_view_ = view->view;
       stroke_.begin(*view, page_.sizeOf(view->view, window_px));
     } else if (view->view == JawView::solid)
@@ -354,8 +354,8 @@ void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
 }
 
 void CheckRun::release(const glm::dvec2& at_px, glm::ivec2 window_px) {
-  if (stroke_.isDrawn()) {
-    stroke_.end();
+  if (stroke_.isDrawn() || canal_.isHeld()) {
+    stroke_.isDrawn() ? stroke_.end() : canal_.release();
     answer(CheckMenu::Answer::none);
     return;
   }
@@ -413,6 +413,11 @@ render::Image CheckRun::picture(glm::ivec2 window_px) {
   if (isSaving()) progress = {"saving", 0.0};
   CheckHand hand;
   if (menu_.tool() == CheckTool::brush) hand.brush = viewUnder(pointer_px_, window_px);
+  if (menu_.tool() == CheckTool::canal) {
+    const auto points = canal_.points(found().canals);
+    hand.canal_points.assign(points.begin(), points.end());
+    hand.drawn_P_mm = canal_.line_P_mm();
+  }
   return page_.picture(menu_, found().canals, patient_.shownTitle(), progress, hand, window_px);
 }
 

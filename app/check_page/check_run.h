@@ -15,6 +15,7 @@
 #include "app/check_page/check_menu.h"
 #include "app/check_page/check_page.h"
 #include "app/check_page/drawn_stroke.h"
+#include "app/check_page/held_canal.h"
 #include "app/check_page/jaw_search.h"
 #include "app/check_page/painted_jaw.h"
 #include "app/text/message.h"
@@ -62,6 +63,7 @@ class CheckRun {
   void askIfChanged();
   /// Strokes and cuts in force.
   void paintIfChanged();
+  HeldCanal::InView inView(JawView view, glm::ivec2 window_px) const;
   std::optional<ViewPlace> viewUnder(const glm::dvec2& at_px, glm::ivec2 window_px) const;
   void showFound();
   void keepLog(bool is_saved);
@@ -77,6 +79,7 @@ class CheckRun {
   CheckPage page_;
   PaintedJaw painted_;
   DrawnStroke stroke_;
+  HeldCanal canal_;
   std::optional<assets::JawClicks> asked_, shown_;  ///< clicks on teeth and canals
   CheckEdits logged_;
   bool was_logged_saved_ = true;
@@ -84,6 +87,7 @@ class CheckRun {
   bool is_dragged_ = false, is_changed_ = true, is_log_lost_ = false;
   glm::dvec2 pointer_px_{-1.0};
   JawView held_view_ = JawView::axial;
+  std::size_t range_ = 0;            ///< of grey values that are shown
   std::future<std::string> saving_;  ///< empty: saved; else why not
   std::unique_ptr<JawSearch> search_;
 };

@@ -26,8 +26,15 @@ struct JawSearch::Work {
   std::optional<Answer> answer;
   std::string stage;
   Clock::time_point asked;
+  std::optional<std::vector<assets::ToothClick>> halves_of;  ///< clicks of the halves that were answered last
   bool is_busy = false, is_unwanted = false, ends = false;
   std::thread thread;
+
+  /// Nobody takes the answer.
+  void dropAnswer() {
+    if (answer && answer->halves) halves_of.reset();
+    answer.reset();
+  }
 
   /// A stage begins; throws where its result is not wanted.
   void begin(std::string_view name) {
@@ -41,14 +48,17 @@ struct JawSearch::Work {
     std::unique_ptr<assets::JawFinder> finder;
     for (;;) {
       assets::JawClicks clicks;
+      bool needs_halves = true;
       {
         std::unique_lock lock(guard);
         changed.wait(lock, [this] { return ends || question; });
         if (ends) return;
         clicks = *std::exchange(question, std::nullopt);
+        needs_halves = halves_of != clicks.teeth;
         is_unwanted = false;
       }
-      Answer found{clicks, {}, {}};
+      Answer found;
+      found.clicks = clicks;
       try {
         if (!finder) {
           begin("shading");
@@ -56,6 +66,8 @@ struct JawSearch::Work {
         }
         found.jaw = finder->withClicks(clicks, report);
         if (found.jaw.refusal) found.refusal = found.jaw.refusal->sentence;
+        if (found.refusal.empty() && needs_halves)
+          found.halves = std::array{finder->halfOf(true), finder->halfOf(false)};
       } catch (const assets::LoadError& error) {
         found.refusal = error.what();
       } catch (const Unwanted&) {
@@ -63,6 +75,7 @@ struct JawSearch::Work {
       }
       const std::lock_guard lock(guard);
       if (is_unwanted || question) continue;
+      if (found.halves) halves_of = clicks.teeth;
       answer = std::move(found);
       is_busy = false;
       changed.notify_all();
@@ -87,7 +100,7 @@ void JawSearch::ask(assets::JawClicks clicks) {
   {
     const std::lock_guard lock(work_->guard);
     work_->question = std::move(clicks);
-    work_->answer.reset();
+    work_->dropAnswer();
     work_->stage = "waiting for the stage before";
     work_->asked = Clock::now();
     work_->is_busy = work_->is_unwanted = true;
@@ -98,7 +111,7 @@ void JawSearch::ask(assets::JawClicks clicks) {
 void JawSearch::leaveIt() {
   const std::lock_guard lock(work_->guard);
   work_->question.reset();
-  work_->answer.reset();
+  work_->dropAnswer();
   work_->is_busy = false;
   work_->is_unwanted = true;
 }

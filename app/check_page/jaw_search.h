@@ -3,6 +3,7 @@
 // ends it at the next stage. One owner's thread.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,9 @@ class JawSearch {
   struct Answer {
     assets::JawClicks clicks;     ///< of which question
     assets::JawSegmentation jaw;  ///< with a refusal of its own, or not at all:
-    std::string refusal;          ///< one line; empty: found
+    /// Right and left, where canals are drawn; none: as those of the answer before.
+    std::optional<std::array<assets::HalfJaw, 2>> halves{};
+    std::string refusal;  ///< one line; empty: found
   };
 
   /// Begins at once; `ct` must outlive it.

@@ -197,35 +197,66 @@ JawViews::Plane JawViews::planeOf(JawView view, const glm::dvec3& cursor_P_mm, c
 }
 
 render::Image JawViews::slice(const Plane& plane, const GreyRange& range, glm::ivec2 px) const {
-  const assets::CtVolume& ct = patient_.ct;
+  const assets::VolumeGrid& voxels = grid();
+  const std::int16_t* const hounsfield = patient_.ct.hounsfield.data();
   render::Image image{px.x, px.y, std::vector<std::uint8_t>(4 * assets::countIn({px, 1}), 255)};
-  std::vector<std::uint8_t> what(assets::countIn({px + 1, 1}));
+  // In voxels: of the first pixel's middle, and a step to the right and down.
+  const glm::vec3 first(voxels.indexFromPoint(plane.at({0.5, 0.5}))),
+      right(plane.pixel_mm / voxels.spacing_mm * plane.right_P),
+      down(plane.pixel_mm / voxels.spacing_mm * plane.down_P);
+  const glm::ivec3 size = voxels.size;
+  const auto row = static_cast<std::ptrdiff_t>(size.x), layer = row * size.y;
+  const auto at = [&](int x, int y) { return first + static_cast<float>(x) * right + static_cast<float>(y) * down; };
+  const auto below = [](float v) { return static_cast<int>(std::floor(v)); };
+
+  const std::size_t width = static_cast<std::size_t>(px.x) + 1;
+  std::vector<std::uint8_t> what(width * (static_cast<std::size_t>(px.y) + 1));
   tbb::parallel_for(0, px.y + 1, [&](int y) {
-    for (int x = 0; x <= px.x; ++x)
-      what[static_cast<std::size_t>(y * (px.x + 1) + x)] = whatAt(plane.at({x + 0.5, y + 0.5}));
+    std::uint8_t* const out = what.data() + static_cast<std::size_t>(y) * width;
+    for (int x = 0; x <= px.x; ++x) {
+      const glm::vec3 p = at(x, y) + 0.5F;
+      const int i = below(p.x), j = below(p.y), k = below(p.z);
+      const bool is_in = i >= 0 && j >= 0 && k >= 0 && i < size.x && j < size.y && k < size.z;
+      out[x] = is_in ? what_[static_cast<std::size_t>(i + row * j + layer * k)] : std::uint8_t{0};
+    }
   });
   const auto is_other = [](std::uint8_t a, std::uint8_t b) {
     return a != b && ((a != 0 && a != kBoneVoxel) || (b != 0 && b != kBoneVoxel));
   };
+  const float low_hu = static_cast<float>(range.low_hu),
+              per_hu = 255.0F / static_cast<float>(range.high_hu - range.low_hu);
   tbb::parallel_for(0, px.y, [&](int y) {
-    for (int x = 0; x < px.x; ++x) {
-      const glm::dvec3 p = plane.at({x + 0.5, y + 0.5});
-      const glm::ivec3 at(glm::floor(ct.grid.indexFromPoint(p)));
-      double hu = -1000.0;
-      if (ct.grid.contains(at) && ct.grid.contains(at + 1))
-        hu = assets::trilinearAt(ct.grid, p, [&ct](glm::ivec3 ijk) { return ct.hounsfield[ct.grid.index(ijk)]; });
-      const double grey = 255.0 * std::clamp((hu - range.low_hu) / (range.high_hu - range.low_hu), 0.0, 1.0);
-      glm::dvec3 colour(grey);
-      const auto n = static_cast<std::size_t>(y * (px.x + 1) + x);
-      const std::uint8_t here = what[n], right = what[n + 1], below = what[n + static_cast<std::size_t>(px.x) + 1];
+    std::uint8_t* out = image.rgba.data() + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(px.x);
+    const std::uint8_t* const here_row = what.data() + static_cast<std::size_t>(y) * width;
+    for (int x = 0; x < px.x; ++x, out += 4) {
+      const glm::vec3 p = at(x, y);
+      const int i = below(p.x), j = below(p.y), k = below(p.z);
+      float hu = -1000.0F;
+      if (i >= 0 && j >= 0 && k >= 0 && i + 1 < size.x && j + 1 < size.y && k + 1 < size.z) {
+        const std::int16_t* const v = hounsfield + (i + row * j + layer * k);
+        const float u = p.x - static_cast<float>(i), w = p.y - static_cast<float>(j), t = p.z - static_cast<float>(k);
+        const auto along = [u](const std::int16_t* a) {
+          return static_cast<float>(a[0]) + u * static_cast<float>(a[1] - a[0]);
+        };
+        const float near = along(v) + w * (along(v + row) - along(v)),
+                    far = along(v + layer) + w * (along(v + layer + row) - along(v + layer));
+        hu = near + t * (far - near);
+      }
+      const float grey = std::clamp(per_hu * (hu - low_hu), 0.0F, 255.0F);
+      const std::uint8_t here = here_row[x], beside = here_row[x + 1],
+                         under = here_row[static_cast<std::size_t>(x) + width];
       const bool is_tooth = here != 0 && here != kBoneVoxel;
+      if (!is_tooth && here == beside && here == under) {
+        out[0] = out[1] = out[2] = static_cast<std::uint8_t>(grey + 0.5F);
+        continue;
+      }
+      glm::dvec3 colour(grey);
       if (is_tooth) colour = glm::mix(colour, colourOf(here), kTint);
-      if (is_other(here, right) || is_other(here, below)) {
-        const std::uint8_t owner = is_tooth ? here : is_other(here, right) ? right : below;
+      if (is_other(here, beside) || is_other(here, under)) {
+        const std::uint8_t owner = is_tooth ? here : is_other(here, beside) ? beside : under;
         colour = glm::mix(colour, colourOf(owner), kOutline);
       }
-      for (std::size_t c = 0; c < 3; ++c)
-        image.rgba[4 * static_cast<std::size_t>(y * px.x + x) + c] = byteOf(colour[static_cast<int>(c)]);
+      for (int c = 0; c < 3; ++c) out[c] = byteOf(colour[c]);
     }
   });
   return image;

@@ -15,6 +15,7 @@
 
 #include "app/case/built_in_face.h"
 #include "app/case/gutter_plan.h"
+#include "app/check_page/check_picture.h"
 #include "app/check_page/check_run.h"
 #include "app/commands/command.h"
 #include "app/commands/dicom_options.h"
@@ -29,6 +30,7 @@
 #include "app/text/message.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
+#include "assets/import/modelled_gum.h"
 #include "assets/import/scan_import.h"
 #include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
@@ -98,6 +100,9 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
              {"length_mm", mandibularCanalLength_mm(patient)},
              {"radius_mm", patient.mandibular_canal_radius_mm}}},
            {"gum_triangles", triangles(patient.gingiva)},
+           {"gum", patient.has_modelled_gum        ? "modelled"
+                   : patient.gingiva.parts.empty() ? "none"
+                                                   : "labelled"},
            {"face_triangles", triangles(patient.face)},
            {"face", patient.has_built_in_face    ? "built-in"
                     : patient.face.parts.empty() ? "none"
@@ -137,6 +142,8 @@ std::string wordsOn(const assets::Patient& patient) {
   if (!patient.mandibular_canal_P_mm.empty())
     text += fmt::format("canal        {:.1f} mm long, radius {:.1f} mm\n", mandibularCanalLength_mm(patient),
                         patient.mandibular_canal_radius_mm);
+  if (patient.has_modelled_gum)
+    text += fmt::format("gum          modelled, {:g} mm over the bone: not the patient's\n", assets::kGumThickness_mm);
   text += patient.has_built_in_face    ? "face         built-in, placed by the lower teeth: not the patient's\n"
           : patient.face.parts.empty() ? "face         none\n"
                                        : "face         the patient's\n";
@@ -331,6 +338,7 @@ int import(ImportOptions options) {
   // Edits of another import of this folder.
   std::error_code ignored;
   std::filesystem::remove(checkLogPath(options.out), ignored);
+  if (imported.jaw) keepCheckPicture(patient, options.out);
   std::fputs(wordsOn(patient).c_str(), stderr);
   if (patient.isProposed()) printMessage("look at what was found: molar check " + nameOf(options.out));
   if (has_no_place)

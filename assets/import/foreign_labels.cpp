@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "assets/import/divided_teeth.h"
 #include "assets/import/label_names.h"
 #include "assets/import/tissue_from_grey.h"
 #include "assets/load_error.h"
@@ -198,12 +199,18 @@ std::vector<std::string> takeForeignLabels(const std::string& path, const LabelT
     refuseSwappedSides(ct);
     numberPulps(ct);
     labelNumberedTeeth(ct);
-  } else {
-    ct.tooth.clear();
   }
   std::vector<std::string> remarks;
-  if (voxels(LabelKind::teeth) > 0 && !has_numbers)
-    remarks.push_back("labels: the teeth are one label, not told apart, so that none can be the site");
+  if (voxels(LabelKind::teeth) > 0 && !has_numbers) {
+    const std::size_t teeth = divideLabelledTeeth(ct);
+    for (std::size_t v = 0; v < ct.label.size(); ++v)
+      if (ct.tooth[v] != 0) ct.label[v] = 0;
+    labelNumberedTeeth(ct);
+    remarks.push_back(teeth > 0 ? "labels: the teeth are one label, divided into " + std::to_string(teeth) +
+                                      " at their necks and numbered along the arch: look at the numbers"
+                                : "labels: the teeth are one label, not told apart, so that none can be the site");
+  }
+  if (std::ranges::none_of(ct.tooth, [](std::uint8_t fdi) { return fdi != 0; })) ct.tooth.clear();
   if (voxels(LabelKind::canal) == 0 && voxels(LabelKind::tissue) == 0)
     remarks.push_back("labels: no mandibular canal is among them");
   return remarks;

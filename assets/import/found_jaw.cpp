@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "assets/import/lower_jaw.h"
+#include "assets/import/modelled_gum.h"
 #include "assets/import/shading.h"
 #include "assets/import/tissue_from_grey.h"
 #include "assets/import/tooth_site.h"
@@ -19,6 +20,7 @@ std::vector<std::int16_t> greyToSearch(const CtVolume& ct) {
 }
 
 FoundJaw takeLabels(JawSegmentation found, CtVolume& ct) {
+  const std::vector<std::size_t> gum = modelledGum(ct.grid, ct.hounsfield, found.label, found.tooth);
   ct.label = labelsFromGrey(ct.grid, ct.hounsfield);
   for (std::size_t v = 0; v < ct.label.size(); ++v) {
     if (found.label[v] != 0)
@@ -26,8 +28,10 @@ FoundJaw takeLabels(JawSegmentation found, CtVolume& ct) {
     else if (isToothPart(ct.label[v]))
       ct.label[v] = static_cast<std::uint8_t>(Tissue::other_teeth);
   }
+  for (const std::size_t v : gum)
+    if (ct.label[v] == 0) ct.label[v] = static_cast<std::uint8_t>(Tissue::gingiva);
   ct.tooth = std::move(found.tooth);
-  return {found.levels, std::move(found.teeth), std::move(found.canals)};
+  return {found.levels, std::move(found.teeth), std::move(found.canals), !gum.empty()};
 }
 
 const CanalProposal* canalBeside(const std::vector<CanalProposal>& canals, const std::optional<OperativeSite>& site) {
@@ -54,6 +58,7 @@ void takeFoundJaw(JawSegmentation found, Patient& patient) {
   for (const int fdi : {before ? before->fdi : 48, 48, 38})
     if (!patient.site) patient.site = siteAtTooth(patient.ct, fdi);
   takeCanal(jaw, patient);
+  patient.has_modelled_gum = jaw.has_gum;
   if (patient.site)
     patient.jaw_P_mm = patient.site->centre_P_mm;
   else

@@ -17,12 +17,13 @@ struct FoundJaw {
   GreyLevels levels;
   std::vector<FoundTooth> teeth;
   std::vector<CanalProposal> canals;
+  bool has_gum = false;  ///< modelled (modelled_gum.h)
 };
 
 /// Grey values as jaws are looked for in them: without shading.
 std::vector<std::int16_t> greyToSearch(const CtVolume& ct);
 
-/// Labels and tooth numbers of the volume.
+/// Labels and tooth numbers of the volume, gum among them.
 FoundJaw takeLabels(JawSegmentation found, CtVolume& ct);
 
 /// The canal on the site's side, without a site the first; none there.

@@ -244,6 +244,7 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
   if (imported.jaw) {
     // Where it has none on the site's side, what is labelled is the other side's proposal.
     takeCanal(*imported.jaw, patient);
+    patient.has_modelled_gum = imported.jaw->has_gum;
     remarkProposals(patient, *imported.jaw, canalBeside(imported.jaw->canals, patient.site), imported.remarks);
   } else if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);

@@ -26,6 +26,7 @@ constexpr const char* kVolume = "volume.vdb";
 constexpr const char* kMeshes = "face.glb";
 constexpr const char* kStatement = "deidentified.toml";
 constexpr const char* kClicks = "clicks.json";
+constexpr const char* kCheckPicture = "check.png";
 constexpr const char* kScanTable = "\n[scan]\n";
 constexpr const char* kDigestKey = "volume_sha256 = ";
 constexpr const char* kGingivaPrefix = "Gum";
@@ -67,7 +68,7 @@ struct ScanWords {
 
 void write(const Patient& patient, const std::string& folder, bool overwrite, const ScanWords& scan,
            const std::string& clicks, const std::function<void()>& before_commit) {
-  calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement, kClicks});
+  calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement, kClicks, kCheckPicture});
   const fs::path written = output.temporaryPath();
   calibration::OutputFile(written / kToml, false).commit(patientToml(patient) + scan.table);
   if (!clicks.empty()) calibration::OutputFile(written / kClicks, false).commit(clicks);
@@ -110,6 +111,8 @@ void savePatientAgain(const Patient& patient, const std::string& folder, const s
 }
 
 std::string clicksPath(const std::string& folder) { return (fs::path(folder) / kClicks).string(); }
+
+std::string checkPicturePath(const std::string& folder) { return (fs::path(folder) / kCheckPicture).string(); }
 
 Patient describedPatient(const std::string& folder) {
   std::error_code error;

@@ -28,6 +28,9 @@ void savePatientAgain(const Patient& patient, const std::string& folder, const s
 /// Of a patient folder, for clicks.json.
 std::string clicksPath(const std::string& folder);
 
+/// Of a patient folder, for check.png: what was found, as a picture; it is not read.
+std::string checkPicturePath(const std::string& folder);
+
 /// The volume is read beside the meshes. Throws LoadError: no such folder, a file missing, damaged or foreign, a value
 /// out of range.
 Patient loadPatient(const std::string& folder, const ReportProgress& report = {});

@@ -92,6 +92,7 @@ std::string patientToml(const Patient& patient) {
   std::ostringstream text;
   text << "schema = " << kSchema << "\ntitle = " << quotedToml(patient.title) << "\nframe = \"P: LPS, mm\"\n"
        << confirmedLine(patient) << (patient.has_built_in_face ? "face = \"built-in\"\n" : "")
+       << (patient.has_modelled_gum ? "gum = \"modelled\"\n" : "")
        << "\n[jaw]\nplace_P_mm = " << exact(patient.jaw_P_mm) << '\n';
   if (patient.site)
     text << "\n[site]\nfdi = " << patient.site->fdi << "\ncentre_P_mm = " << exact(patient.site->centre_P_mm)
@@ -117,6 +118,7 @@ Patient patientFromToml(const std::string& text, const std::string& where) {
   Patient patient;
   patient.title = keys.text("", "title");
   patient.found = confirmationIn(keys);
+  patient.has_modelled_gum = keys.has("", "gum") && keys.choice("", "gum", {"modelled"}) == 0;
   patient.has_built_in_face = keys.has("", "face") && keys.choice("", "face", {"built-in"}) == 0;
   if (schema == kOldSchema)
     readOldSite(keys, patient);

@@ -1,6 +1,7 @@
 #include "assets/segment/canal_path.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -167,6 +168,23 @@ Line canalClicksOn(const JawArch& arch, std::span<const Line> clicks, bool is_ri
 std::optional<CanalProposal> canalOn(const CanalScene& scene, const std::vector<FoundTooth>& teeth, const Line& clicks,
                                      bool is_right) {
   return clicks.empty() ? proposedCanal(scene, teeth, is_right) : clickedCanal(scene, clicks, is_right);
+}
+
+std::uint64_t canalTeeth(const CanalScene& scene, const std::vector<FoundTooth>& teeth, bool is_right) {
+  // FNV-1a over runs of voxels.
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 1099511628211ULL; };
+  const CellBox half = boxOfHalf(scene, is_right);
+  bool was_tooth = false;
+  forCells(scene.regions.box.size(), [&](glm::ivec3 ijk, std::size_t n) {
+    const glm::ivec3 at = scene.regions.box.low + ijk;
+    const bool is_tooth = scene.regions.part[n] != 0 && glm::all(glm::greaterThanEqual(at, half.low)) &&
+                          glm::all(glm::lessThan(at, half.end));
+    if (is_tooth != was_tooth) add(indexIn(scene.jaw.grid.size, at));
+    was_tooth = is_tooth;
+  });
+  add(std::bit_cast<std::uint64_t>(frontEnd_P_mm(teeth, is_right).value_or(1e9)));
+  return hash;
 }
 
 }  // namespace assets

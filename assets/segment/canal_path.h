@@ -6,6 +6,7 @@
 // the way leads through those places instead: then only its course is computed.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,5 +31,8 @@ std::vector<glm::dvec3> canalClicksOn(const JawArch& arch, std::span<const std::
 /// the other, or none. Throws LoadError for clicks off the bone or nearer than 15 mm.
 std::optional<CanalProposal> canalOn(const CanalScene& scene, const std::vector<FoundTooth>& teeth,
                                      const std::vector<glm::dvec3>& clicks, bool is_right);
+
+/// A fingerprint of what of the teeth a side's canal depends on: where they are, and where its premolars are.
+std::uint64_t canalTeeth(const CanalScene& scene, const std::vector<FoundTooth>& teeth, bool is_right);
 
 }  // namespace assets

@@ -72,6 +72,26 @@ std::vector<std::size_t> canalWay(const HalfJaw& half, std::span<const std::size
   return best;
 }
 
+Line quickCanal(const HalfJaw& half, std::span<const glm::dvec3> points_P_mm) {
+  if (half.score.empty() || points_P_mm.size() < 2) return {};
+  const std::vector<float> cost = costOf(half, kTried.front());
+  std::vector<std::size_t> way;
+  std::size_t before = 0;
+  for (std::size_t n = 0; n < points_P_mm.size(); ++n) {
+    const std::size_t here = boneNear(half, points_P_mm[n]);
+    if (here == half.grid.voxelCount()) return {};
+    if (n > 0) {
+      const std::vector<std::size_t> next =
+          cheapestPath(half.grid.size, cost, std::span(&before, 1), std::span(&here, 1));
+      if (next.empty()) return {};
+      way.insert(way.end(), next.begin() + (n > 1 ? 1 : 0), next.end());
+    }
+    before = here;
+  }
+  if (way.size() < 2) return {};
+  return centredCanal(half, pointsOfWay(half.grid, way), CanalEnds::kept);
+}
+
 Line wayToForamen(const HalfJaw& half, const glm::dvec3& end_P_mm, Foramen foramen, bool is_right) {
   const VolumeGrid& grid = half.grid;
   const auto from = boneNear(half, end_P_mm);

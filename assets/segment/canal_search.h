@@ -15,6 +15,10 @@ namespace assets {
 std::vector<std::size_t> canalWay(const HalfJaw& half, std::span<const std::size_t> from,
                                   std::span<const std::size_t> to);
 
+/// The line through points in turn, found at one cost: while they are under a hand. Empty: no way, or fewer than two.
+/// 30 ms for a whole canal in cells of 0.7 mm.
+std::vector<glm::dvec3> quickCanal(const HalfJaw& half, std::span<const glm::dvec3> points_P_mm);
+
 /// From a canal's end on through what is as dark as soft tissue to a foramen in the bone's surface, 12 mm at most:
 /// forwards and outwards, or upwards and towards the tongue. Points from the end on; empty without a dark way.
 enum class Foramen { mental, mandibular };

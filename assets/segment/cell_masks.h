@@ -18,6 +18,7 @@ struct CellBox {
   glm::ivec3 low{0}, end{0};
 
   glm::ivec3 size() const { return end - low; }
+  friend bool operator==(const CellBox&, const CellBox&) = default;
   bool isEmpty() const { return glm::any(glm::lessThanEqual(size(), glm::ivec3(0))); }
   /// Larger on all sides, within a box of `size`.
   CellBox grown(int cells, glm::ivec3 size) const {

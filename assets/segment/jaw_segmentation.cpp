@@ -89,6 +89,7 @@ struct JawFinder::Jaw {
 
 struct JawFinder::Teeth {
   std::vector<ToothClick> clicks;
+  ToothRegions edited, placed;  ///< before and after their surfaces were placed
   ToothRegions regions;
   std::vector<FoundTooth> teeth;
   std::vector<std::uint8_t> tissue;
@@ -97,7 +98,7 @@ struct JawFinder::Teeth {
 
 struct JawFinder::Canal {
   struct OfSide {
-    std::vector<ToothClick> tooth_clicks;
+    std::uint64_t teeth = 0;  ///< what of them the canal depends on
     std::vector<glm::dvec3> clicks;
     std::optional<CanalProposal> found;
   };
@@ -141,10 +142,19 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
   if (refusal_) return refused(*refusal_);
   const Mandible& mandible = jaw_->mandible;
   if (!teeth_ || teeth_->clicks != clicks.teeth) {
-    Teeth found{clicks.teeth, jaw_->regions, {}, {}, {}};
-    const ToldParts told = editTeeth(mandible, jaw_->levels, clicks.teeth, found.regions);
+    Teeth found;
+    found.clicks = clicks.teeth;
+    found.edited = jaw_->regions;
+    const ToldParts told = editTeeth(mandible, jaw_->levels, clicks.teeth, found.edited);
     beginStage(report, "tooth surfaces");
-    moveToEdges(mandible, found.regions);
+    // A number changes no surface.
+    if (teeth_ && teeth_->edited == found.edited) {
+      found.placed = teeth_->placed;
+    } else {
+      found.placed = found.edited;
+      moveToEdges(mandible, found.placed);
+    }
+    found.regions = found.placed;
     const auto measure = [&] {
       found.teeth = measuredTeeth(mandible, found.regions, jaw_->levels);
       told.tell(found.teeth);
@@ -161,7 +171,8 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
     }
     if (!found.refusal) {
       beginStage(report, "tissues");
-      found.tissue = tissuesOfTeeth(mandible, found.regions, jaw_->levels);
+      const bool is_same = teeth_ && !teeth_->refusal && teeth_->regions == found.regions;
+      found.tissue = is_same ? teeth_->tissue : tissuesOfTeeth(mandible, found.regions, jaw_->levels);
     }
     teeth_ = std::make_unique<Teeth>(std::move(found));
   }
@@ -174,10 +185,11 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
   for (const bool is_right : {true, false}) {
     std::vector<glm::dvec3> clicked = canalClicksOn(jaw_->arch, clicks.canals, is_right);
     std::optional<Canal::OfSide>& known = canals_->of_side[is_right ? 0 : 1];
-    if (!known || known->tooth_clicks != clicks.teeth || known->clicks != clicked) {
+    const std::uint64_t teeth_there = canalTeeth(scene, teeth_->teeth, is_right);
+    if (!known || known->teeth != teeth_there || known->clicks != clicked) {
       beginStage(report, is_right ? "right canal" : "left canal");
       std::optional<CanalProposal> found = canalOn(scene, teeth_->teeth, clicked, is_right);
-      known = Canal::OfSide{clicks.teeth, std::move(clicked), std::move(found)};
+      known = Canal::OfSide{teeth_there, std::move(clicked), std::move(found)};
     }
     if (known->found) out.canals.push_back(*known->found);
   }
@@ -185,6 +197,12 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
   labelJaw(scan_, mandible, teeth_->regions, teeth_->tissue, out);
   for (const CanalProposal& canal : out.canals) labelCanal(scan_, canal, out.label);
   return out;
+}
+
+HalfJaw JawFinder::halfOf(bool is_right) const {
+  if (!jaw_ || !teeth_ || teeth_->refusal) return {};
+  const CanalScene scene{jaw_->mandible, teeth_->regions, jaw_->arch, jaw_->sheet};
+  return halfIn(scene, boxOfHalf(scene, is_right), coarseEdge(jaw_->mandible.grid));
 }
 
 JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,

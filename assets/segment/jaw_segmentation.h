@@ -48,6 +48,10 @@ class JawFinder {
   /// `report` throws; the finder can be used again afterwards.
   JawSegmentation withClicks(const JawClicks& clicks, const ReportStage& report = {});
 
+  /// What canals of a side are drawn in with those clicks, in cells of about 0.7 mm (canal_search.h); empty where
+  /// nothing was found. 0.3 s at 0.35 mm.
+  HalfJaw halfOf(bool is_right) const;
+
  private:
   struct Jaw;
   struct Teeth;

@@ -16,6 +16,8 @@ struct ToothRegions {
   CellBox box;                     ///< of the jaw's grid, around all teeth
   std::vector<std::uint8_t> part;  ///< in the box: number from 1, 0 outside
   int count = 0;
+
+  friend bool operator==(const ToothRegions&, const ToothRegions&) = default;
 };
 
 /// More than 254 parts: the smallest are left out.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -40,6 +41,16 @@ class CheckRunTest : public testing::Test {
     run.handle(render::PointerMoved{px, {}, render::MouseButton::none}, kWindow_px);
     run.handle(render::ButtonPressed{render::MouseButton::left, true}, kWindow_px);
     run.handle(render::ButtonPressed{render::MouseButton::left, false}, kWindow_px);
+  }
+  static void drag(CheckRun& run, const glm::dvec2& from_px, const glm::dvec2& to_px) {
+    run.handle(render::PointerMoved{from_px, {}, render::MouseButton::none}, kWindow_px);
+    run.handle(render::ButtonPressed{render::MouseButton::left, true}, kWindow_px);
+    for (int n = 1; n <= 5; ++n)
+      run.handle(render::PointerMoved{glm::mix(from_px, to_px, n / 5.0), {}, render::MouseButton::left}, kWindow_px);
+    run.handle(render::ButtonPressed{render::MouseButton::left, false}, kWindow_px);
+  }
+  static std::size_t voxelsOf(const CheckRun& run, int fdi) {
+    return static_cast<std::size_t>(std::ranges::count(run.found().tooth, static_cast<std::uint8_t>(fdi)));
   }
   /// Looks at the place, then clicks it in the slice with the tool in hand.
   static void clickTooth(CheckRun& run, int fdi) {
@@ -91,6 +102,86 @@ TEST_F(CheckRunTest, ClicksMakeThePatientThatTheSameClicksMakeAtImport) {
   press(*again, render::keyOf('Z'), true);
   again->finish();
   EXPECT_EQ(again->found().teeth.size(), 16u);
+}
+
+TEST_F(CheckRunTest, StrokesAndCutsMakeThePatientThatTheSameFileMakesAtImport) {
+  const auto run = open(folder_.path());
+  const std::size_t before = voxelsOf(*run, 48);
+  const glm::dvec2 at = run->placeOf(JawView::axial, run->menu().cursor_P_mm(), kWindow_px);
+  type(*run, U'b'), type(*run, U'g'), type(*run, U'0');
+  drag(*run, at, at + glm::dvec2(20.0, 0.0));
+  EXPECT_LT(voxelsOf(*run, 48), before);
+  EXPECT_FALSE(run->isBusy()) << "a stroke is shown at once";
+  type(*run, U'7'), type(*run, U']');
+  drag(*run, at, at + glm::dvec2(-15.0, 8.0));
+  type(*run, U'x');
+  clickOn(*run, at + glm::dvec2(-30.0, 0.0)), clickOn(*run, at + glm::dvec2(30.0, 0.0));
+  clickOn(*run, at + glm::dvec2(0.0, 30.0));
+  ASSERT_EQ(run->menu().edits().done(), 3u) << run->menu().message();
+  // A click on a tooth in between: strokes lie on what it makes.
+  type(*run, U'-');
+  clickTooth(*run, 37);
+  run->finish();
+  const assets::JawClicks clicks = run->menu().edits().clicks();
+  ASSERT_EQ(clicks.voxels.size(), 3u);
+  press(*run, render::keyOf('S'), true);
+  run->finish();
+  EXPECT_EQ(run->menu().message(), "saved");
+  const assets::Patient saved = assets::loadPatient(folder_.path());
+  const assets::Patient imported = tests::phantomPatient(phantom(), clicks);
+  EXPECT_TRUE(saved.ct.label == imported.ct.label);
+  EXPECT_TRUE(saved.ct.tooth == imported.ct.tooth);
+  const auto again = open(folder_.path());
+  EXPECT_FALSE(again->menu().isChanged());
+  EXPECT_TRUE(again->found().tooth == run->found().tooth);
+  for (int n = 0; n < 4; ++n) press(*again, render::keyOf('Z'), true);
+  again->finish();
+  EXPECT_EQ(voxelsOf(*again, 48), before);
+}
+
+TEST_F(CheckRunTest, ACanalsEndIsDraggedAPointInsertedAndRemoved) {
+  const auto run = open(folder_.path());
+  while (run->menu().rows()[run->menu().selected()].kind != CheckRow::Kind::canal) press(*run, Key::down);
+  const bool is_right = run->menu().rows()[run->menu().selected()].is_right;
+  const auto canal = std::ranges::find(run->found().canals, is_right, &assets::CanalProposal::is_right);
+  ASSERT_NE(canal, run->found().canals.end());
+  const glm::dvec3 end = canal->line_P_mm.front(), middle = canal->line_P_mm[canal->line_P_mm.size() / 2];
+  const auto look_at = [&](const glm::dvec3& p) {
+    clickOn(*run, run->placeOf(JawView::axial, p, kWindow_px));
+    const double off_mm = run->views().planeOf(JawView::axial, run->menu().cursor_P_mm(), {}, {100, 100}).of(p).z;
+    run->handle(render::WheelTurned{std::round(off_mm / run->views().grid().spacing_mm)}, kWindow_px);
+  };
+  look_at(end);
+  type(*run, U'c');
+  const glm::dvec2 at = run->placeOf(JawView::axial, end, kWindow_px);
+  drag(*run, at, at + glm::dvec2(6.0, 4.0));
+  ASSERT_EQ(run->menu().edits().done(), 1u) << run->menu().message();
+  const CanalClicks* clicked = run->menu().edits().canalOn(is_right);
+  ASSERT_NE(clicked, nullptr);
+  ASSERT_EQ(clicked->at_P_mm.size(), 2u);
+  EXPECT_GT(glm::distance(clicked->at_P_mm.front(), end), 0.5);
+  EXPECT_LT(glm::distance(clicked->at_P_mm.front(), end), 4.0);
+  run->finish();
+  type(*run, U'l');
+  look_at(middle);
+  const auto moved = std::ranges::find(run->found().canals, is_right, &assets::CanalProposal::is_right);
+  ASSERT_NE(moved, run->found().canals.end());
+  ASSERT_TRUE(moved->is_confirmed) << run->menu().message();
+  glm::dvec3 on = moved->line_P_mm.front();
+  for (const glm::dvec3& p : moved->line_P_mm)
+    if (glm::distance(p, middle) < glm::distance(on, middle)) on = p;
+  look_at(on);
+  type(*run, U'c');
+  const glm::dvec2 on_px = run->placeOf(JawView::axial, on, kWindow_px);
+  drag(*run, on_px, on_px + glm::dvec2(0.0, 5.0));
+  ASSERT_EQ(run->menu().edits().done(), 2u) << run->menu().message();
+  ASSERT_EQ(run->menu().edits().canalOn(is_right)->at_P_mm.size(), 3u);
+  run->finish();
+  ASSERT_EQ(run->menu().edits().done(), 2u) << run->menu().message();
+  run->handle(render::PointerMoved{on_px + glm::dvec2(0.0, 5.0), {}, render::MouseButton::none}, kWindow_px);
+  press(*run, Key::erase);
+  EXPECT_EQ(run->menu().edits().canalOn(is_right)->at_P_mm.size(), 2u);
+  run->finish();
 }
 
 TEST_F(CheckRunTest, AConfirmedCanalIsSaved) {

@@ -11,6 +11,7 @@
 #include "assets/import/found_jaw.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/solid_fraction.h"
+#include "assets/segment/voxel_edits.h"
 #include "tests/assets/segment/arch_phantom.h"
 
 namespace tests {
@@ -21,7 +22,9 @@ inline assets::Patient phantomPatient(const ArchPhantom& phantom, const assets::
   patient.ct.grid = phantom.grid;
   patient.ct.hounsfield = phantom.hounsfield;
   patient.ct.solid = assets::classify(phantom.grid, phantom.hounsfield, patient.classification);
-  assets::takeFoundJaw(assets::segmentJaw(phantom.grid, assets::greyToSearch(patient.ct), {}, clicks), patient);
+  assets::JawSegmentation found = assets::segmentJaw(phantom.grid, assets::greyToSearch(patient.ct), {}, clicks);
+  assets::applyVoxelEdits({patient.ct.grid, patient.ct.hounsfield}, clicks.voxels, found);
+  assets::takeFoundJaw(std::move(found), patient);
   return patient;
 }
 

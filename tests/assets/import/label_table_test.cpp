@@ -9,6 +9,8 @@
 #include "assets/import/label_names.h"
 #include "assets/load_error.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/assets/segment/arch_phantom.h"
+#include "tests/assets/segment/overlap.h"
 #include "tests/refusal.h"
 
 namespace {
@@ -129,6 +131,65 @@ TEST(ForeignLabels, BecomeTissuesAndTeethOfTheScan) {
   EXPECT_EQ(jaw.ct.tooth[at({5, 9, 9})], 48);
   EXPECT_EQ(jaw.ct.tooth[at({14, 9, 9})], 38);
   EXPECT_EQ(jaw.ct.label[at({1, 1, 1})], 0);
+}
+
+/// Both numberings of ToothFairy, and every other map of one jaw, make the same teeth.
+TEST(ForeignLabels, EveryTableMakesTheSameTeethOfOneJaw) {
+  const auto toothfairy = [](std::uint8_t fdi) -> int {
+    return fdi == 0 ? 0 : fdi == 2 ? 1 : fdi == 5 ? 4 : fdi;  // as Labelled has mandible and canal
+  };
+  const auto contiguous = [&](std::uint8_t value) -> int {
+    return value == 48 ? 42 : value == 38 ? 34 : toothfairy(value);
+  };
+  const auto molar = [](std::uint8_t value) -> int { return value == 2 ? 1 : value == 5 ? 7 : value > 30 ? 3 : 0; };
+  const auto made = [](LabelSet set, const auto& value_of) {
+    Labelled jaw;
+    for (std::uint8_t& value : jaw.values) value = static_cast<std::uint8_t>(value_of(value));
+    const std::string path = jaw.file("");
+    assets::takeForeignLabels(path, assets::foreignLabelTable(path, set), jaw.ct);
+    return jaw.ct;
+  };
+  const assets::CtVolume fdi = made(LabelSet::toothfairy_fdi, toothfairy);
+  EXPECT_GT(std::ranges::count(fdi.tooth, std::uint8_t{48}), 100);
+  EXPECT_GT(std::ranges::count(fdi.tooth, std::uint8_t{38}), 100);
+  for (const LabelSet set : {LabelSet::toothfairy_contiguous, LabelSet::total_segmentator}) {
+    const assets::CtVolume other = made(set, contiguous);
+    EXPECT_TRUE(other.tooth == fdi.tooth);
+    EXPECT_TRUE(other.label == fdi.label);
+  }
+  const auto bone = [](const assets::CtVolume& ct) {
+    return std::ranges::count_if(ct.label, [](std::uint8_t label) { return label == 1 || label == 2; });
+  };
+  for (const LabelSet set : {LabelSet::dental_segmentator, LabelSet::craniofacial, LabelSet::amasss}) {
+    const assets::CtVolume other = made(set, [&](std::uint8_t value) {
+      return value != 2 ? 0 : set == LabelSet::dental_segmentator ? 2 : 1;
+    });
+    EXPECT_NEAR(static_cast<double>(bone(other)), static_cast<double>(bone(fdi)), 0.2 * static_cast<double>(bone(fdi)))
+        << static_cast<int>(set);
+  }
+  EXPECT_GT(std::ranges::count(made(LabelSet::molar, molar).label, std::uint8_t{7}), 20);
+}
+
+/// DentalSegmentator's teeth are one value: 16 of a whole arch are told apart and have their numbers.
+TEST(ForeignLabels, TeethOfOneLabelAreDividedAndNumbered) {
+  const tests::ArchPhantom phantom = tests::archPhantom({.missing = {36}, .spacing_mm = 0.8});
+  assets::CtVolume ct;
+  ct.grid = phantom.grid, ct.hounsfield = phantom.hounsfield;
+  std::vector<std::uint8_t> values(ct.hounsfield.size(), 0);
+  for (std::size_t v = 0; v < values.size(); ++v)
+    values[v] = phantom.tooth[v] != 0 ? std::uint8_t{4} : phantom.jaw[v] != 0 ? std::uint8_t{2} : std::uint8_t{0};
+  const on_disk::Folder folder;
+  const on_disk::Scan scan{ct.grid.size, glm::dmat3(ct.grid.spacing_mm), ct.grid.origin_P_mm};
+  on_disk::write(folder.at("labels.nrrd"), on_disk::nrrd(scan, "uchar", on_disk::bytesOf(values)));
+  const std::string path = folder.at("labels.nrrd");
+  const auto remarks =
+      assets::takeForeignLabels(path, assets::foreignLabelTable(path, LabelSet::dental_segmentator), ct);
+  ASSERT_FALSE(remarks.empty());
+  EXPECT_THAT(remarks.front(), testing::HasSubstr("divided into 15"));
+  for (const auto& [fdi, overlap] : tests::toothOverlaps(ct.tooth, phantom.tooth)) {
+    EXPECT_EQ(overlap.found_fdi, fdi);
+    EXPECT_GT(overlap.dice, 0.9) << fdi;
+  }
 }
 
 std::string refusalOf(Labelled& jaw, const std::string& path, const std::optional<LabelSet>& set = {}) {

@@ -197,7 +197,8 @@ TEST(JawClicks, WhatDoesNotFitIsRefusedInOneLine) {
             std::string::npos);
 }
 
-/// Both ends of the true canal, each with half a millimetre of error: 0.5 mm is asked for at voxels up to 0.4 mm.
+/// Both ends of the true canal, each clicked half a millimetre off, by several hands, where it is labelled: where a
+/// root lies on it nobody knows its course. 0.35 mm is asked for in the median at voxels up to 0.4 mm, 0.5 of 95 %.
 TEST(JawClicksRealData, TwoClicksFindTheCanal) {
   const auto patient = tests::sharedData("patients") / "right_third_molar";
   MOLAR_NEEDS(patient);
@@ -206,14 +207,26 @@ TEST(JawClicksRealData, TwoClicksFindTheCanal) {
   const auto truth = assets::mandibularCanalLine(ct.grid, tissue, std::nullopt);
   ASSERT_TRUE(truth);
   const std::vector<glm::dvec3>& line = truth->line_P_mm;
+  std::vector<glm::dvec3> labelled;
+  for (std::size_t n = 2; n + 2 < line.size(); ++n) {
+    const glm::ivec3 at(glm::floor(ct.grid.indexFromPoint(line[n]) + 0.5));
+    if (ct.grid.contains(at) && tissue[ct.grid.index(at)] == 7) labelled.push_back(line[n]);
+  }
   std::mt19937 random(3);
   std::normal_distribution<double> error(0.0, 0.5 / std::sqrt(3.0));
   const auto near = [&](const glm::dvec3& p) { return p + glm::dvec3(error(random), error(random), error(random)); };
-  const std::vector<glm::dvec3> ends{near(line[2]), near(line[line.size() - 3])};
-  const auto jaw = assets::segmentJaw(ct.grid, ct.hounsfield, {}, {{}, {ends}});
-  const auto canal = std::ranges::find(jaw.canals, true, &assets::CanalProposal::is_confirmed);
-  ASSERT_NE(canal, jaw.canals.end());
-  EXPECT_LT(meanMiss_mm({line.begin() + 2, line.end() - 2}, canal->line_P_mm), 0.5);
+  assets::JawFinder finder(ct.grid, ct.hounsfield);
+  std::vector<double> misses;
+  for (int hand = 0; hand < 3; ++hand) {
+    const std::vector<glm::dvec3> ends{near(line[2]), near(line[line.size() - 3])};
+    const auto jaw = finder.withClicks({{}, {ends}});
+    const auto canal = std::ranges::find(jaw.canals, true, &assets::CanalProposal::is_confirmed);
+    ASSERT_NE(canal, jaw.canals.end());
+    misses.push_back(meanMiss_mm(labelled, canal->line_P_mm));
+  }
+  std::ranges::sort(misses);
+  EXPECT_LT(misses[1], 0.35);
+  EXPECT_LT(misses[2], 0.5);
 }
 
 }  // namespace

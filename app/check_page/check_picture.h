@@ -1,0 +1,21 @@
+// The check page of a patient as one picture, without a window and without looking for anything: what was found, for
+// whoever looks into the folder. Frame P. Any one thread; 0.5 s for 512^3.
+#pragma once
+
+#include <string>
+
+#include "assets/patient.h"
+#include "assets/segment/jaw_segmentation.h"
+#include "render/image.h"
+
+namespace app {
+
+/// What a patient holds, as if it had just been found; without labels.
+assets::JawSegmentation foundIn(const assets::Patient& patient);
+
+render::Image checkPicture(const assets::Patient& patient);
+
+/// As check.png in its folder. Throws CalibrationError.
+void keepCheckPicture(const assets::Patient& patient, const std::string& folder);
+
+}  // namespace app
