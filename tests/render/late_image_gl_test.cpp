@@ -1,9 +1,6 @@
 // A picture read back without waiting: the one that was asked for, whatever is drawn meanwhile.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdio>
-
 #include "render/gpu/offscreen_context.h"
 #include "tests/render/drawn_scene.h"
 
