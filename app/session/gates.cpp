@@ -15,6 +15,7 @@ namespace {
 /// The neighbour's name in touches, of either side.
 constexpr std::string_view kSecondMolar = "second molar";
 constexpr double kLeastShown_mm3 = 0.01;
+constexpr double kLeastOpen_mm2 = 0.005;  ///< what recordings keep of an area
 
 std::string atTime(const std::optional<double>& t_s) { return t_s ? " at " + clockText(*t_s) : ""; }
 
@@ -81,18 +82,25 @@ Gate canalGate(const SessionMetrics& metrics) {
   const TouchCount* const touch = touchOf(metrics, kCanalTouch);
   const double laid_open_mm2 = metrics.socket && metrics.socket->is_out ? metrics.socket->canal.amount : 0.0;
   const bool is_none = hasNone(metrics, "S1.canal");
-  if (laid_open_mm2 > 0.0)
-    gate.words = fmt::format("{:.1f}", laid_open_mm2) + " mm² laid open";
+  // Where the tooth lay on it, whoever takes the tooth out lays it open.
+  const double by_root_mm2 = laid_open_mm2 > 0.0 ? metrics.socket->canal_by_root_mm2 : 0.0;
+  const double through_bone_mm2 = laid_open_mm2 - by_root_mm2;
+  const bool is_through_bone = through_bone_mm2 >= kLeastOpen_mm2;
+  if (is_through_bone)
+    gate.words = fmt::format("{:.1f} mm² laid open{}", through_bone_mm2, by_root_mm2 > 0.0 ? " through bone" : "");
   else if (touch != nullptr)
     gate.words = touchWords(*touch);
   else if (is_none)
     gate.words = kNoStructure;
   else if (!metrics.touched)
     gate.words = "touches were not counted when this was recorded";
-  if (laid_open_mm2 > 0.0 || touch != nullptr)
+  if (is_through_bone || touch != nullptr)
     gate.is_open = true;
   else if (metrics.touched && !is_none)
     gate.is_open = false;
+  if (by_root_mm2 > 0.0)
+    gate.words +=
+        fmt::format("{}{:.1f} mm² bare where the tooth lay on it", gate.words.empty() ? "" : ", ", by_root_mm2);
   return gate;
 }
 

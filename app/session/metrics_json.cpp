@@ -93,6 +93,7 @@ nlohmann::ordered_json socketJson(const SocketRecord& socket) {
   json.update(nlohmann::ordered_json{{"retained_mm3", sumOf(socket.retained)},
                                      {"retained", placesJson(socket.retained, "volume_mm3")},
                                      {"canal_open_mm2", socket.canal.amount},
+                                     {"canal_by_root_mm2", socket.canal_by_root_mm2},
                                      {"canal", placesJson(canal, "area_mm2")},
                                      {"lingual_open_mm2", sumOf(socket.lingual)},
                                      {"lingual", placesJson(socket.lingual, "area_mm2")},

@@ -79,6 +79,7 @@ std::string socketText(const SocketRecord& socket) {
                     {"out", socket.is_out},
                     {"retained", listOf(socket.retained)},
                     {"canal", listOf(socket.canal)},
+                    {"canal_by_root", rounded(socket.canal_by_root_mm2)},
                     {"lingual", listOf(socket.lingual)},
                     {"edges", listOf(socket.edges)}};
   return all.dump();
@@ -98,6 +99,11 @@ std::optional<SocketRecord> socketFrom(const std::string& text) {
     socket.follicle_left = share.get<double>();
   }
   socket.is_out = all["out"].get<bool>();
+  // Sessions before 2026-11-29 do not tell it apart.
+  if (const auto by_root = all.find("canal_by_root"); by_root != all.end()) {
+    if (!by_root->is_number() || !(by_root->get<double>() >= 0.0) || !std::isfinite(by_root->get<double>())) return {};
+    socket.canal_by_root_mm2 = by_root->get<double>();
+  }
   const Json& stitches = all["stitches"];
   constexpr int kMostStitches = 100;
   if (!stitches.is_array() || stitches.size() != 2) return {};
@@ -105,10 +111,12 @@ std::optional<SocketRecord> socketFrom(const std::string& text) {
     if (!count.is_number_integer() || !(count.get<double>() >= 0.0 && count.get<double>() <= kMostStitches)) return {};
   socket.stitches = stitches[0].get<int>();
   socket.stitch_places = stitches[1].get<int>();
+  constexpr double kRounded_mm2 = 0.01;
   const bool is_whole = readAmount(all["chips"], socket.chips) && readPlaces(all["chip_places"], socket.chip_places) &&
                         readAmount(all["chips_taken"], socket.chips_taken) &&
                         readPlaces(all["retained"], socket.retained) && readPlace(all["canal"], socket.canal) &&
-                        readPlaces(all["lingual"], socket.lingual) && readPlaces(all["edges"], socket.edges);
+                        readPlaces(all["lingual"], socket.lingual) && readPlaces(all["edges"], socket.edges) &&
+                        socket.canal_by_root_mm2 <= socket.canal.amount + kRounded_mm2;
   return is_whole ? std::optional(std::move(socket)) : std::nullopt;
 }
 
@@ -128,7 +136,11 @@ std::string socketInWords(const SocketRecord& socket) {
     add(left, fmt::format("follicle {:.0f} %", 100.0 * *socket.follicle_left));
   if (const double edges_mm = sumOf(socket.edges); edges_mm >= kEdgesLeft_mm)
     add(left, fmt::format("sharp edges {:.0f} mm", edges_mm));
-  if (socket.canal.amount > 0.0) add(harmed, fmt::format("canal laid open {:.1f} mm²", socket.canal.amount));
+  if (socket.canal.amount > 0.0)
+    add(harmed, fmt::format("canal laid open {:.1f} mm²", socket.canal.amount) +
+                    (socket.canal_by_root_mm2 > 0.0
+                         ? fmt::format(" ({:.1f} of it where the tooth lay on it)", socket.canal_by_root_mm2)
+                         : ""));
   if (!socket.lingual.empty())
     add(harmed, fmt::format("lingual plate broken through {:.1f} mm²", sumOf(socket.lingual)));
   return (left.empty() ? "clean" : "not clean: " + left) + (harmed.empty() ? "" : "; " + harmed) +

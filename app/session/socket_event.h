@@ -40,6 +40,7 @@ struct SocketRecord {
   bool is_out = true;                   ///< a piece of tooth is out; false: the rest was not looked at
   std::vector<Place> retained;          ///< pieces of tooth, mm³
   Place canal;                          ///< laid open, mm²; 0: not
+  double canal_by_root_mm2 = 0.0;       ///< of that, where the tooth itself lay on it: no bone was there to be kept
   std::vector<Place> lingual;           ///< holes in the lingual plate, mm²
   std::vector<Place> edges;             ///< sharp, mm
 

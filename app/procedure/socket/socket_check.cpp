@@ -37,7 +37,7 @@ std::vector<Place> retainedIn(const SiteState& site) {
   return left;
 }
 
-Place canalIn(const SiteState& site, const std::vector<std::uint8_t>& opened) {
+void lookAtCanal(const SiteState& site, const std::vector<std::uint8_t>& opened, SocketRecord& record) {
   const assets::VolumeGrid& grid = site.grid;
   const int most = static_cast<int>(std::lround(kThroughLigament_mm / grid.spacing_mm));
   // The socket with the ligament's space, step by step from what was opened.
@@ -59,19 +59,24 @@ Place canalIn(const SiteState& site, const std::vector<std::uint8_t>& opened) {
       }
     std::swap(front, next);
   }
-  std::size_t faces = 0;
+  std::size_t faces = 0, by_root = 0;
   glm::dvec3 sum(0.0);
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     if (Tissue{site.label[v]} != Tissue::mandibular_canal) return;
-    for (const glm::ivec3& way : kFaces)
-      if (grid.contains(ijk + way) && socket[grid.index(ijk + way)] != 0) {
-        ++faces;
-        sum += grid.centre_P_mm(ijk);
-      }
+    for (const glm::ivec3& way : kFaces) {
+      if (!grid.contains(ijk + way)) continue;
+      const std::size_t beside = grid.index(ijk + way);
+      if (socket[beside] == 0) continue;
+      ++faces;
+      sum += grid.centre_P_mm(ijk);
+      by_root += assets::isTooth(site.label[beside]) || Tissue{site.label[beside]} == Tissue::ligament ? 1 : 0;
+    }
   });
-  if (faces == 0) return {};
+  if (faces == 0) return;
   const auto n = static_cast<double>(faces);
-  return {n * grid.spacing_mm * grid.spacing_mm, sum / n};
+  const double face_mm2 = grid.spacing_mm * grid.spacing_mm;
+  record.canal = {n * face_mm2, sum / n};
+  record.canal_by_root_mm2 = static_cast<double>(by_root) * face_mm2;
 }
 
 /// Marches from a voxel; visit(voxel number) until it answers false or the volume ends.
@@ -152,7 +157,7 @@ SocketFindings checkSocket(const SiteState& site, const SiteDirections& directio
   const std::vector<std::uint8_t> opened = openedIn(site);
   SocketFindings found;
   found.record.retained = retainedIn(site);
-  found.record.canal = canalIn(site, opened);
+  lookAtCanal(site, opened, found.record);
   found.record.lingual = lingualIn(site, opened, directions.lingual_P);
   found.edges = sharpEdges({site.grid, site.jaw, site.label, opened}, directions.up_P);
   for (const SharpEdge& edge : found.edges) found.record.edges.push_back({edge.length_mm, edge.middle_P_mm});

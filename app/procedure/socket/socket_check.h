@@ -2,7 +2,7 @@
 // lingual plate broken through, sharp edges of bone. Frame P, mm. Worker or command; some 50 ms; allocates. A pure
 // function of the bytes. Definitions: reference/extraction 9, product O5, O11.
 //   canal    faces between voxels of the canal and of the socket: what was solid before and is gone, and ligament
-//            within kThroughLigament_mm of it
+//            within kThroughLigament_mm of it; by the root: those where that is tooth or ligament, not bone
 //   lingual  voxels of bone that lay at the outer lingual surface, and all bone behind them up to the socket or
 //            kPlate_mm deep: gone. What was open before does not count
 //   left     components of tooth of at least kLeastPiece_mm3 that are still in the mouth (haptics/body/components)

@@ -136,6 +136,13 @@ TEST(Gates, AreOpenClosedOrNotKnown) {
   EXPECT_NE(gatesInWords(run).find("0.50 mm³ gone at 0:12"), std::string::npos) << gatesInWords(run);
   run.measures.back().value = 0.002;
   EXPECT_NE(gatesInWords(run).find("less than 0.01 mm³ gone"), std::string::npos) << gatesInWords(run);
+  // What nobody can spare who takes the tooth out is told, but is no event.
+  run.socket->canal_by_root_mm2 = 2.5;
+  EXPECT_EQ(gatesOf(run)[2].is_open, false);
+  EXPECT_NE(gatesInWords(run).find("laid open: no, 2.5 mm² bare where the tooth lay on it"), std::string::npos);
+  run.socket->canal.amount = 3.5;
+  EXPECT_EQ(gatesOf(run)[2].is_open, true);
+  EXPECT_NE(gatesInWords(run).find("1.0 mm² laid open through bone, 2.5 mm² bare"), std::string::npos);
   for (const Gate& gate : gatesOf(SessionMetrics())) {
     EXPECT_FALSE(gate.is_open) << gate.name;
     EXPECT_FALSE(gate.words.empty()) << gate.name;

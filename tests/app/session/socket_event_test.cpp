@@ -16,6 +16,7 @@ SocketRecord someSocket() {
   socket.follicle_left = 0.4;
   socket.retained = {{34.25, {1.0, -2.0, 3.5}}, {2.0, {4.0, 5.0, 6.0}}};
   socket.canal = {2.5, {0.0, 1.0, -12.25}};
+  socket.canal_by_root_mm2 = 0.75;
   socket.lingual = {{4.0, {6.0, 0.0, -5.0}}};
   socket.edges = {{12.0, {1.0, 1.0, 0.0}}, {1.5, {2.0, 2.0, 0.0}}};
   socket.stitches = 2;
@@ -49,9 +50,22 @@ TEST(SocketEvent, OtherWordsAreNone) {
                                                         {"[12,2.5]", "[-1,2.5]"},
                                                         {"[12,2.5]", "[12,-2.5]"},
                                                         {"\"out\":true", "\"out\":1"},
+                                                        {"\"canal_by_root\":0.75", "\"canal_by_root\":-1"},
+                                                        {"\"canal_by_root\":0.75", "\"canal_by_root\":\"1\""},
+                                                        {"\"canal_by_root\":0.75", "\"canal_by_root\":3.5"},
                                                         {"[2,3]", "[2]"},
                                                         {"[2,3]", "[2,1000]"}})
     EXPECT_FALSE(socketFrom(spoilt(from, to))) << to;
+}
+
+TEST(SocketEvent, AnOlderOneDoesNotTellWhereTheToothLayOnTheCanal) {
+  std::string text = socketText(someSocket());
+  const std::string by_root = "\"canal_by_root\":0.75,";
+  text.erase(text.find(by_root), by_root.size());
+  const auto read = socketFrom(text);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->canal_by_root_mm2, 0.0);
+  EXPECT_EQ(read->canal.amount, 2.5);
 }
 
 TEST(SocketEvent, KeepsTheLargestWhereThereAreTooMany) {
@@ -65,7 +79,7 @@ TEST(SocketEvent, SaysWhatIsLeftAndWhatWasHarmed) {
   EXPECT_EQ(
       socketInWords(someSocket()),
       "not clean: 2 pieces of tooth 36.2 mm³, 3 chips 1.2 mm³, follicle 40 %, sharp edges 14 mm; canal laid open 2.5 "
-      "mm², lingual plate broken through 4.0 mm²; 2 of 3 stitches");
+      "mm² (0.8 of it where the tooth lay on it), lingual plate broken through 4.0 mm²; 2 of 3 stitches");
   SocketRecord opened;
   opened.canal.amount = 1.0;
   opened.edges = {{1.9, glm::dvec3(0.0)}};

@@ -50,6 +50,7 @@ TEST(SocketCheck, MeasuresTheCanalThatIsLaidOpen) {
   scene.drill({{-1.0, -1.0, -11.0}, {1.0, 1.0, -9.0}});
   const SocketRecord found = scene.found().record;
   EXPECT_NEAR(found.canal.amount, 4.0, 1e-9);
+  EXPECT_EQ(found.canal_by_root_mm2, 0.0) << "bone was over it";
   EXPECT_NEAR(glm::distance(found.canal.centre_P_mm, glm::dvec3(0.0, 0.0, -11.125)), 0.0, 1e-9);
 }
 
@@ -62,6 +63,7 @@ TEST(SocketCheck, ALigamentBetweenRootAndCanalHidesNothing) {
   scene.fill(scene.label, root, static_cast<std::uint8_t>(assets::Tissue::dentine));
   scene.fill(scene.jaw, root, 0);
   EXPECT_NEAR(scene.found().record.canal.amount, 4.0, 1e-9);
+  EXPECT_NEAR(scene.found().record.canal_by_root_mm2, 4.0, 1e-9);
   // With the root in its place it is covered.
   scene.fill(scene.tooth, root, 255);
   EXPECT_EQ(scene.found().record.canal.amount, 0.0);
