@@ -26,6 +26,7 @@
 #include "app/text/usage_error.h"
 #include "assets/ct_volume.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/scan/tooth_division.h"
 #include "calibration/geometry/units.h"
 #include "haptics/body/tooth_survey.h"
 
@@ -108,13 +109,28 @@ Source toothOfSession(const PiecesOptions& options) {
   const std::string path = sessionNamed(options.source);
   const BoneAtTime bone = boneAtTime(path, std::nullopt);
   for (const std::string& remark : bone.remarks) printMessage(remark);
-  const std::vector<std::uint8_t>& is_tooth = bone.start.is_tooth;
-  const auto belongs = [&](std::size_t v) { return !is_tooth.empty() && is_tooth[v] != 0; };
-  const auto tooth = cropped({bone.start.grid, masked(bone.start.solid, belongs), masked(bone.solid, belongs)});
+  // The tooth as the servo has it: it shares voxels with the bone, and what a bur takes there it takes of both alike.
+  const assets::VolumeGrid& grid = bone.start.grid;
+  const assets::ToothDivision divided =
+      assets::divideByTooth(grid, bone.start.solid, bone.start.label, bone.start.is_tooth);
+  const glm::ivec3 first = divided.first_brick * assets::kBrickVoxels;
+  CutTooth whole{grid, std::vector<std::uint8_t>(grid.voxelCount(), 0),
+                 std::vector<std::uint8_t>(grid.voxelCount(), 0)};
+  std::vector<std::uint8_t> around = bone.solid;
+  for (std::size_t t = 0; const std::uint8_t share : divided.tooth.solid) {
+    const glm::ivec3 at = first + assets::elementAt(divided.tooth.grid.size, t++);
+    if (share == 0 || !grid.contains(at)) continue;
+    const std::size_t v = grid.index(at);
+    const int before = bone.start.solid[v];
+    whole.before[v] = share;
+    whole.now[v] = static_cast<std::uint8_t>((share * bone.solid[v] + before / 2) / before);
+    around[v] = static_cast<std::uint8_t>(around[v] - std::min(around[v], whole.now[v]));
+  }
+  const auto tooth = cropped(whole);
   if (!tooth)
     throw UsageError(path +
                      ": it keeps no tooth to be removed, write its bone with molar replay --to and use --volume");
-  return {*tooth, bone.start.grid, without(bone.solid, belongs), bone.start.label, {}, {}};
+  return {*tooth, grid, std::move(around), bone.start.label, {}, {}};
 }
 
 /// Fills up to kGap_mm of what is not solid between solid voxels along an axis.

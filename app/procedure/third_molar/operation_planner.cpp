@@ -35,6 +35,7 @@ constexpr int kPasses = static_cast<int>(kOvershoot_mm.size());
 constexpr double kParted = 0.65;  ///< of the whole tooth: its largest piece when it is parted
 constexpr int kMostTries = 9;
 constexpr double kTried_mm3 = 10.0;    ///< with no more in its way than this, a piece is pulled at before more is cut
+constexpr double kSmall_mm3 = 30.0;    ///< a piece of less waits for the others once it was pulled at
 constexpr double kSamePiece_mm = 2.0;  ///< that its middle may have moved
 constexpr double kGripped_mm = 2.0;    ///< radius between the beaks
 constexpr int kGripStep = 2;           ///< voxels from place to place that is looked at
@@ -122,13 +123,18 @@ OperationPlanner::OperationPlanner(const assets::Patient& patient, double bur_ra
   now_.mandibular_canal_radius_mm = patient.mandibular_canal_radius_mm;
 }
 
-OperationStep OperationPlanner::cutStep(assets::PlannedCut cut, std::string words) {
+OperationStep OperationPlanner::cutStep(assets::PlannedCut cut, std::string words, bool clears) {
   // A shaft along the way in has the room that the head has cut.
   cut.shaft_P = cut.outward_P;
-  return {CutStep{std::move(cut)}, std::move(words)};
+  return {CutStep{std::move(cut), false, clears}, std::move(words)};
 }
 
 bool OperationPlanner::isParted(double largest_mm3) const { return largest_mm3 < kParted * whole_mm3_; }
+
+bool OperationPlanner::isStuck(const haptics::ToothPiece& piece) const {
+  return std::ranges::any_of(
+      pulled_P_mm_, [&](const glm::dvec3& pulled) { return glm::distance(pulled, piece.centroid_mm) < kSamePiece_mm; });
+}
 
 bool OperationPlanner::findAgain(Tried& tried, const haptics::Components& tooth, std::size_t pieces) {
   for (std::size_t n = 0; n < pieces; ++n) {
@@ -261,6 +267,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
     tries_ = 0;
     was_tried_ = false;
     tried_.reset();
+    pulled_P_mm_.clear();
   }
   pieces_left_ = pieces;
 
@@ -309,7 +316,7 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
     if (tried_->is_cleared) return deliver(std::exchange(tried_, std::nullopt)->way, bodies, piece_grid, tooth);
     if (auto cut = planClearing(site, tried_->way.blockers_P_mm, bur_radius_mm_, off_tooth_mm, margins)) {
       tried_->is_cleared = true;
-      return cutStep(std::move(*cut), "take away what held the piece");
+      return cutStep(std::move(*cut), "take away what held the piece", true);
     }
   }
   tried_.reset();
@@ -317,18 +324,22 @@ OperationStep OperationPlanner::next(const BodiesCopy& bodies, const assets::Vol
   // The piece with the least in its way, as things are: those that wait for another do not count.
   const AroundTooth around{now_.ct.grid, bodies.jaw, now_.ct.label, now_.ct.tooth};
   std::vector<PieceWay> ways = waysOut(around, tooth, pieces, up_);
-  std::erase_if(ways, [](const PieceWay& one) { return !one.after.empty(); });
-  const PieceWay& way = *std::ranges::min_element(ways, {}, [](const PieceWay& one) { return one.way.in_the_way_mm3; });
+  const auto is_stuck = [&](std::size_t piece) { return isStuck(tooth.pieces()[piece]); };
+  std::erase_if(ways, [&](const PieceWay& one) { return !std::ranges::all_of(one.after, is_stuck); });
+  const PieceWay& way = *std::ranges::min_element(
+      ways, {}, [&](const PieceWay& one) { return std::pair(is_stuck(one.piece), one.way.in_the_way_mm3); });
   if (tries >= kMostTries) return {EndStep{wordsOf(way)}, wordsOf(way)};
   const bool is_free = way.way.in_the_way_mm3 < haptics::kBlocked_mm3;
   if (is_free || (!was_tried_ && way.way.in_the_way_mm3 < kTried_mm3)) {
     if (!was_tried_) tried_ = Tried{way, tooth.pieces()[way.piece].centroid_mm, false};
     was_tried_ = true;
+    if (const haptics::ToothPiece& pulled = tooth.pieces()[way.piece]; pulled.volume_mm3 < kSmall_mm3)
+      pulled_P_mm_.push_back(pulled.centroid_mm);
     return deliver(way, bodies, piece_grid, tooth);
   }
   auto cut = planClearing(site, way.blockers_P_mm, bur_radius_mm_, off_tooth_mm, margins);
   if (!cut) return deliver(way, bodies, piece_grid, tooth);
-  return cutStep(std::move(*cut), fmt::format("take away what blocks a piece: {}", wordsOf(way)));
+  return cutStep(std::move(*cut), fmt::format("take away what blocks a piece: {}", wordsOf(way)), true);
 }
 
 }  // namespace app

@@ -32,6 +32,7 @@ struct FlapStep {
 struct CutStep {
   assets::PlannedCut cut;
   bool bares_crown = false;  ///< the gutter, with the first bur of the tray
+  bool clears = false;       ///< bone away from the way of a piece, where the hand may press: no wall has to stand
 };
 
 /// An elevator twisted in the slot that the last section left, which breaks a bridge (haptics/body/bridge_strength).
@@ -103,7 +104,7 @@ class OperationPlanner {
   std::optional<OperationStep> takeFragment(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                                             const haptics::Components& tooth);
   OperationStep twist(const SplitStep& slot, double largest_mm3);
-  static OperationStep cutStep(assets::PlannedCut cut, std::string words);
+  static OperationStep cutStep(assets::PlannedCut cut, std::string words, bool clears = false);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 
@@ -130,9 +131,12 @@ class OperationPlanner {
     glm::dvec3 centroid_P_mm{0.0};  ///< of the piece
     bool is_cleared = false;
   };
+  /// A small piece that was pulled at and did not come: it may hang together with another.
+  bool isStuck(const haptics::ToothPiece& piece) const;
   static bool findAgain(Tried& tried, const haptics::Components& tooth, std::size_t pieces);
   std::optional<Tried> tried_;
-  bool was_tried_ = false;  ///< since a piece was taken out or parted
+  std::vector<glm::dvec3> pulled_P_mm_;  ///< centroids of small pieces, since one was taken out or parted
+  bool was_tried_ = false;               ///< since a piece was taken out or parted
 };
 
 }  // namespace app

@@ -101,6 +101,30 @@ TEST(OperationPlanner, TakesPiecesThatTouchAlongABreakForPieces) {
   EXPECT_TRUE(std::holds_alternative<DeliveryStep>(next.what)) << next.words;
 }
 
+TEST(OperationPlanner, ASmallPieceThatDidNotComeWaitsForTheOthers) {
+  const Operation operation{phantom(8.0)};
+  const assets::VolumeGrid& grid = operation.patient.ct.grid;
+  OperationPlanner planner(operation.patient, kBur_mm, true);
+  ASSERT_TRUE(std::holds_alternative<CutStep>(planner.next(operation.copy(), grid, glm::ivec3(0)).what));
+  // Two halves under bone, and a corner of the crown that nothing covers.
+  BodiesCopy parted = operation.copy();
+  for (std::size_t piece : {1, 2}) parted.piece[piece].assign(parted.piece[0].size(), 0);
+  const double middle_y_mm = operation.patient.site->centre_P_mm.y;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = grid.centre_P_mm(ijk);
+    const bool is_corner = p.x < 0.0 && p.y > 2.0 && p.z > 4.0;
+    if (is_corner || (p.x < 0.6 && p.y > 1.6 && p.z > 3.6)) parted.jaw[v] = 0;
+    if (p.y > middle_y_mm) std::swap(parted.piece[0][v], parted.piece[is_corner ? 2 : 1][v]);
+  });
+  const OperationStep first = planner.next(parted, grid, glm::ivec3(0));
+  const DeliveryStep* const pulled = std::get_if<DeliveryStep>(&first.what);
+  ASSERT_NE(pulled, nullptr) << first.words;
+  ASSERT_EQ(pulled->piece, 2u) << first.words;
+  const OperationStep next = planner.next(parted, grid, glm::ivec3(0));
+  const DeliveryStep* const again = std::get_if<DeliveryStep>(&next.what);
+  EXPECT_TRUE(again == nullptr || again->piece != 2) << next.words;
+}
+
 TEST(OperationPlanner, TwistsTheLastSlotOpenWhereTheBurDidNotPartTheTooth) {
   const Operation operation{phantom(3.0)};
   const assets::VolumeGrid& grid = operation.patient.ct.grid;
