@@ -120,9 +120,14 @@ TEST(OperationPlanner, ASmallPieceThatDidNotComeWaitsForTheOthers) {
   const DeliveryStep* const pulled = std::get_if<DeliveryStep>(&first.what);
   ASSERT_NE(pulled, nullptr) << first.words;
   ASSERT_EQ(pulled->piece, 2u) << first.words;
-  const OperationStep next = planner.next(parted, grid, glm::ivec3(0));
-  const DeliveryStep* const again = std::get_if<DeliveryStep>(&next.what);
-  EXPECT_TRUE(again == nullptr || again->piece != 2) << next.words;
+  // Once more after what is in its way was cleared, then no more.
+  int times = 1;
+  for (int call = 0; call < 5; ++call) {
+    const OperationStep next = planner.next(parted, grid, glm::ivec3(0));
+    const DeliveryStep* const again = std::get_if<DeliveryStep>(&next.what);
+    times += again != nullptr && again->piece == 2 ? 1 : 0;
+  }
+  EXPECT_LE(times, 2);
 }
 
 TEST(OperationPlanner, TwistsTheLastSlotOpenWhereTheBurDidNotPartTheTooth) {
