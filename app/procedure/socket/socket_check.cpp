@@ -69,7 +69,8 @@ void lookAtCanal(const SiteState& site, const std::vector<std::uint8_t>& opened,
       if (socket[beside] == 0) continue;
       ++faces;
       sum += grid.centre_P_mm(ijk);
-      by_root += assets::isTooth(site.label[beside]) || Tissue{site.label[beside]} == Tissue::ligament ? 1 : 0;
+      const bool is_of_tooth = assets::isTooth(site.label[beside]) || Tissue{site.label[beside]} == Tissue::ligament;
+      by_root += is_of_tooth || !isSolid(site.before_jaw[beside]) ? 1 : 0;
     }
   });
   if (faces == 0) return;
@@ -115,7 +116,7 @@ std::vector<Place> lingualIn(const SiteState& site, const std::vector<std::uint8
   const assets::VolumeGrid& grid = site.grid;
   std::vector<glm::ivec3> holes;
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (opened[v] != 0 && isBone(site.label[v]) && wasOutermost(site, ijk, lingual_P) &&
+    if (opened[v] != 0 && isSolid(site.before_jaw[v]) && isBone(site.label[v]) && wasOutermost(site, ijk, lingual_P) &&
         isThrough(site, ijk, lingual_P))
       holes.push_back(ijk);
   });
@@ -153,6 +154,7 @@ std::vector<Place> lingualIn(const SiteState& site, const std::vector<std::uint8
 
 SocketFindings checkSocket(const SiteState& site, const SiteDirections& directions) {
   assert(site.label.size() == site.grid.voxelCount() && site.before.size() == site.label.size());
+  assert(site.before_jaw.size() == site.label.size());
   assert(site.jaw.size() == site.label.size() && site.tooth.size() == site.label.size());
   const std::vector<std::uint8_t> opened = openedIn(site);
   SocketFindings found;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/case/impaction_measures.h"
+#include "assets/scan/tooth_division.h"
 
 namespace app {
 namespace {
@@ -16,6 +17,13 @@ std::array<bool, haptics::kMaxPieces> outOf(const haptics::Tick& tick) {
   std::array<bool, haptics::kMaxPieces> out{};
   for (std::size_t n = 0; n < tick.pieces; ++n) out[n] = haptics::Bodies::isAside(tick.X_PQ[n]);
   return out;
+}
+
+/// Without the operated tooth.
+std::vector<std::uint8_t> jawOf(const assets::Patient& patient, std::span<const std::uint8_t> solid) {
+  const assets::CtVolume& ct = patient.ct;
+  const auto is_tooth = assets::voxelsOfTooth(ct, patient.operatedTooth());
+  return assets::divideByTooth(ct.grid, solid, ct.label, is_tooth).jaw.solid;
 }
 
 }  // namespace
@@ -29,17 +37,21 @@ SiteDirections siteDirections(const assets::Patient& patient) {
 struct SocketWatch::Copy {
   const assets::Patient& patient;
   SiteDirections directions;
-  std::vector<std::uint8_t> before, jaw, tooth;
+  std::vector<std::uint8_t> before, before_jaw, jaw, tooth;
 
   SocketFindings check() const {
-    return checkSocket({patient.ct.grid, patient.ct.label, before, jaw, tooth}, directions);
+    return checkSocket({patient.ct.grid, patient.ct.label, before, before_jaw, jaw, tooth}, directions);
   }
 };
 
 SocketWatch::SocketWatch(const assets::Patient& patient, std::span<const std::uint8_t> before,
                          const haptics::Bodies& bodies)
-    : copy_(std::make_unique<Copy>(
-          Copy{patient, siteDirections(patient), {before.begin(), before.end()}, bodies.jaw().solidInGridOrder(), {}})),
+    : copy_(std::make_unique<Copy>(Copy{patient,
+                                        siteDirections(patient),
+                                        {before.begin(), before.end()},
+                                        jawOf(patient, before),
+                                        bodies.jaw().solidInGridOrder(),
+                                        {}})),
       bodies_(bodies) {}
 
 SocketWatch::~SocketWatch() {

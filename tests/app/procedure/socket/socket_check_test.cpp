@@ -51,6 +51,9 @@ TEST(SocketCheck, MeasuresTheCanalThatIsLaidOpen) {
   const SocketRecord found = scene.found().record;
   EXPECT_NEAR(found.canal.amount, 4.0, 1e-9);
   EXPECT_EQ(found.canal_by_root_mm2, 0.0) << "bone was over it";
+  // A last voxel of it that was mostly the tooth's.
+  scene.fill(scene.before_jaw, {{-1.0, -1.0, -11.0}, {1.0, 1.0, -10.75}}, 120);
+  EXPECT_NEAR(scene.found().record.canal_by_root_mm2, 4.0, 1e-9);
   EXPECT_NEAR(glm::distance(found.canal.centre_P_mm, glm::dvec3(0.0, 0.0, -11.125)), 0.0, 1e-9);
 }
 
@@ -76,6 +79,16 @@ TEST(SocketCheck, MeasuresAHoleInTheLingualPlate) {
   ASSERT_EQ(found.lingual.size(), 1u);
   EXPECT_NEAR(found.lingual[0].amount, 4.0, 1e-9);
   EXPECT_NEAR(glm::distance(found.lingual[0].centre_P_mm, glm::dvec3(5.875, 0.0, -5.0)), 0.0, 1e-9);
+}
+
+TEST(SocketCheck, APlateThatWasMostlyTheToothsIsNoHoleOnceTheToothIsOut) {
+  SocketScene scene;
+  const SocketScene::Box plate{{2.0, -1.0, -6.0}, {7.0, 1.0, -4.0}};
+  scene.drill(plate);
+  scene.fill(scene.before_jaw, plate, 120);
+  EXPECT_TRUE(scene.found().record.lingual.empty());
+  scene.fill(scene.before_jaw, plate, 130);
+  EXPECT_EQ(scene.found().record.lingual.size(), 1u);
 }
 
 TEST(SocketCheck, AScratchOnTheLingualPlateIsNoHole) {

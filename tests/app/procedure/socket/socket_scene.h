@@ -24,7 +24,7 @@ struct SocketScene {
 
   assets::VolumeGrid grid{{64, 96, 96}, kVoxel_mm, {-8.0 + 0.125, -12.0 + 0.125, -18.0 + 0.125}};
   std::vector<std::uint8_t> label = std::vector<std::uint8_t>(grid.voxelCount()), before = label, jaw = label,
-                            tooth = label;
+                            before_jaw = label, tooth = label;
 
   SocketScene() {
     fill(label, kBone, static_cast<std::uint8_t>(assets::Tissue::cortical));
@@ -33,7 +33,7 @@ struct SocketScene {
     fill(jaw, kBone, 255);
     fill(jaw, kCanal, 0);
     fill(jaw, kTooth, 0);
-    before = jaw;
+    before = before_jaw = jaw;
     fill(before, kTooth, 255);
   }
   void fill(std::vector<std::uint8_t>& values, const Box& box, std::uint8_t value) const {
@@ -42,7 +42,9 @@ struct SocketScene {
     });
   }
   void drill(const Box& box) { fill(jaw, box, 0); }
-  SocketFindings found() const { return checkSocket({grid, label, before, jaw, tooth}, {{1, 0, 0}, {0, 0, 1}}); }
+  SocketFindings found() const {
+    return checkSocket({grid, label, before, before_jaw, jaw, tooth}, {{1, 0, 0}, {0, 0, 1}});
+  }
 };
 
 }  // namespace app::test
