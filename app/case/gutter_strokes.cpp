@@ -53,7 +53,7 @@ class Strokes {
     // Along the bottom, between the rows too, while the bone gives way.
     for (int pass = 0; pass < plan_.finishing_passes; ++pass)
       for (int j = HeightMap::kSide - 1; j >= 0; --j)
-        if ((plan_.ends_fine && pass > 0) || j % (kRow / 2) == pass % (kRow / 2)) row(j, bottom_mm, -kNoHeight_mm);
+        if (pass > 0 || j % (kRow / 2) == 0) row(j, bottom_mm, -kNoHeight_mm);
     return std::move(strokes_);
   }
 

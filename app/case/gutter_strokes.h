@@ -14,7 +14,6 @@ namespace app {
 struct StrokePlan {
   double level_mm = 0.5;     ///< depth of one pass
   int finishing_passes = 2;  ///< along the bottom
-  bool ends_fine = true;     ///< all but the first of these along every column; else each between the rows of the last
 };
 
 /// `planned`: 1 for the columns to be cut, in the order of the map. Strokes of the bur's centre in the order of the

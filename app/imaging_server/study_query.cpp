@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <string_view>
 
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
@@ -9,13 +11,17 @@
 namespace app {
 namespace {
 
+struct KnownKey {
+  std::string_view name;
+  std::uint16_t group, element;
+};
 /// PS3.4 table C.6-5, keys of a study.
-constexpr std::array<QueryKey, 6> kKeys = {{{"PatientID", 0x0010, 0x0020, {}},
-                                            {"PatientName", 0x0010, 0x0010, {}},
-                                            {"PatientBirthDate", 0x0010, 0x0030, {}},
-                                            {"StudyDate", 0x0008, 0x0020, {}},
-                                            {"AccessionNumber", 0x0008, 0x0050, {}},
-                                            {"StudyInstanceUID", 0x0020, 0x000d, {}}}};
+constexpr std::array<KnownKey, 6> kKeys = {{{"PatientID", 0x0010, 0x0020},
+                                            {"PatientName", 0x0010, 0x0010},
+                                            {"PatientBirthDate", 0x0010, 0x0030},
+                                            {"StudyDate", 0x0008, 0x0020},
+                                            {"AccessionNumber", 0x0008, 0x0050},
+                                            {"StudyInstanceUID", 0x0020, 0x000d}}};
 constexpr std::size_t kLongestValue = 256;
 
 bool isUnreserved(char c) {
@@ -29,12 +35,11 @@ std::vector<QueryKey> studyQuery(const std::string& find) {
   std::vector<QueryKey> keys;
   for (const std::string_view part : split(find, '&')) {
     const std::size_t equals = part.find('=');
-    const auto known = std::ranges::find(kKeys, part.substr(0, std::min(equals, part.size())), &QueryKey::name);
+    const auto known = std::ranges::find(kKeys, part.substr(0, std::min(equals, part.size())), &KnownKey::name);
     if (equals == std::string_view::npos || known == kKeys.end())
-      throw UsageError("--find: give \"PatientID=…\"; it knows " + joined(kKeys, &QueryKey::name) +
+      throw UsageError("--find: give \"PatientID=…\"; it knows " + joined(kKeys, &KnownKey::name) +
                        ", several joined by &");
-    QueryKey key = *known;
-    key.value = part.substr(equals + 1);
+    QueryKey key{known->name, known->group, known->element, std::string(part.substr(equals + 1))};
     // Nothing, or stars alone, asks for everybody.
     if (key.value.find_first_not_of("*?") == std::string::npos || key.value.size() > kLongestValue ||
         std::ranges::any_of(key.value, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\\'; }))

@@ -234,7 +234,7 @@ void Console::ask(Phase phase) {
   is_due_ = true;
   if (phase == Phase::warm_up || phase == Phase::tasks) return;
   if (phase == Phase::debrief && parts_.debrief) {
-    debrief_.emplace();
+    debrief_ = PageNow::Debrief{};
     tell();
     debrief_trouble_ = parts_.debrief(*this);
     debrief_.reset();

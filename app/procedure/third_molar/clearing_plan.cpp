@@ -7,8 +7,6 @@
 namespace app {
 namespace {
 
-/// It cuts along its whole head, and the floor it leaves need not be smooth.
-constexpr StrokePlan kOfAFloor{.level_mm = 1.5, .finishing_passes = 3, .ends_fine = false};
 constexpr double kCovers = 0.7;           ///< of the bur's radius: columns that are cut down to a place
 constexpr double kOfTheMost = 0.75;       ///< of what the best direction reaches, to be worth a cut
 constexpr std::size_t kLeastPlaces = 12;  ///< that are worth a cut
@@ -72,7 +70,7 @@ std::optional<assets::PlannedCut> planClearing(const SiteSolid& site, std::span<
     if (static_cast<double>(one.reached) >= kOfTheMost * static_cast<double>(most) &&
         (best == nullptr || one.cost() < best->cost()))
       best = &one;
-  assets::PlannedCut cut = cutAlong(best->way, best->heights, best->planned, bur_radius_mm, kOfAFloor);
+  assets::PlannedCut cut = cutAlong(best->way, best->heights, best->planned, bur_radius_mm);
   if (cut.strokes_P_mm.empty()) return {};
   return cut;
 }

@@ -12,16 +12,13 @@
 namespace app {
 namespace {
 
-constexpr double kLeastBur_mm = 0.7, kMostBur_mm = 1.3;  ///< radius, of the one that parts the tooth
-constexpr double kLeastHalf_mm = 3.0;                    ///< of its head's length
-constexpr double kSettles_s = 0.6;                       ///< after a step, before it is looked at
-constexpr double kBridgeWait_s = 1.5;                    ///< for one to be found that may break
-constexpr double kLongestWait_s = 20.0;                  ///< for pieces to be ready
-constexpr double kAssistantWait_s = 10.0;                ///< for the flap to be held aside
-constexpr double kGutter_mm_per_s = 28.0, kCut_mm_per_s = 25.0,
-                 kClears_mm_per_s = 32.0;  ///< where nothing holds the bur up
-constexpr double kIntoCut_mm = 0.8;        ///< pressed so far while it clears, the hand does not wait: 1.6 N and more
-constexpr double kIntoSlot_mm = 1.6;       ///< of an elevator, alike: the slot is hardly wider than its blade
+constexpr double kLeastBur_mm = 0.7, kMostBur_mm = 1.3;          ///< radius, of the one that parts the tooth
+constexpr double kLeastHalf_mm = 3.0;                            ///< of its head's length
+constexpr double kSettles_s = 0.6;                               ///< after a step, before it is looked at
+constexpr double kBridgeWait_s = 1.5;                            ///< for one to be found that may break
+constexpr double kLongestWait_s = 20.0;                          ///< for pieces to be ready
+constexpr double kAssistantWait_s = 10.0;                        ///< for the flap to be held aside
+constexpr double kGutter_mm_per_s = 28.0, kCut_mm_per_s = 25.0;  ///< where nothing holds the bur up
 /// Means of ways that begin and end at rest: at most 94 mm/s, as hands go with a bur in them.
 constexpr double kOver_mm_per_s = 60.0, kIn_mm_per_s = 40.0;
 constexpr const char* kAllDone = "the operation is done";
@@ -164,13 +161,9 @@ void Demonstration::work(const Frame& frame) {
   if (const FlapStep* const flap = std::get_if<FlapStep>(&step_.what)) {
     lead(flap->raises ? flap_->raisingPath(hand, outside_P_mm_) : flap_->incisionPath(hand, outside_P_mm_));
   } else if (const CutStep* const step = std::get_if<CutStep>(&step_.what)) {
-    const double speed_mm_per_s = step->bares_crown ? kGutter_mm_per_s
-                                  : step->clears    ? kClears_mm_per_s
-                                                    : kCut_mm_per_s;
+    const double speed_mm_per_s = step->bares_crown ? kGutter_mm_per_s : kCut_mm_per_s;
     const haptics::LedPath path = cutPath(step->cut, tools_[wanted_], speed_mm_per_s);
-    haptics::LedPath cuts = joined(throughOutside(hand, startOf(path), outside_P_mm_), path);
-    if (step->clears) cuts.patient_mm = kIntoCut_mm;
-    lead(std::move(cuts));
+    lead(joined(throughOutside(hand, startOf(path), outside_P_mm_), path));
   } else if (const CleaningStep* const cleaning = std::get_if<CleaningStep>(&step_.what)) {
     lead(cleaningPath(hand, outside_P_mm_, *cleaning, tools_[wanted_].head.radius_mm, forceps_R_PT_));
   } else {
@@ -187,9 +180,7 @@ void Demonstration::workInSocket(const Frame& frame, const HandPose& hand) {
   } else if (const SplitStep* const split = std::get_if<SplitStep>(&step_.what)) {
     // Without a bridge that may break the bur goes on.
     if (frame.newest.bridge == haptics::BreakAnswer::armed) {
-      haptics::LedPath twist = twistInSlot(hand, outside_P_mm_, *split);
-      twist.patient_mm = kIntoSlot_mm;
-      lead(std::move(twist));
+      lead(twistInSlot(hand, outside_P_mm_, *split));
       enter(Phase::working, frame);
     } else if (waited_s >= kBridgeWait_s) {
       enter(Phase::settling, frame);

@@ -32,7 +32,6 @@ struct FlapStep {
 struct CutStep {
   assets::PlannedCut cut;
   bool bares_crown = false;  ///< the gutter, with the first bur of the tray
-  bool clears = false;       ///< bone away from the way of a piece, where the hand may press: no wall has to stand
 };
 
 /// An elevator twisted in the slot that the last section left, which breaks a bridge (haptics/body/bridge_strength).
@@ -104,7 +103,7 @@ class OperationPlanner {
   std::optional<OperationStep> takeFragment(const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                                             const haptics::Components& tooth);
   OperationStep twist(const SplitStep& slot, double largest_mm3);
-  static OperationStep cutStep(assets::PlannedCut cut, std::string words, bool clears = false);
+  static OperationStep cutStep(assets::PlannedCut cut, std::string words);
   OperationStep deliver(const PieceWay& way, const BodiesCopy& bodies, const assets::VolumeGrid& piece_grid,
                         const haptics::Components& tooth) const;
 

@@ -12,11 +12,10 @@
 namespace app {
 namespace {
 
-constexpr double kLeastShare = 1.0 / 3.0;        ///< of the tooth, on either side of the slot
-constexpr double kSlice_mm = 0.3;                ///< half the thickness in which the tooth's extent is taken
-constexpr double kBeside_mm = 2.0;               ///< beyond the bur: what is looked at beside the slot
-constexpr double kLostWeight = 5.0;              ///< of tooth that cannot be reached, against what is cut
-constexpr StrokePlan kOfASlot{.level_mm = 1.0};  ///< it cuts along its whole head
+constexpr double kLeastShare = 1.0 / 3.0;  ///< of the tooth, on either side of the slot
+constexpr double kSlice_mm = 0.3;          ///< half the thickness in which the tooth's extent is taken
+constexpr double kBeside_mm = 2.0;         ///< beyond the bur: what is looked at beside the slot
+constexpr double kLostWeight = 5.0;        ///< of tooth that cannot be reached, against what is cut
 constexpr int kMiddle = HeightMap::kHalf;
 
 /// Where along the way in a slot across the tooth has the least to cut.
@@ -125,7 +124,7 @@ std::optional<PlannedSection> planSection(const SiteSolid& site, double bur_radi
     lowest_mm = std::max(lowest_mm, fork_mm + bur_radius_mm - overshoot_mm);
     planned[HeightMap::column(i, kMiddle)] = lowest_mm < h.bone.at(i, kMiddle) ? 1 : 0;
   }
-  assets::PlannedCut cut = cutAlong(best->way, h, planned, bur_radius_mm, kOfASlot);
+  assets::PlannedCut cut = cutAlong(best->way, h, planned, bur_radius_mm);
   if (cut.strokes_P_mm.empty()) return {};
   const double largest_mm3 = largestPieceAfter_mm3(site, cut);
   const double off_tongue_mm = offTongue_mm(site, cut);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/case/gutter_strokes.h"
 #include "app/case/operated_crown.h"
 #include "app/case/trough_plan.h"
 
@@ -25,6 +26,9 @@ double highestBetween_mm(const HeightMap& bone, const glm::dvec3& a, const glm::
   }
   return highest_mm;
 }
+
+/// It cuts along its whole head.
+constexpr StrokePlan kLongBur{1.0, 2};
 
 }  // namespace
 
@@ -81,12 +85,12 @@ Heights SiteSolid::heightsAlong(const WayIn& way, double bur_radius_mm, double o
 }
 
 assets::PlannedCut cutAlong(const WayIn& way, const Heights& heights, const std::vector<char>& planned,
-                            double bur_radius_mm, const StrokePlan& strokes) {
+                            double bur_radius_mm) {
   assets::PlannedCut cut;
   cut.outward_P = way.outward;
   cut.lateral_P = way.across;
   cut.bur_radius_mm = bur_radius_mm;
-  cut.strokes_P_mm = gutterStrokes(way, heights, planned, strokes);
+  cut.strokes_P_mm = gutterStrokes(way, heights, planned, kLongBur);
   if (cut.strokes_P_mm.empty()) return cut;
   cut.surface_P_mm = cut.strokes_P_mm.front().front();
 

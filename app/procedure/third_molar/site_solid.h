@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "app/case/gutter_strokes.h"
 #include "app/case/height_map.h"
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
@@ -52,6 +51,6 @@ class SiteSolid {
 
 /// The strokes that cut these columns down to the lowest heights.
 assets::PlannedCut cutAlong(const WayIn& way, const Heights& heights, const std::vector<char>& planned,
-                            double bur_radius_mm, const StrokePlan& strokes);
+                            double bur_radius_mm);
 
 }  // namespace app
