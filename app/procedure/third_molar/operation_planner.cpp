@@ -27,8 +27,7 @@ constexpr std::array kOffTooth_mm = {0.1, 0.1, -0.5, -0.9, -1.2};  ///< of the f
 constexpr Margins kCareful{2.1, 0.45};
 constexpr int kCarefulTries = 2;
 /// A section that would open the tongue's side stops short of it, and what is left is broken with the elevator.
-constexpr double kSafeTongue_mm = 0.3, kOffTongue_mm = 0.36,
-                 kFine_mm = 0.25;      ///< voxels of the built-in cases, for which these are
+constexpr double kSafeTongue_mm = 0.3, kOffTongue_mm = 0.36;
 constexpr int kSparedBeforeTwist = 2;  ///< sections; the first leaves a rough floor
 constexpr double kBroken_mm3 = 5.0;    ///< of the largest piece: a twist broke something
 constexpr double kMuchLess = 0.8;      ///< in the way of the pieces, for a section of the broader tooth
@@ -42,9 +41,6 @@ constexpr double kGripped_mm = 2.0;    ///< radius between the beaks
 constexpr int kGripStep = 2;           ///< voxels from place to place that is looked at
 
 bool isSolid(std::uint8_t solid) { return solid >= assets::kHalfSolid; }
-
-/// In a coarser grid a surface is known less well.
-double coarserBy_mm(const assets::VolumeGrid& grid) { return std::max(0.0, grid.spacing_mm - kFine_mm); }
 
 /// Along the deepest of its strokes, the longest of those.
 std::optional<SplitStep> slotOf(const assets::PlannedCut& cut) {
@@ -199,23 +195,21 @@ std::optional<PlannedSection> OperationPlanner::planned(const SiteSolid& site, i
 
 std::optional<double> OperationPlanner::inTheWayOf(const assets::Patient& patient, const UncutSite& uncut) const {
   const SiteSolid site(patient, tongue_P_mm_);
-  const double coarser_mm = coarserBy_mm(site.grid());
   const auto through = planned(site, 0, std::nullopt);
   if (!through) return {};
-  const bool spares = with_elevator_ && through->off_tongue_mm < kSafeTongue_mm + coarser_mm;
-  const auto cut = spares ? planned(site, 0, kOffTongue_mm + coarser_mm) : std::nullopt;
+  const bool spares = with_elevator_ && through->off_tongue_mm < kSafeTongue_mm;
+  const auto cut = spares ? planned(site, 0, kOffTongue_mm) : std::nullopt;
   return inTheWayAfter_mm3(uncut, cut ? cut->cut : through->cut, through->cut, kParted);
 }
 
 std::optional<assets::PlannedCut> OperationPlanner::nextSection(const assets::Patient& patient) {
   const SiteSolid site(patient, tongue_P_mm_);
-  const double coarser_mm = coarserBy_mm(site.grid());
   if (is_twist_due_ && !slots_.empty()) return {};
   // What one overshoot has nothing left to cut of, the next may.
   std::optional<PlannedSection> section;
   while (through_ < kPasses && !(section = planned(site, through_, std::nullopt))) ++through_;
-  if (with_elevator_ && section && section->off_tongue_mm < kSafeTongue_mm + coarser_mm && spared_ < kPasses) {
-    if (auto spares = planned(site, spared_, kOffTongue_mm + coarser_mm)) {
+  if (with_elevator_ && section && section->off_tongue_mm < kSafeTongue_mm && spared_ < kPasses) {
+    if (auto spares = planned(site, spared_, kOffTongue_mm)) {
       ++spared_;
       is_cut_ = true;
       is_twist_due_ = spared_ >= kSparedBeforeTwist;
