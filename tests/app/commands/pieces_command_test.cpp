@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -146,12 +147,13 @@ TEST_F(PiecesCommand, TheUncutToothOfASessionIsOnePiece) {
   // As the servo has it, which divides the voxels that it shares with the bone; by its labels it is smaller.
   const StoredStart start = boneAtTime(session, std::nullopt).start;
   const assets::ToothDivision divided = assets::divideByTooth(start.grid, start.solid, start.label, start.is_tooth);
-  double share = 0.0, labelled = 0.0;
-  for (const std::uint8_t byte : divided.tooth.solid) share += byte >= assets::kHalfSolid ? byte / 255.0 : 0.0;
+  const auto solid = [](std::uint8_t byte) { return byte >= assets::kHalfSolid; };
+  const auto share = static_cast<double>(std::ranges::count_if(divided.tooth.solid, solid));
+  double labelled = 0.0;
   for (std::size_t v = 0; v < start.solid.size(); ++v)
-    labelled += start.is_tooth[v] != 0 ? start.solid[v] / 255.0 : 0.0;
-  EXPECT_NEAR(volume_mm3, share * start.grid.voxelVolume_mm3(), 0.01 * volume_mm3);
-  EXPECT_GT(std::abs(labelled * start.grid.voxelVolume_mm3() - volume_mm3), 0.03 * volume_mm3);
+    labelled += start.is_tooth[v] != 0 && solid(start.solid[v]) ? 1.0 : 0.0;
+  EXPECT_NEAR(volume_mm3, share * start.grid.voxelVolume_mm3(), 1e-6 * volume_mm3);
+  EXPECT_GT(std::abs(labelled * start.grid.voxelVolume_mm3() - volume_mm3), 0.02 * volume_mm3);
 }
 
 }  // namespace
