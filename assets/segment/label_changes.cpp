@@ -28,16 +28,18 @@ void LabelChanges::keep(const JawSegmentation& jaw, const glm::ivec3& ijk) {
   const std::size_t brick = indexIn(bricksOf(grid_), ijk / kBrick);
   if (brick == last_) return;
   last_ = brick;
-  const auto [cells, is_new] = open_.try_emplace(brick);
-  if (!is_new) return;
+  const auto opened = open_.try_emplace(brick);
+  if (!opened.second) return;
+  auto& cells = opened.first->second;
   forCellsOf(kBrick * (ijk / kBrick), [&](std::size_t n, glm::ivec3, std::size_t v) {
-    cells->second[n] = {jaw.label[v], jaw.tooth[v]};
+    cells[n] = {jaw.label[v], jaw.tooth[v]};
   });
 }
 
 void LabelChanges::pack(const JawSegmentation& jaw) {
-  for (const auto& [brick, cells] : open_) {
-    OfBrick kept{kBrick * elementAt(bricksOf(grid_), brick), {}};
+  for (const auto& open : open_) {
+    OfBrick kept{kBrick * elementAt(bricksOf(grid_), open.first), {}};
+    const auto& cells = open.second;
     std::size_t next = kCells;
     forCellsOf(kept.low, [&](std::size_t n, glm::ivec3, std::size_t v) {
       const VoxelLabel before = cells[n];
