@@ -1,14 +1,13 @@
 #include "app/case/own_face.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "assets/scan/exact_distance.h"
+#include "assets/segment/cell_masks.h"
 #include "assets/synthetic/surface_mesher.h"
 #include "assets/trilinear.h"
 
@@ -19,11 +18,6 @@ namespace {
 constexpr double kCell_mm = 1.0, kSkin_hu = -300.0;
 constexpr double kNarrow_mm = 2.5;  ///< nostrils and ears are closed up to twice that
 constexpr double kThick_mm = 3.0, kOpening_mm = 24.0, kSmallest_mm2 = 5000.0;
-constexpr std::array<glm::ivec3, 6> kFaces = {{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
-
-bool isIn(const assets::VolumeGrid& cells, const glm::ivec3& at) {
-  return glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, cells.size));
-}
 
 std::vector<std::uint8_t> fleshOf(const assets::CtVolume& ct, int edge, const assets::VolumeGrid& cells) {
   std::vector<std::uint8_t> is_flesh(cells.voxelCount());
@@ -37,36 +31,20 @@ std::vector<std::uint8_t> fleshOf(const assets::CtVolume& ct, int edge, const as
   return is_flesh;
 }
 
-/// Cells where `enters` holds that hang together by faces with one of `from`.
-std::vector<std::uint8_t> flooded(const assets::VolumeGrid& cells, std::vector<std::size_t> from,
-                                  const std::function<bool(std::size_t)>& enters) {
-  std::vector<std::uint8_t> is_in(cells.voxelCount());
-  std::erase_if(from, [&](std::size_t n) { return !enters(n); });
-  for (const std::size_t n : from) is_in[n] = 1;
-  while (!from.empty()) {
-    const glm::ivec3 at = assets::elementAt(cells.size, from.back());
-    from.pop_back();
-    for (const glm::ivec3& step : kFaces) {
-      if (!isIn(cells, at + step)) continue;
-      const std::size_t next = cells.index(at + step);
-      if (is_in[next] != 0 || !enters(next)) continue;
-      is_in[next] = 1;
-      from.push_back(next);
-    }
-  }
-  return is_in;
-}
-
 /// The air around the head, without that in nose, mouth and ears.
-std::vector<std::uint8_t> outsideOf(const assets::VolumeGrid& cells, const std::vector<std::uint8_t>& is_flesh) {
+assets::CellMask outsideOf(const assets::VolumeGrid& cells, const std::vector<std::uint8_t>& is_flesh) {
   const std::vector<float> from_flesh_mm = assets::exactDistance_mm(cells.size, cells.spacing_mm, is_flesh);
-  std::vector<std::size_t> border;
-  assets::forVoxels(glm::ivec3(0), cells.size, [&](glm::ivec3 cell) {
+  assets::CellMask is_wide(from_flesh_mm.size());
+  std::ranges::transform(from_flesh_mm, is_wide.begin(), [](float mm) -> std::uint8_t { return mm > kNarrow_mm; });
+  const assets::CellPieces pieces = assets::piecesOfCells(cells.size, is_wide);
+  std::vector<std::uint8_t> is_around(pieces.cells.size(), 0);
+  assets::forCells(cells.size, [&](glm::ivec3 cell, std::size_t n) {
     const bool is_border = glm::any(glm::equal(cell, glm::ivec3(0))) || glm::any(glm::equal(cell, cells.size - 1));
-    if (is_border) border.push_back(cells.index(cell));
+    if (is_border && pieces.of[n] != 0) is_around[static_cast<std::size_t>(pieces.of[n])] = 1;
   });
-  std::vector<std::uint8_t> is_outside = flooded(
-      cells, std::move(border), [&](std::size_t n) { return static_cast<double>(from_flesh_mm[n]) > kNarrow_mm; });
+  assets::CellMask is_outside(is_wide.size());
+  std::ranges::transform(pieces.of, is_outside.begin(),
+                         [&](std::int32_t number) { return is_around[static_cast<std::size_t>(number)]; });
   const std::vector<float> from_outside_mm = assets::exactDistance_mm(cells.size, cells.spacing_mm, is_outside);
   for (std::size_t n = 0; n < is_outside.size(); ++n)
     is_outside[n] =
@@ -74,27 +52,16 @@ std::vector<std::uint8_t> outsideOf(const assets::VolumeGrid& cells, const std::
   return is_outside;
 }
 
-/// The head is the largest piece that is not outside: headrests are others.
-void keepLargestBody(const assets::VolumeGrid& cells, std::vector<std::uint8_t>& is_outside) {
-  std::vector<std::uint8_t> is_seen(is_outside), best;
-  std::size_t most = 0;
-  for (std::size_t n = 0; n < is_seen.size(); ++n) {
-    if (is_seen[n] != 0) continue;
-    std::vector<std::uint8_t> piece = flooded(cells, {n}, [&](std::size_t at) { return is_outside[at] == 0; });
-    std::size_t count = 0;
-    for (std::size_t at = 0; at < piece.size(); ++at) count += piece[at], is_seen[at] |= piece[at];
-    if (count > most) most = count, best = std::move(piece);
-    if (2 * most > is_seen.size()) break;
-  }
-  for (std::size_t n = 0; n < best.size(); ++n) is_outside[n] = best[n] == 0 ? 1 : 0;
+assets::CellMask without(const assets::CellMask& cells) {
+  assets::CellMask others(cells.size());
+  std::ranges::transform(cells, others.begin(), [](std::uint8_t in) -> std::uint8_t { return in == 0 ? 1 : 0; });
+  return others;
 }
 
 /// Signed distance from the skin, smoothed over a cell or two.
-std::vector<float> distanceFromSkin_mm(const assets::VolumeGrid& cells, const std::vector<std::uint8_t>& is_outside) {
-  std::vector<std::uint8_t> is_body(is_outside.size());
-  for (std::size_t n = 0; n < is_body.size(); ++n) is_body[n] = is_outside[n] == 0 ? 1 : 0;
+std::vector<float> distanceFromSkin_mm(const assets::VolumeGrid& cells, const assets::CellMask& is_body) {
   std::vector<float> distance_mm = assets::exactDistance_mm(cells.size, cells.spacing_mm, is_body);
-  const std::vector<float> inside_mm = assets::exactDistance_mm(cells.size, cells.spacing_mm, is_outside);
+  const std::vector<float> inside_mm = assets::exactDistance_mm(cells.size, cells.spacing_mm, without(is_body));
   constexpr float kFar_mm = 20.0f;
   for (std::size_t n = 0; n < distance_mm.size(); ++n)
     distance_mm[n] = std::clamp(std::max(distance_mm[n], 0.0f) - std::max(inside_mm[n], 0.0f), -kFar_mm, kFar_mm);
@@ -133,9 +100,10 @@ assets::MeshModel ownFace(const assets::CtVolume& ct, const glm::dvec3& site_P_m
   cells.spacing_mm = edge * ct.grid.spacing_mm;
   cells.origin_P_mm = ct.grid.origin_P_mm + 0.5 * (edge - 1) * ct.grid.spacing_mm;
   if (glm::any(glm::lessThan(cells.size, glm::ivec3(8)))) return {};
-  std::vector<std::uint8_t> is_outside = outsideOf(cells, fleshOf(ct, edge, cells));
-  keepLargestBody(cells, is_outside);
-  const std::vector<float> from_skin_mm = distanceFromSkin_mm(cells, is_outside);
+  // Headrests are other pieces than the head.
+  const assets::CellMask is_body =
+      assets::largestPiece(cells.size, without(outsideOf(cells, fleshOf(ct, edge, cells))));
+  const std::vector<float> from_skin_mm = distanceFromSkin_mm(cells, is_body);
 
   // A shell, without what stands between the site and the eye.
   constexpr double kFarthest_mm = 200.0;

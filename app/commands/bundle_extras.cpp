@@ -1,19 +1,18 @@
 #include "app/commands/bundle_extras.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "app/commands/outside_program.h"
 #include "app/debrief/debrief_scene.h"
 #include "app/debrief/log_bookmarks.h"
 #include "app/evaluation/voice/speech_detector.h"
@@ -28,32 +27,18 @@
 #include "calibration/output_file.h"
 #include "calibration/png_file.h"
 
-extern char** environ;
-
 namespace app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNotThere = 127;
-
-/// Silent. Its exit status; kNotThere: there is no such program.
-int runQuietly(const std::vector<std::string>& words) {
-  std::vector<std::string> kept = words;
-  std::vector<char*> arguments;
-  for (std::string& word : kept) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  for (const int stream : {0, 1, 2}) ::posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
-  pid_t process = 0;
-  const int error = ::posix_spawnp(&process, arguments.front(), &files, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&files);
-  if (error != 0) return kNotThere;
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+/// False: there is no such program. Throws UsageError with `why_not` where it does not end well.
+bool runs(const std::vector<std::string>& words, const std::string& why_not) {
+  constexpr std::chrono::minutes kLimit{10};
+  const OutsideEnd end = runToEnd({.words = words, .is_silent = true, .limit = kLimit});
+  if (end.kind == OutsideEnd::Kind::not_started && end.status == ENOENT) return false;
+  if (end.kind != OutsideEnd::Kind::ended || end.status != 0) throw UsageError(why_not);
+  return true;
 }
 
 /// The newest word on it is yes.
@@ -146,18 +131,8 @@ void refuseExisting(const std::string& file, bool overwrite) {
 
 }  // namespace
 
-BundleScratch::BundleScratch(const std::string& beside) : folder_(beside + ".XXXXXX") {
-  if (::mkdtemp(folder_.data()) == nullptr)
-    throw UsageError(beside + ": nothing can be written there, give another folder");
-}
-BundleScratch::~BundleScratch() {
-  std::error_code failed;
-  fs::remove_all(folder_, failed);
-}
-std::string BundleScratch::file(const std::string& name) const { return (fs::path(folder_) / name).string(); }
-
 MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted, const PrivateStudyKeys* owner,
-                            const BundleScratch& scratch) {
+                            const PrivateFolder& scratch) {
   return [&study, &wanted, owner, &scratch](const StudySession& session, const std::vector<LogEvent>& events,
                                             std::vector<std::string>& remarks) {
     const fs::path folder = fs::path(study) / session.folder;
@@ -185,7 +160,7 @@ MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted
   };
 }
 
-bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const BundleScratch& scratch) {
+bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const PrivateFolder& scratch) {
   refuseExisting(pdf, overwrite);
   constexpr std::uint64_t kMostReport = 64U << 20U;
   const std::string html = scratch.file("report.html"), printed = scratch.file("report.pdf");
@@ -199,9 +174,9 @@ bool printReport(const std::string& bundle, const std::string& pdf, bool overwri
                                  "file://" + html};
   // It refuses to run as root in its sandbox; the page is our own and asks for nothing.
   if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");
-  const int status = runQuietly(words);
-  if (status == kNotThere) return false;
-  if (status != 0 || !fs::exists(printed)) throw UsageError("--pdf " + pdf + ": chromium could not print the report");
+  const std::string why_not = "--pdf " + pdf + ": chromium could not print the report; see that it runs";
+  if (!runs(words, why_not)) return false;
+  if (!fs::exists(printed)) throw UsageError(why_not);
   calibration::OutputFile(pdf, overwrite).commit(assets::readSmallFile(printed, kMostReport));
   return true;
 }
@@ -213,9 +188,8 @@ void encryptFor(const std::vector<std::string>& recipients, const std::string& b
   std::vector<std::string> words{"age", "--encrypt"};
   for (const std::string& one : recipients) words.insert(words.end(), {"--recipient", one});
   words.insert(words.end(), {"--output", file.temporaryPath(), bundle});
-  const int status = runQuietly(words);
-  if (status == kNotThere) throw UsageError("--recipient: age is not installed, apt-get install age");
-  if (status != 0) throw UsageError("--recipient " + recipients.front() + ": age refuses it, give a key as age1…");
+  if (!runs(words, "--recipient " + recipients.front() + ": age refuses it, give a key as age1…"))
+    throw UsageError("--recipient: age is not installed, apt-get install age");
   file.commit();
 }
 

@@ -6,23 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/private_folder.h"
 #include "app/study/bundle/study_bundle.h"
 
 namespace app {
-
-/// Files that live as long as this, beside the bundle and for its owner alone.
-class BundleScratch {
- public:
-  /// Throws UsageError: no folder can be made there.
-  explicit BundleScratch(const std::string& beside);
-  ~BundleScratch();
-  BundleScratch(const BundleScratch&) = delete;
-  BundleScratch& operator=(const BundleScratch&) = delete;
-  std::string file(const std::string& name) const;
-
- private:
-  std::string folder_;
-};
 
 struct BundleExtras {
   bool voice = false, pictures = false;
@@ -33,10 +20,10 @@ struct BundleExtras {
 /// Voice only with the words yes on audio and reuse, from the first event of the log on; pictures only with picture.
 /// What is left out is told in a remark. `owner` null: what is sealed stays closed. Borrows all.
 MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted, const PrivateStudyKeys* owner,
-                            const BundleScratch& scratch);
+                            const PrivateFolder& scratch);
 
 /// Its report.html, printed by Chromium. False: that is not installed. Throws UsageError.
-bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const BundleScratch& scratch);
+bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const PrivateFolder& scratch);
 
 /// Throws UsageError: age is not installed, knows no such recipient, or the file exists.
 void encryptFor(const std::vector<std::string>& recipients, const std::string& bundle, const std::string& to,

@@ -1,20 +1,14 @@
 #include "app/commands/segmenter.h"
 
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
-#include <thread>
 
-#include "app/commands/stop_signals.h"
+#include "app/commands/outside_program.h"
+#include "app/commands/private_folder.h"
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
 
@@ -72,49 +66,25 @@ std::vector<std::string> plainEnvironment(const std::string& folder) {
   return environment;
 }
 
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-/// Its exit status. Throws LoadError.
-int runToEnd(std::vector<std::string> words, const std::string& folder, std::chrono::seconds limit) {
-  std::vector<std::string> environment = plainEnvironment(folder);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", 0, 0);
-  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-  // A group of its own, so that what it starts ends with it.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  const StopSignals signals;
-  pid_t process = 0;
-  const int error = ::posix_spawnp(&process, words.front().c_str(), &files, &attributes, pointersTo(words).data(),
-                                   pointersTo(environment).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0)
-    throw assets::LoadError("--segment-with: its program cannot be started (" + std::string(std::strerror(error)) +
-                            "); check the name");
-  const auto end = std::chrono::steady_clock::now() + limit;
-  int status = 0;
-  for (pid_t ended = 0; (ended = ::waitpid(process, &status, WNOHANG)) != process;) {
-    if (ended < 0 && errno != EINTR) throw assets::LoadError("--segment-with: how it ended cannot be told; retry");
-    const bool is_late = std::chrono::steady_clock::now() > end;
-    if (is_late || signals.isAsked()) {
-      ::kill(-process, SIGKILL);
-      ::waitpid(process, &status, 0);
-      throw assets::LoadError(is_late ? "--segment-with: it took longer than " + std::to_string(limit.count() / 60) +
-                                            " minutes and was stopped"
-                                      : std::string("--segment-with: stopped, nothing was imported"));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+/// Throws LoadError where it does not end well.
+void mustEndWell(const OutsideEnd& end, std::chrono::seconds limit) {
+  const std::string option = "--segment-with: ";
+  switch (end.kind) {
+    case OutsideEnd::Kind::ended:
+      if (end.status == 0) return;
+      throw assets::LoadError(option + "it ended with status " + std::to_string(end.status) +
+                              "; what it said stands above");
+    case OutsideEnd::Kind::not_started:
+      throw assets::LoadError(option + "its program cannot be started (" + std::string(std::strerror(end.status)) +
+                              "); check the name");
+    case OutsideEnd::Kind::late:
+      throw assets::LoadError(option + "it took longer than " + std::to_string(limit.count() / 60) +
+                              " minutes and was stopped");
+    case OutsideEnd::Kind::stopped:
+      throw assets::LoadError(option + "stopped, nothing was imported");
+    case OutsideEnd::Kind::unknown:
+      throw assets::LoadError(option + "how it ended cannot be told; retry");
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace
@@ -156,25 +126,17 @@ Segmenter::Segmenter(const std::string& command) : words_(wordsOfCommand(command
         "-o {labels} --ml -ta teeth'");
 }
 
-Segmenter::~Segmenter() {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
+Segmenter::~Segmenter() = default;
 
 std::string Segmenter::labels(const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
                               std::chrono::seconds limit) {
   std::error_code none;
-  std::string folder = (fs::temp_directory_path(none) / "molar_XXXXXX").string();
-  if (none || ::mkdtemp(folder.data()) == nullptr)
-    throw assets::LoadError("--segment-with: no folder can be made for it; check TMPDIR");
-  folder_ = folder;
-  const std::string ct = folder_ + "/ct.nii", made = folder_ + "/labels.nii.gz";
+  folder_ = std::make_unique<PrivateFolder>((fs::temp_directory_path(none) / "molar_").string(), "--segment-with");
+  const std::string ct = folder_->file("ct.nii"), made = folder_->file("labels.nii.gz");
   writeNifti(ct, grid, hounsfield);
   std::vector<std::string> words = words_;
   for (std::string& word : words) word = replacedAll(replacedAll(word, kCt, ct), kLabels, made);
-  if (const int status = runToEnd(words, folder_, limit); status != 0)
-    throw assets::LoadError("--segment-with: it ended with status " + std::to_string(status) +
-                            "; what it said stands above");
+  mustEndWell(runToEnd({.words = words, .environment = plainEnvironment(folder_->path()), .limit = limit}), limit);
   std::error_code error;
   if (!fs::is_regular_file(made, error))
     throw assets::LoadError("--segment-with: it left no label map where {labels} says; see its help");

@@ -5,12 +5,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "assets/volume_grid.h"
 
 namespace app {
+
+class PrivateFolder;
 
 class Segmenter {
  public:
@@ -27,7 +30,7 @@ class Segmenter {
 
  private:
   std::vector<std::string> words_;
-  std::string folder_;
+  std::unique_ptr<PrivateFolder> folder_;
 };
 
 /// Words at white space outside of '…' and "…". Throws UsageError for an open quote.

@@ -86,7 +86,7 @@ int exportBundle(const OwnerOptions& options) {
   const PrivateStudyKeys* const key = owner ? &*owner : nullptr;
   const BundleExtras& wanted = options.extras;
   const bool is_wrapped = !wanted.recipients.empty();
-  const BundleScratch scratch(options.out);
+  const PrivateFolder scratch(options.out + ".", "--out " + options.out);
   // In the open it lies only where nobody else looks, if it is to be encrypted.
   const std::string file = is_wrapped ? scratch.file("bundle.zip") : options.out;
   const WrittenBundle written = writeBundle(options.study, options.session, key, file, options.force || is_wrapped,
