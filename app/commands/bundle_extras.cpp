@@ -37,6 +37,7 @@ bool runs(const std::vector<std::string>& words, const std::string& why_not) {
   constexpr std::chrono::minutes kLimit{10};
   const OutsideEnd end = runToEnd({.words = words, .is_silent = true, .limit = kLimit});
   if (end.kind == OutsideEnd::Kind::not_started && end.status == ENOENT) return false;
+  if (end.kind == OutsideEnd::Kind::stopped) throw UsageError("study export: stopped while " + words.front() + " ran");
   if (end.kind != OutsideEnd::Kind::ended || end.status != 0) throw UsageError(why_not);
   return true;
 }

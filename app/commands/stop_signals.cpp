@@ -12,6 +12,7 @@ constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
 using Actions = std::array<struct sigaction, kStops.size()>;
 
 volatile std::sig_atomic_t stop_asked = 0;
+int stop_signals_alive = 0;
 std::string_view line_of_stop;
 
 Actions handledBy(void (*handler)(int)) {
@@ -48,10 +49,14 @@ struct StopsWithALine::Before {
 };
 
 StopSignals::StopSignals() {
-  stop_asked = 0;
+  // Within another, what it was asked is not forgotten.
+  if (stop_signals_alive++ == 0) stop_asked = 0;
   before_ = std::make_unique<Before>(Before{handledBy([](int) { stop_asked = 1; })});
 }
-StopSignals::~StopSignals() { restore(before_->actions); }
+StopSignals::~StopSignals() {
+  --stop_signals_alive;
+  restore(before_->actions);
+}
 
 bool StopSignals::isAsked() const { return stop_asked != 0; }
 

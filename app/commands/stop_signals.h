@@ -1,4 +1,4 @@
-// What SIGINT, SIGTERM and SIGHUP do to a command that leaves nothing half-done. Main thread; one of them at a time.
+// What SIGINT, SIGTERM and SIGHUP do to a command that leaves nothing half-done. Main thread; one within another.
 #pragma once
 
 #include <csignal>

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "app/commands/bundle_extras.h"
+#include "app/commands/stop_signals.h"
 #include "app/commands/study_key.h"
 #include "app/study/audit.h"
 #include "app/study/bundle/bundle_check.h"
@@ -86,11 +87,19 @@ int exportBundle(const OwnerOptions& options) {
   const PrivateStudyKeys* const key = owner ? &*owner : nullptr;
   const BundleExtras& wanted = options.extras;
   const bool is_wrapped = !wanted.recipients.empty();
+  // What lies there in the open goes with it, however this ends.
+  const StopSignals stops;
   const PrivateFolder scratch(options.out + ".", "--out " + options.out);
   // In the open it lies only where nobody else looks, if it is to be encrypted.
   const std::string file = is_wrapped ? scratch.file("bundle.zip") : options.out;
-  const WrittenBundle written = writeBundle(options.study, options.session, key, file, options.force || is_wrapped,
-                                            moreOfSession(options.study, wanted, key, scratch));
+  const MoreOfSession more = moreOfSession(options.study, wanted, key, scratch);
+  const auto more_unless_stopped = [&](const StudySession& session, const std::vector<LogEvent>& events,
+                                       std::vector<std::string>& remarks) {
+    if (stops.isAsked()) throw UsageError(options.out + ": stopped, nothing was exported");
+    return more(session, events, remarks);
+  };
+  const WrittenBundle written =
+      writeBundle(options.study, options.session, key, file, options.force || is_wrapped, more_unless_stopped);
   if (!wanted.pdf.empty() && !printReport(file, wanted.pdf, options.force, scratch))
     printMessage("--pdf " + wanted.pdf + ": chromium is not installed, report.html prints from any browser");
   if (is_wrapped) encryptFor(wanted.recipients, file, options.out + ".age", options.force);
