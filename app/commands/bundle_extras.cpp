@@ -126,10 +126,6 @@ std::vector<ZipEntry> picturesOf(const std::string& recording, const std::vector
   return entries;
 }
 
-void refuseExisting(const std::string& file, bool overwrite) {
-  if (!overwrite && fs::exists(file)) throw UsageError(file + ": it exists, --force replaces it");
-}
-
 }  // namespace
 
 MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted, const PrivateStudyKeys* owner,
@@ -161,8 +157,7 @@ MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted
   };
 }
 
-bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const PrivateFolder& scratch) {
-  refuseExisting(pdf, overwrite);
+bool printReport(const std::string& bundle, calibration::OutputFile& pdf, const PrivateFolder& scratch) {
   constexpr std::uint64_t kMostReport = 64U << 20U;
   const std::string html = scratch.file("report.html"), printed = scratch.file("report.pdf");
   calibration::OutputFile(html, true).commit(*ZipReader(bundle).text("report.html", kMostReport));
@@ -175,23 +170,20 @@ bool printReport(const std::string& bundle, const std::string& pdf, bool overwri
                                  "file://" + html};
   // It refuses to run as root in its sandbox; the page is our own and asks for nothing.
   if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");
-  const std::string why_not = "--pdf " + pdf + ": chromium could not print the report; see that it runs";
+  const std::string why_not = "--pdf " + pdf.path() + ": chromium could not print the report; see that it runs";
   if (!runs(words, why_not)) return false;
   if (!fs::exists(printed)) throw UsageError(why_not);
-  calibration::OutputFile(pdf, overwrite).commit(assets::readSmallFile(printed, kMostReport));
+  pdf.commit(assets::readSmallFile(printed, kMostReport));
   return true;
 }
 
-void encryptFor(const std::vector<std::string>& recipients, const std::string& bundle, const std::string& to,
-                bool overwrite) {
-  refuseExisting(to, overwrite);
-  calibration::OutputFile file(to, overwrite);
+void encryptFor(const std::vector<std::string>& recipients, const std::string& bundle, calibration::OutputFile& to) {
   std::vector<std::string> words{"age", "--encrypt"};
   for (const std::string& one : recipients) words.insert(words.end(), {"--recipient", one});
-  words.insert(words.end(), {"--output", file.temporaryPath(), bundle});
+  words.insert(words.end(), {"--output", to.temporaryPath(), bundle});
   if (!runs(words, "--recipient " + recipients.front() + ": age refuses it, give a key as age1…"))
     throw UsageError("--recipient: age is not installed, apt-get install age");
-  file.commit();
+  to.commit();
 }
 
 }  // namespace app

@@ -8,6 +8,7 @@
 
 #include "app/commands/private_folder.h"
 #include "app/study/bundle/study_bundle.h"
+#include "calibration/output_file.h"
 
 namespace app {
 
@@ -23,10 +24,9 @@ MoreOfSession moreOfSession(const std::string& study, const BundleExtras& wanted
                             const PrivateFolder& scratch);
 
 /// Its report.html, printed by Chromium. False: that is not installed. Throws UsageError.
-bool printReport(const std::string& bundle, const std::string& pdf, bool overwrite, const PrivateFolder& scratch);
+bool printReport(const std::string& bundle, calibration::OutputFile& pdf, const PrivateFolder& scratch);
 
-/// Throws UsageError: age is not installed, knows no such recipient, or the file exists.
-void encryptFor(const std::vector<std::string>& recipients, const std::string& bundle, const std::string& to,
-                bool overwrite);
+/// Throws UsageError: age is not installed, or knows no such recipient.
+void encryptFor(const std::vector<std::string>& recipients, const std::string& bundle, calibration::OutputFile& to);
 
 }  // namespace app

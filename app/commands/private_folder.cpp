@@ -14,7 +14,8 @@ constexpr char kLetters[] = "XXXXXX";
 
 }  // namespace
 
-PrivateFolder::PrivateFolder(const std::string& beginning, const std::string& name) : path_(beginning + kLetters) {
+PrivateFolder::PrivateFolder(const std::string& beginning, const std::string& name)
+    : path_(std::filesystem::absolute(beginning).string() + kLetters) {
   if (::mkdtemp(path_.data()) == nullptr)
     throw UsageError(name + ": no folder can be made beside " + beginning + "; free some space, or name another place");
 }

@@ -90,6 +90,10 @@ int exportBundle(const OwnerOptions& options) {
   // What lies there in the open goes with it, however this ends.
   const StopSignals stops;
   const PrivateFolder scratch(options.out + ".", "--out " + options.out);
+  // What cannot be written is told before anything is.
+  std::optional<calibration::OutputFile> pdf, wrapped;
+  if (!wanted.pdf.empty()) pdf.emplace(wanted.pdf, options.force);
+  if (is_wrapped) wrapped.emplace(options.out + ".age", options.force);
   // In the open it lies only where nobody else looks, if it is to be encrypted.
   const std::string file = is_wrapped ? scratch.file("bundle.zip") : options.out;
   const MoreOfSession more = moreOfSession(options.study, wanted, key, scratch);
@@ -100,9 +104,9 @@ int exportBundle(const OwnerOptions& options) {
   };
   const WrittenBundle written =
       writeBundle(options.study, options.session, key, file, options.force || is_wrapped, more_unless_stopped);
-  if (!wanted.pdf.empty() && !printReport(file, wanted.pdf, options.force, scratch))
+  if (pdf && !printReport(file, *pdf, scratch))
     printMessage("--pdf " + wanted.pdf + ": chromium is not installed, report.html prints from any browser");
-  if (is_wrapped) encryptFor(wanted.recipients, file, options.out + ".age", options.force);
+  if (wrapped) encryptFor(wanted.recipients, file, *wrapped);
   for (const std::string& remark : written.remarks) printMessage(remark);
   audit(options.study, nowUnix_s(), "export",
         {{"sessions", joined(written.sessions)},

@@ -146,7 +146,7 @@ TEST_F(EvaluateCommand, WithKeysWordsAreSealedForTheOwnerAlone) {
   EXPECT_NE(read("study/audit.jsonl").find("\"type\":\"retain\""), std::string::npos);
 }
 
-TEST_F(EvaluateCommand, ABundleIsPrintedAndEncryptedForWhoIsNamed) {
+TEST_F(EvaluateCommand, ABundleIsEncryptedForWhoIsNamed) {
   if (std::system("command -v age-keygen >/dev/null") != 0)
     GTEST_SKIP() << "age is not installed (apt-get install age)";
   ASSERT_EQ(molar(session("P01")).status, 0);
@@ -168,6 +168,20 @@ TEST_F(EvaluateCommand, ABundleIsPrintedAndEncryptedForWhoIsNamed) {
   expectRefusal(line + " --recipient " + key, "it exists");
   expectRefusal(line + " --force --recipient nobody", "age refuses it");
   EXPECT_FALSE(std::filesystem::exists(at("F.zip")));
+}
+
+TEST_F(EvaluateCommand, ABundlesReportIsPrintedWhereverItIsNamedFrom) {
+  if (std::system("command -v chromium >/dev/null") != 0)
+    GTEST_SKIP() << "chromium is not installed (apt-get install chromium)";
+  ASSERT_EQ(molar(session("P01")).status, 0);
+  const std::string name = std::filesystem::relative(at("R")).string(),
+                    line = "study export " + at("study") + " --out ";
+  const ProgramOutput printed = molar(line + name + ".zip --pdf " + name + ".pdf");
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_TRUE(read("R.pdf").starts_with("%PDF-"));
+  // What cannot be written is told before the bundle is.
+  expectRefusal(line + at("S.zip") + " --pdf " + at("nowhere/S.pdf"), "there is no folder");
+  EXPECT_FALSE(std::filesystem::exists(at("S.zip")));
 }
 
 TEST_F(EvaluateCommand, TheStudysCommandsRefuseInOneLine) {
