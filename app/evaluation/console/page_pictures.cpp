@@ -107,8 +107,7 @@ void PicturesOut::write(const render::Image& image, std::int64_t t_ns) {
   const SmallPicture small = scaledToFit(image, kPictureWidth, kPictureHeight);
   if (small.rgb.empty()) return;
   SharedPictures::Place& place = shared_->places[++serial_ % shared_->places.size()];
-  place.begun.store(serial_);
-  std::atomic_thread_fence(std::memory_order_seq_cst);
+  place.begun.exchange(serial_, std::memory_order_acq_rel);  // no write of the picture goes before it
   place.w = small.w, place.h = small.h, place.t_ns = t_ns;
   std::memcpy(place.rgb.data(), small.rgb.data(), small.rgb.size());
   place.done.store(serial_, std::memory_order_release);
@@ -136,15 +135,14 @@ void PicturesIn::ask() { shared_->wanted.store(1, std::memory_order_relaxed); }
 std::optional<SmallPicture> PicturesIn::newer(std::uint32_t serial) const {
   const std::uint32_t newest = shared_->newest.load(std::memory_order_acquire);
   if (newest == 0 || newest == serial) return {};
-  const SharedPictures::Place& place = shared_->places[newest % shared_->places.size()];
+  SharedPictures::Place& place = shared_->places[newest % shared_->places.size()];
   if (place.done.load(std::memory_order_acquire) != newest) return {};
   SmallPicture copy;
   copy.w = place.w, copy.h = place.h, copy.t_ns = place.t_ns, copy.serial = newest;
   if (copy.w <= 0 || copy.h <= 0 || copy.w > kPictureWidth || copy.h > kPictureHeight) return {};
   const auto size = std::size_t{3} * static_cast<std::size_t>(copy.w) * static_cast<std::size_t>(copy.h);
   copy.rgb.assign(place.rgb.begin(), place.rgb.begin() + static_cast<std::ptrdiff_t>(size));
-  std::atomic_thread_fence(std::memory_order_acquire);
-  if (place.begun.load(std::memory_order_relaxed) != newest) return {};
+  if (place.begun.fetch_add(0, std::memory_order_acq_rel) != newest) return {};  // no read of it comes after
   return copy;
 }
 

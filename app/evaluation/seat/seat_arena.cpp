@@ -78,6 +78,15 @@ bool isOfThisProgram(const StatesHead::Place& place) {
          place.root < kArenaAt + place.used;
 }
 
+bool isSamePage(const std::byte* one, const std::byte* other) { return std::memcmp(one, other, kArenaPage) == 0; }
+
+/// Pages that stand there already are not written again.
+void keepPages(std::byte* to, std::size_t bytes) {
+  const auto* const from = reinterpret_cast<const std::byte*>(arena_heap);
+  for (std::size_t at = 0; at < bytes; at += kArenaPage)
+    if (!isSamePage(to + at, from + at)) std::memcpy(to + at, from + at, kArenaPage);
+}
+
 /// Mapped while it is looked at.
 class States {
  public:
@@ -152,8 +161,7 @@ void* SeatArena::bringBack(int states) {
   static constexpr std::array<std::byte, kArenaPage> kZeros{};
   auto* const to = reinterpret_cast<std::byte*>(kArenaAt);
   for (std::size_t at = 0; at < place.used; at += kArenaPage)
-    if (std::memcmp(kept.place(newest) + at, kZeros.data(), kArenaPage) != 0)
-      std::memcpy(to + at, kept.place(newest) + at, kArenaPage);
+    if (!isSamePage(kept.place(newest) + at, kZeros.data())) std::memcpy(to + at, kept.place(newest) + at, kArenaPage);
   arena_used = place.used;
   return reinterpret_cast<void*>(place.root);
 }
@@ -162,19 +170,18 @@ bool SeatArena::keep(int states, void* root) {
   States kept(states);
   if (!kept.isThere() || arena_heap == nullptr) return false;
   std::array<StatesHead::Place, 2>& places = kept.head().places;
-  const std::size_t older = places[1].serial > places[0].serial ? 0 : 1;
-  const std::uint64_t serial = std::max(places[0].serial, places[1].serial) + 1;
-  places[older].serial = 0;
-  const auto* const from = reinterpret_cast<const std::byte*>(kArenaAt);
+  const bool is_second_newer = places[1].serial > places[0].serial;
+  const std::uint64_t serial = (is_second_newer ? places[1] : places[0]).serial + 1;
+  StatesHead::Place& older = is_second_newer ? places[0] : places[1];
+  // A kill between any two of these writes leaves the newer place whole, and the older one without a number.
+  older.serial = 0;
+  std::atomic_signal_fence(std::memory_order_seq_cst);
   const std::size_t used = (arena_used + kArenaPage - 1) / kArenaPage * kArenaPage;
-  for (std::size_t at = 0; at < used; at += kArenaPage)
-    if (std::memcmp(kept.place(older) + at, from + at, kArenaPage) != 0)
-      std::memcpy(kept.place(older) + at, from + at, kArenaPage);
-  StatesHead::Place made = ownPlace();
-  made.used = used, made.root = reinterpret_cast<std::uint64_t>(root);
-  places[older] = made;
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  places[older].serial = serial;
+  keepPages(kept.place(is_second_newer ? 0 : 1), used);
+  older = ownPlace();
+  older.used = used, older.root = reinterpret_cast<std::uint64_t>(root);
+  std::atomic_signal_fence(std::memory_order_seq_cst);
+  older.serial = serial;
   return true;
 }
 
