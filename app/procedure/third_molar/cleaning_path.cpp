@@ -11,9 +11,9 @@ constexpr double kOverSite_mm = 16.0,
                  kOverCrown_mm = 14.0;  // of a place: out of the socket; past the next tooth's crown
 constexpr double kTravels_mm_per_s = 90.0, kNears_mm_per_s = 60.0, kDraws_mm_per_s = 36.0, kTurns_rad_per_s = 3.0;
 constexpr double kSucks_s = 0.8, kConfirms_s = 0.5;
-constexpr double kScrapes_mm = 1.2, kFiles_mm = 1.3;  ///< pressed beyond the surface
+constexpr double kScrapes_mm = 2.0, kFiles_mm = 1.3;  ///< pressed beyond the surface
 constexpr double kLifts_mm = 0.4;                     ///< off it, before and after
-constexpr double kPatient_mm = 1.6;                   ///< and no slower for it
+constexpr double kGives_mm = 0.3;                     ///< and no slower for it, nor for so much more
 constexpr double kBeyondEnd_mm = 0.6;
 constexpr int kDraws = 2, kFileDraws = 3;
 
@@ -94,7 +94,7 @@ haptics::LedPath cleaningPath(const HandPose& from, const glm::dvec3& outside_P_
   Worker worker(keys, step, tip_radius_mm, R_PT);
   for (const CleaningPlace& place : step.places) worker.workAt(place);
   haptics::LedPath path = joined(throughOutside(from, over, outside_P_mm), keys.path());
-  path.patient_mm = kPatient_mm;
+  path.patient_mm = kGives_mm + (step.what == Cleaning::curette ? kScrapes_mm : kFiles_mm);
   return path;
 }
 

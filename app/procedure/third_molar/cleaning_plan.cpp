@@ -15,6 +15,7 @@ namespace {
 // Our defaults.
 constexpr double kSurely_mm = 0.3;                 ///< nearer than the reach of suction or curette
 constexpr double kAtWall_mm = 0.4;                 ///< of a curette before it is pressed
+constexpr double kDrawn_mm = 0.5;                  ///< of a curette, to either side
 constexpr double kWorthFiling_mm = 1.0;            ///< length of an edge
 constexpr std::array kFiledLeans{0.0, 0.6, -0.6};  ///< to either side of an edge
 constexpr std::size_t kFiledPoints = 8;            ///< of an edge, filed at once
@@ -56,8 +57,10 @@ std::vector<CleaningPlace> suckedAt(const std::vector<glm::dvec3>& loose, const 
 std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const SocketReach& reach, double tip_mm) {
   std::vector<CleaningPlace> places;
   const double reach_mm = tip_mm + kScrapeReach_mm - kSurely_mm;
+  // Pressed, the tip touches the wall.
   const auto scrapes = [&](const TipPlace& place, const glm::dvec3& goal) {
-    return glm::distance(place.at_P_mm, goal) < reach_mm;
+    const glm::dvec3 pressed_P_mm = place.at_P_mm - (place.wall_mm - tip_mm) * place.wall_P;
+    return glm::distance(pressed_P_mm, goal) < reach_mm;
   };
   for (const auto& chosen : reach.fewestFor(stuck, tip_mm, reach_mm, kAtWall_mm, scrapes)) {
     const TipPlace& place = chosen.place;
@@ -65,7 +68,7 @@ std::vector<CleaningPlace> scrapedAt(const std::vector<glm::dvec3>& stuck, const
     glm::dvec3 along = place.shaft_P - glm::dot(place.shaft_P, n) * n;
     along = glm::length(along) > 0.2 ? glm::normalize(along) : glm::normalize(glm::cross(n, glm::dvec3(1.0, 0.3, 0.0)));
     const glm::dvec3 foot = place.at_P_mm - place.wall_mm * n;
-    places.push_back({{foot, foot + along}, place.shaft_P, {-n}});
+    places.push_back({{foot - kDrawn_mm * along, foot + kDrawn_mm * along}, place.shaft_P, {-n}});
   }
   return places;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kOver_mm = 16.0;                                  ///< the piece, before it is gripped
 constexpr double kTravel_mm_per_s = 100.0, kTurn_rad_per_s = 2.5;  ///< free of the mouth
-constexpr double kDown_mm_per_s = 15.0, kOut_mm_per_s = 12.0;
+constexpr double kDown_mm_per_s = 15.0, kOut_mm_per_s = 12.0, kCarried_mm_per_s = 100.0;
 constexpr double kSwing_Hz = 0.8, kFirstSwing_rad = 0.2, kLastSwing_rad = 0.45, kPull_mm = 1.5;
 constexpr double kTwist_rad = 1.0, kTwist_Hz = 0.5, kTwists = 2.0;
 constexpr double kBeyond_mm = 10.0;  ///< the end of the way out
@@ -69,7 +69,8 @@ haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_m
   return joined(throughOutside(from, over, outside_P_mm), joined(down.path(), {rocked, kRocks_s}));
 }
 
-haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X_PQ, const DeliveryStep& step) {
+haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X_PQ, const DeliveryStep& step,
+                         const glm::dvec3& outside_P_mm, const glm::dvec3& laid_P_mm) {
   LedKeys keys(hand);
   keys.press(true);
   const calibration::Pose<calibration::Piece, calibration::Tool> grip_X_QT = piece_X_PQ.inverse() * hand;
@@ -80,9 +81,11 @@ haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X
   }
   last.translation_mm += kBeyond_mm * step.out_P;
   keys.moveTo(last, 2.0 * kOut_mm_per_s);
-  keys.hold(2.0 * kStill_s);
+  keys.moveTo({last.rotation, outside_P_mm}, kCarried_mm_per_s);
+  keys.moveTo({last.rotation, laid_P_mm}, kCarried_mm_per_s);
+  keys.hold(kStill_s);
   keys.press(false);
-  keys.hold(2.0 * kStill_s);
+  keys.hold(kStill_s);
   return keys.path();
 }
 

@@ -23,7 +23,9 @@ haptics::LedPath gripAndRock(const HandPose& from, const glm::dvec3& outside_P_m
                              const glm::dquat& R_PT);
 inline constexpr double kRocks_s = 12.0;
 
-/// Closed, along the way out from where hand and piece are now, then open and away.
-haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X_PQ, const DeliveryStep& step);
+/// Closed, along the way out from where hand and piece are now, then out of the mouth to `laid_P_mm`, and open there:
+/// left over the socket, a piece would be in the way of the next instrument's shank.
+haptics::LedPath takeOut(const HandPose& hand, const haptics::PiecePose& piece_X_PQ, const DeliveryStep& step,
+                         const glm::dvec3& outside_P_mm, const glm::dvec3& laid_P_mm);
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "app/procedure/third_molar/cleaning_path.h"
@@ -22,7 +23,8 @@ constexpr double kGutter_mm_per_s = 28.0, kCut_mm_per_s = 25.0;  ///< where noth
 /// Means of ways that begin and end at rest: at most 94 mm/s, as hands go with a bur in them.
 constexpr double kOver_mm_per_s = 60.0, kIn_mm_per_s = 40.0;
 constexpr const char* kAllDone = "the operation is done";
-constexpr double kOutside_mm = 45.0;  ///< from the site, along the line of sight: where tools are turned
+constexpr double kLaidAside_mm = 40.0;  ///< of there
+constexpr double kOutside_mm = 45.0;    ///< from the site, along the line of sight: where tools are turned
 
 HandPose handOf(const haptics::Tick& tick) { return tick.hand.X_PT; }
 
@@ -42,6 +44,15 @@ haptics::LedPath cutPath(assets::PlannedCut cut, const haptics::Tool& bur, doubl
 glm::dvec3 outsideOf(const assets::PlannedCut& cut) {
   const glm::dvec3 way = glm::length(cut.sight_P) > 0.0 ? cut.sight_P : cut.outward_P;
   return cut.surface_P_mm + kOutside_mm * glm::normalize(way);
+}
+
+/// Where a piece is laid down: outside, away from where handles point, so that no instrument meets it.
+glm::dvec3 laidAt(const glm::dvec3& outside_P_mm, const glm::dvec3& site_P_mm, const glm::dvec3& handle_P) {
+  const glm::dvec3 sight = glm::normalize(outside_P_mm - site_P_mm);
+  glm::dvec3 off = handle_P - glm::dot(handle_P, sight) * sight;
+  if (glm::length(off) < 1e-3)
+    off = glm::cross(sight, std::abs(sight.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+  return outside_P_mm - kLaidAside_mm * glm::normalize(off);
 }
 
 HandPose startOf(const haptics::LedPath& path) {
@@ -236,7 +247,8 @@ std::optional<ControlRequest> Demonstration::follow(const Frame& frame) {
       const DeliveryStep& step = std::get<DeliveryStep>(step_.what);
       const bool is_loose = tick.gripped == step.piece + 1 && tick.torn_share >= haptics::kLooseShare;
       if (!is_loose && !hand_.hasArrived()) return {};
-      lead(takeOut(handOf(tick), tick.X_PQ[step.piece], step));
+      lead(takeOut(handOf(tick), tick.X_PQ[step.piece], step, outside_P_mm_,
+                   laidAt(outside_P_mm_, gutter_.surface_P_mm, forceps_R_PT_ * glm::dvec3(0.0, 0.0, 1.0))));
       enter(Phase::working, frame);
       return {};
     }

@@ -80,7 +80,8 @@ TEST(CleaningPlan, ScrapesAlongTheWallBesideEachBlob) {
   const SocketReach reach = bone.reach();
   for (const CleaningPlace& place : stepOf(step).places) {
     ASSERT_EQ(place.into_P.size(), 1u);
-    const glm::dvec3 middle = place.way_P_mm.front() - kCurette_mm * place.into_P.front();
+    const glm::dvec3 foot = 0.5 * (place.way_P_mm.front() + place.way_P_mm.back());
+    const glm::dvec3 middle = foot - kCurette_mm * place.into_P.front();
     const TipPlace tip = reach.placeAt(middle, place.shaft_P);
     EXPECT_NEAR(tip.wall_mm, kCurette_mm, 0.2) << "it touches";
     EXPECT_GT(glm::dot(place.into_P.front(), -tip.wall_P), 0.9) << "and is pressed on the wall";
@@ -177,8 +178,8 @@ TEST(CleaningPath, PressesOnTheWallAndTurnsTheHandleClear) {
     }
   }
   EXPECT_GT(handle, 0.0);
-  EXPECT_NEAR(least_x_mm, 1.0, 0.05) << "the tip's middle, its surface beyond the wall";
-  EXPECT_GT(path.patient_mm, 1.2) << "pressed, it does not wait";
+  EXPECT_NEAR(least_x_mm, 0.2, 0.05) << "the tip's middle, its surface 2 mm beyond the wall";
+  EXPECT_GT(path.patient_mm, 2.0) << "pressed, it does not wait";
 }
 
 }  // namespace
