@@ -10,7 +10,7 @@ namespace {
 constexpr double kOverSite_mm = 16.0,
                  kOverCrown_mm = 14.0;  // of a place: out of the socket; past the next tooth's crown
 constexpr double kTravels_mm_per_s = 90.0, kNears_mm_per_s = 60.0, kDraws_mm_per_s = 36.0, kTurns_rad_per_s = 3.0;
-constexpr double kSucks_s = 0.8, kConfirms_s = 0.5;
+constexpr double kSucks_s = 0.6, kConfirms_s = 0.5;
 constexpr double kScrapes_mm = 2.0, kFiles_mm = 1.3;  ///< pressed beyond the surface
 constexpr double kLifts_mm = 0.4;                     ///< off it, before and after
 constexpr double kGives_mm = 0.3;                     ///< and no slower for it, nor for so much more
