@@ -18,6 +18,7 @@ void addFeel(CommandLine& molar);
 void addCarve(CommandLine& molar);
 void addClearance(CommandLine& molar);
 void addSee(CommandLine& molar);
+void addRadiograph(CommandLine& molar);
 void addDisplay(CommandLine& molar);
 void addCalibrate(CommandLine& molar);
 void addDevices(CommandLine& molar);
@@ -46,10 +47,10 @@ void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
 inline constexpr auto kCommands = {
-    addRehearse, addStart,  addImport,   addInspect,       addCheck,     addPlan,    addClearance,
-    addFeel,     addCarve,  addSee,      addDisplay,       addCalibrate, addDevices, addDoctor,
-    addDebrief,  addReplay, addMetrics,  addReport,        addCompare,   addTrend,   addReference,
-    addEvaluate, addStudy,  addSessions, addExport,        addPieces,    addFile,    addLaws,
-    addSeat,     addPage,   addVoice,    addPsychophysics, addHelp,      addManual,  addCompletion};
+    addRehearse,      addStart,   addImport,     addInspect,   addCheck,     addPlan,      addClearance, addFeel,
+    addCarve,         addSee,     addRadiograph, addDisplay,   addCalibrate, addDevices,   addDoctor,    addDebrief,
+    addReplay,        addMetrics, addReport,     addCompare,   addTrend,     addReference, addEvaluate,  addStudy,
+    addSessions,      addExport,  addPieces,     addFile,      addLaws,      addSeat,      addPage,      addVoice,
+    addPsychophysics, addHelp,    addManual,     addCompletion};
 
 }  // namespace app

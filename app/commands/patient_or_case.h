@@ -14,6 +14,7 @@ class PatientOrCase {
   void addTo(CommandLine& command);
   /// Throws UsageError unless exactly one was given; `command` begins its line.
   void refuseUnlessOne(const std::string& command) const;
+  bool isGiven() const { return !patient_.empty() || !case_name_.empty(); }
   /// As given, for messages: "--case usual".
   std::string name() const;
   /// Some seconds where the built-in patient has to be made. Throws UsageError, assets::LoadError.

@@ -7,15 +7,16 @@
 
 #include "app/case/arch_curve.h"
 #include "app/report/drawing.h"
+#include "app/view/film_marks.h"
 
 namespace app {
 namespace {
 
-constexpr double kPixel_mm = 0.25, kScale_mm = 10.0, kText_px = 13.0;
+constexpr double kPixel_mm = 0.25;
 constexpr double kShortest_px = 0.2;  ///< piece of the canal whose direction in the image is known
 /// The layer averages bone with soft tissue and air: a window below that of the slices. HU.
 constexpr float kLowest_HU = -500.0f, kHighest_HU = 1300.0f;
-constexpr Ink kCanal = inkOf(0xfacd3c), kBur = inkOf(0x5ae1ff), kLabel = inkOf(0xe1e8eb), kRim = inkOf(0x0e1012);
+constexpr Ink kCanal = inkOf(0xfacd3c), kBur = inkOf(0x5ae1ff);
 
 render::Image greyImage(const assets::Panoramic& view) {
   render::Image image{view.size_px.x, view.size_px.y, {}};
@@ -26,13 +27,6 @@ render::Image greyImage(const assets::Panoramic& view) {
     image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});
   }
   return image;
-}
-
-/// Legible on bone and on air.
-void label(const Drawing& drawing, const std::string& words, const glm::dvec2& at, Align align) {
-  for (const glm::dvec2 offset : {glm::dvec2(-1, 0), glm::dvec2(1, 0), glm::dvec2(0, -1), glm::dvec2(0, 1)})
-    drawing.text(words, at + offset, kText_px, kRim, align, true);
-  drawing.text(words, at, kText_px, kLabel, align, true);
 }
 
 }  // namespace
@@ -76,14 +70,10 @@ render::Image PanoramicPicture::image(double zoom, const std::optional<glm::dvec
     }
 
   // An end in the other half of the jaw has no letter.
-  if (view_.columns_P_mm.front().x < 0.0) label(drawing, "R", {10.0, 0.5 * size.y}, Align::left);
-  if (view_.columns_P_mm.back().x > 0.0) label(drawing, "L", {size.x - 10.0, 0.5 * size.y}, Align::right);
-  label(drawing, "panoramic view, as scanned", {10.0, 14.0}, Align::left);
-  const double scale_px = zoom * kScale_mm / view_.pixel_mm;
-  const glm::dvec2 from{size.x - 12.0 - scale_px, size.y - 12.0}, to = from + glm::dvec2(scale_px, 0.0);
-  drawing.line(from, to, 4.0, kRim);
-  drawing.line(from, to, 2.0, kLabel);
-  label(drawing, "10 mm", from - glm::dvec2(8.0, 0.0), Align::right);
+  if (view_.columns_P_mm.front().x < 0.0) filmLabel(drawing, "R", {10.0, 0.5 * size.y}, Align::left);
+  if (view_.columns_P_mm.back().x > 0.0) filmLabel(drawing, "L", {size.x - 10.0, 0.5 * size.y}, Align::right);
+  filmLabel(drawing, "panoramic view, as scanned", {10.0, 14.0}, Align::left);
+  filmScale(drawing, size, zoom / view_.pixel_mm, "10 mm");
   return drawing.picture();
 }
 
