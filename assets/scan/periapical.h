@@ -1,8 +1,9 @@
 // A periapical radiograph: what a film behind the tooth would show of a volume as it is now, in frame P, mm. Parallel
 // technique: the film along the tooth, the tube 300 mm away on the cheek's side, turned about the tooth towards mesial
 // for the tube shift that parts two canals of one root. Line integrals by Joseph's method (planes across the beam,
-// bilinear in each; Joseph 1982, IEEE TMI 1:192). Pure; any thread; some 30 ms on one thread for 41 x 31 mm at 0.1 mm.
-// Attenuations are ratios to cortical bone at the voltages of dental tubes, our own defaults, no measurement.
+// bilinear in each; Joseph 1982, IEEE TMI 1:192). Pure; any thread; some 50 ms on one thread for 41 x 31 mm at 0.1 mm
+// (radiograph_bench). Attenuations are ratios to cortical bone at the voltages of dental tubes, our own defaults, no
+// measurement.
 #pragma once
 
 #include <cstdint>
