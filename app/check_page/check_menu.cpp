@@ -89,7 +89,7 @@ void CheckMenu::choose(CheckTool tool) {
   pending_.clear();
   begins_canal_ = true;
   number_ = 0;
-  asks_ = false;
+  asks_ = asks_review_ = false;
   // The brush begins with the tooth that is looked at.
   if (tool == CheckTool::brush && selected_ < rows_.size() && rows_[selected_].fdi != 0)
     brush_.as = static_cast<std::uint8_t>(rows_[selected_].fdi);
@@ -149,6 +149,7 @@ void CheckMenu::refuse(const CheckRow& row) {
 
 CheckMenu::Answer CheckMenu::act(CheckAction action) {
   asks_ = false;
+  const bool asked_review = std::exchange(asks_review_, false);
   pending_.clear();
   begins_canal_ = true;
   switch (action) {
@@ -173,12 +174,18 @@ CheckMenu::Answer CheckMenu::act(CheckAction action) {
         return Answer::none;
       }
       return Answer::save;
+    case CheckAction::reviewed:
+      if (asked_review) return Answer::reviewed;
+      asks_review_ = true;
+      say("You looked at all pictures of this scan and they name nobody? Press again to say so", true);
+      return Answer::none;
   }
   return Answer::none;
 }
 
 CheckMenu::Answer CheckMenu::take(const render::KeyPressed& key) {
   if (!key.down) return Answer::none;
+  asks_review_ = false;
   if (key.control && key.key == render::keyOf('Z')) return act(key.shift ? CheckAction::redo : CheckAction::undo);
   if (key.control && key.key == render::keyOf('Y')) return act(CheckAction::redo);
   if (key.control && key.key == render::keyOf('S')) return act(CheckAction::save);
@@ -202,7 +209,7 @@ CheckMenu::Answer CheckMenu::take(const render::KeyPressed& key) {
 void CheckMenu::type(char32_t letter) {
   if (letter > 126) return;
   const char small = static_cast<char>(std::tolower(static_cast<int>(letter)));
-  asks_ = false;
+  asks_ = asks_review_ = false;
   if (tool_ == CheckTool::number && std::isdigit(static_cast<unsigned char>(small)) != 0) {
     number_ = number_ >= 10 ? small - '0' : 10 * number_ + (small - '0');
     return;
@@ -251,7 +258,7 @@ void CheckMenu::clickCanal(const glm::dvec3& p_P_mm, bool is_right) {
 }
 
 void CheckMenu::clickAt(const glm::dvec3& p_P_mm, bool is_right) {
-  asks_ = false;
+  asks_ = asks_review_ = false;
   cursor_P_mm_ = p_P_mm;
   if (tool_ == CheckTool::look) return say("", false);
   if (tool_ == CheckTool::canal) return clickCanal(p_P_mm, is_right);

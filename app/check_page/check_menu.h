@@ -63,8 +63,9 @@ struct CheckRow {
 };
 
 /// The buttons that are no tools.
-enum class CheckAction : std::uint8_t { confirm, refuse, undo, redo, save };
-inline constexpr std::array<const char*, 5> kCheckActions{"Confirm", "Refuse", "Undo", "Redo", "Save"};
+enum class CheckAction : std::uint8_t { confirm, refuse, undo, redo, save, reviewed };
+inline constexpr std::array<const char*, 6> kCheckActions{"Confirm", "Refuse", "Undo",
+                                                          "Redo",    "Save",   "Pictures reviewed"};
 
 /// What the brush does.
 struct BrushChoice {
@@ -76,7 +77,7 @@ std::string paintName(std::uint8_t as);
 
 class CheckMenu {
  public:
-  enum class Answer : std::uint8_t { none, save, leave, discard };
+  enum class Answer : std::uint8_t { none, save, reviewed, leave, discard };
 
   /// `may_edit`: the program found the jaw; else it came with its labels and is only looked at. `saved`: what the
   /// patient was made with.
@@ -143,7 +144,7 @@ class CheckMenu {
   std::size_t selected_ = 0;
   glm::dvec3 cursor_P_mm_{0.0};
   std::string message_;
-  bool is_trouble_ = false, asks_ = false, is_busy_ = false, is_cursor_right_ = true;
+  bool is_trouble_ = false, asks_ = false, asks_review_ = false, is_busy_ = false, is_cursor_right_ = true;
 };
 
 /// Of what was found. Teeth from the right to the left, pieces without a number, what was refused, canals.

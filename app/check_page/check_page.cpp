@@ -58,12 +58,8 @@ Box toolBox(std::size_t tool, glm::ivec2 window_px) {
   return {{kGap_px + static_cast<double>(tool % 2) * (width + kGap_px), top}, {width, kButton_px}};
 }
 
-/// Confirm and refuse, undo and redo, save below them.
-Box actionBox(std::size_t action, glm::ivec2 window_px) {
-  Box box = toolBox(kCheckTools.size() + action, window_px);
-  if (action == 4) box.size.x = kPanelWidth_px - 2.0 * kGap_px;
-  return box;
-}
+/// Confirm and refuse, undo and redo, save and what is said of the pictures.
+Box actionBox(std::size_t action, glm::ivec2 window_px) { return toolBox(kCheckTools.size() + action, window_px); }
 
 Box rowBox(std::size_t shown) {
   return {{kGap_px, kTitle_px + kRow_px * static_cast<double>(shown)}, {kPanelWidth_px - 2.0 * kGap_px, kRow_px}};
@@ -263,7 +259,8 @@ render::Image CheckPage::picture(const CheckMenu& menu, const std::vector<assets
   }
   for (std::size_t n = 0; n < kCheckActions.size(); ++n) {
     const auto action = static_cast<CheckAction>(n);
-    const bool is_dim = !menu.mayEdit() || (action == CheckAction::undo && menu.edits().done() == 0) ||
+    const bool is_dim = (!menu.mayEdit() && action != CheckAction::reviewed) ||
+                        (action == CheckAction::undo && menu.edits().done() == 0) ||
                         (action == CheckAction::redo && menu.edits().undone() == 0) ||
                         (action == CheckAction::save && !menu.isChanged());
     button(page, actionBox(n, window_px), kCheckActions[n], action == CheckAction::save && !is_dim, is_dim);

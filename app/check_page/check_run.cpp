@@ -18,6 +18,7 @@
 #include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/patient/statement_file.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/segment/cell_masks.h"
 #include "assets/toml_reader.h"
@@ -251,11 +252,22 @@ void CheckRun::save() {
   menu_.say("saving", false);
 }
 
+void CheckRun::review() {
+  try {
+    assets::reviewStatement(folder_);
+    menu_.say("deidentified.toml says now that a person has looked at the pictures", false);
+  } catch (const std::exception& error) {
+    menu_.say(calibration::withoutTemporaryNames(error.what()), true);
+  }
+  report_(menu_.message());
+}
+
 bool CheckRun::answer(CheckMenu::Answer answer) {
   is_changed_ = true;
   menu_.setSide(views_.isRight(menu_.cursor_P_mm()));
   if (answer == CheckMenu::Answer::leave) return false;
   if (answer == CheckMenu::Answer::save && !isBusy()) save();
+  if (answer == CheckMenu::Answer::reviewed) review();
   // Words on a canal change the lights alone.
   askIfChanged();
   showFound();

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "assets/patient/scan_origin_toml.h"
+#include "assets/patient/statement_file.h"
 #include "tests/app/check_page/phantom_patient.h"
 
 namespace app {
@@ -263,6 +265,33 @@ TEST_F(CheckRunTest, AFolderThatCannotBeReplacedStaysAsItWas) {
   EXPECT_TRUE(run->menu().isChanged());
   EXPECT_TRUE(std::filesystem::exists(folder_.path() + "/notes.txt"));
   EXPECT_FALSE(assets::loadPatient(folder_.path()).found->tooth);
+}
+
+TEST_F(CheckRunTest, ThePicturesAreReviewedByAButtonThatAsksFirst) {
+  // The machine's key lies in the test's folder.
+  const std::string config = folder_.path() + "_config", statement = folder_.path() + "/deidentified.toml";
+  setenv("XDG_CONFIG_HOME", config.c_str(), 1);
+  const std::string digest = assets::digestOfFile(folder_.path() + "/volume.vdb");
+  std::ofstream(statement) << assets::sealedStatement(assets::deidentificationStatement({}, digest));
+  const auto run = open(folder_.path());
+  // The last of the buttons, right of Save.
+  const glm::dvec2 button(220.0, kWindow_px.y - 47.0);
+  const auto is_reviewed = [&] { return assets::statementIn(folder_.path())->is_reviewed; };
+  clickOn(*run, button);
+  EXPECT_TRUE(run->menu().isTrouble()) << run->menu().message();
+  EXPECT_FALSE(is_reviewed());
+  // A key between is no second press.
+  press(*run, Key::down);
+  clickOn(*run, button);
+  EXPECT_FALSE(is_reviewed());
+  clickOn(*run, button);
+  EXPECT_TRUE(is_reviewed()) << run->menu().message();
+  EXPECT_FALSE(run->menu().isTrouble());
+  // One that was changed is refused in words.
+  std::ofstream(statement) << "# more\n" + assets::deidentificationStatement({}, digest);
+  clickOn(*run, button), clickOn(*run, button);
+  EXPECT_TRUE(run->menu().isTrouble()) << run->menu().message();
+  unsetenv("XDG_CONFIG_HOME");
 }
 
 TEST_F(CheckRunTest, TheScansStatementFollowsItsVolume) {
