@@ -39,11 +39,18 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
   if (const std::size_t at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
 }
 
+std::string sealTable(const calibration::TextSignature& signature) {
+  return std::string(kSealTable) + "public_key = " + quotedToml(signature.public_key) +
+         "\ned25519 = " + quotedToml(signature.signature) + '\n';
+}
+
 Seal sealOf(const std::string& text) {
   const std::size_t at = text.rfind(kSealTable);
   if (at == std::string::npos) return Seal::none;
   const std::string_view rest = std::string_view(text).substr(at);
   const calibration::TextSignature signature{valueOf(rest, "public_key"), valueOf(rest, "ed25519")};
+  // Nothing but the signature stands behind what it signs.
+  if (rest != sealTable(signature)) return Seal::broken;
   if (!calibration::isSignatureOf(std::string_view(text).substr(0, at), signature)) return Seal::broken;
   return calibration::isOfThisMachine(signature) ? Seal::of_this_machine : Seal::of_another_machine;
 }
@@ -66,8 +73,7 @@ std::string sealedStatement(std::string text) {
   if (const std::size_t at = text.rfind(kSealTable); at != std::string::npos) text.erase(at);
   const auto signature = calibration::signedByMachine(text);
   if (!signature) return text;
-  return text + std::string(kSealTable) + "public_key = " + quotedToml(signature->public_key) +
-         "\ned25519 = " + quotedToml(signature->signature) + '\n';
+  return text + sealTable(*signature);
 }
 
 std::optional<StatementFacts> statementIn(const std::string& folder) {
@@ -86,6 +92,9 @@ void reviewStatement(const std::string& folder) {
   if (!facts)
     throw LoadError(folder +
                     ": it has no deidentified.toml, as a patient of DICOM files has; there is nothing to review");
+  // A machine that can sign has signed what it made: there the signature was taken away.
+  if (facts->seal == Seal::none && calibration::signedByMachine({}))
+    throw LoadError(folder + ": its deidentified.toml carries no signature; import the scan again");
   if (facts->seal == Seal::broken || !facts->is_of_volume)
     throw LoadError(folder + ": its deidentified.toml was changed, or is of another volume; import the scan again");
   if (facts->is_reviewed) return;

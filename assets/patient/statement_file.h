@@ -23,7 +23,8 @@ std::string sealedStatement(std::string text);
 std::optional<StatementFacts> statementIn(const std::string& folder);
 
 /// A person has looked at all pictures: they name nobody. Throws LoadError: the folder has no statement, or one that
-/// was changed or is of another volume; CalibrationError: it cannot be written.
+/// was changed, is of another volume or has no signature though this machine can sign; CalibrationError: it cannot be
+/// written.
 void reviewStatement(const std::string& folder);
 
 /// SHA-256 of a file; hexadecimal digits.

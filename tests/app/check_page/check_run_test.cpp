@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -287,10 +288,15 @@ TEST_F(CheckRunTest, ThePicturesAreReviewedByAButtonThatAsksFirst) {
   clickOn(*run, button);
   EXPECT_TRUE(is_reviewed()) << run->menu().message();
   EXPECT_FALSE(run->menu().isTrouble());
-  // One that was changed is refused in words.
-  std::ofstream(statement) << "# more\n" + assets::deidentificationStatement({}, digest);
+  // One that was changed is refused in words; so is one without its signature.
+  std::ofstream(statement, std::ios::app) << "# more\n";
   clickOn(*run, button), clickOn(*run, button);
-  EXPECT_TRUE(run->menu().isTrouble()) << run->menu().message();
+  EXPECT_TRUE(run->menu().isTrouble());
+  EXPECT_NE(run->menu().message().find("was changed"), std::string::npos) << run->menu().message();
+  std::ofstream(statement) << assets::deidentificationStatement({}, digest);
+  clickOn(*run, button), clickOn(*run, button);
+  EXPECT_TRUE(run->menu().isTrouble());
+  EXPECT_NE(run->menu().message().find("no signature"), std::string::npos) << run->menu().message();
   unsetenv("XDG_CONFIG_HOME");
 }
 

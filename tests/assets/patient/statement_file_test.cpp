@@ -31,6 +31,13 @@ class Statement : public testing::Test {
     on_disk::write(text_, assets::sealedStatement(assets::deidentificationStatement({}, digest)));
   }
   assets::StatementFacts facts() const { return *assets::statementIn(folder_.at("patient")); }
+  /// In one line.
+  std::string refusal() const {
+    const std::string words =
+        tests::refusalOf<assets::LoadError>([&] { assets::reviewStatement(folder_.at("patient")); });
+    EXPECT_EQ(words.find('\n'), std::string::npos);
+    return words;
+  }
   void change(const std::string& from, const std::string& to) {
     std::string text = on_disk::read(text_);
     const std::size_t at = text.find(from);
@@ -77,6 +84,30 @@ TEST_F(Statement, AnyChangeIsSeen) {
               assets::reviewStatement(folder_.at("patient"));
             }).find("another volume"),
             std::string::npos);
+}
+
+TEST_F(Statement, WhatStandsBehindTheSignatureIsAChange) {
+  const std::string whole = on_disk::read(text_);
+  for (const char* more : {"\n", "# more\n", "reviewed = true\n", "\n[face]\nkept = true\n"}) {
+    on_disk::write(text_, whole + more);
+    EXPECT_EQ(facts().seal, Seal::broken) << more;
+    EXPECT_NE(refusal().find("was changed"), std::string::npos) << more;
+    EXPECT_EQ(on_disk::read(text_), whole + more);
+  }
+}
+
+TEST_F(Statement, WithoutItsSignatureIsReviewedOnlyWhereNoneCanBeMade) {
+  const std::string whole = on_disk::read(text_), bare = whole.substr(0, whole.find("\n[signature]\n"));
+  ASSERT_LT(bare.size(), whole.size());
+  on_disk::write(text_, bare);
+  EXPECT_EQ(facts().seal, Seal::none);
+  EXPECT_NE(refusal().find("carries no signature"), std::string::npos);
+  EXPECT_EQ(on_disk::read(text_), bare);
+  on_disk::write(folder_.at("blocked"), "a file");
+  setenv("XDG_CONFIG_HOME", folder_.at("blocked").c_str(), 1);
+  assets::reviewStatement(folder_.at("patient"));
+  EXPECT_TRUE(facts().is_reviewed);
+  EXPECT_EQ(facts().seal, Seal::none);
 }
 
 TEST_F(Statement, AnotherMachinesSealIsTold) {
