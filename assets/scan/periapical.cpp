@@ -120,7 +120,8 @@ Slab slabOf(const VolumeGrid& grid, std::span<const std::uint8_t> solid, std::sp
     slab.low[n] = from[axis] - border;
     slab.size[n] = end[axis] - from[axis] + 2 * border;
   }
-  slab.attenuation.assign(countIn(slab.size), 0.0f);
+  // A ray that grazes the last row may be rounded onto it: one row more is read, and is air.
+  slab.attenuation.assign(countIn(slab.size) + static_cast<std::size_t>(slab.size.x) + 1, 0.0f);
   std::array<std::size_t, 3> step{};  // in the slab, along each axis of the grid
   const std::array<std::size_t, 3> steps{1, static_cast<std::size_t>(slab.size.x),
                                          static_cast<std::size_t>(slab.size.x) * static_cast<std::size_t>(slab.size.y)};

@@ -13,7 +13,7 @@ constexpr double kTravels_mm_per_s = 90.0, kNears_mm_per_s = 60.0, kDraws_mm_per
 constexpr double kSucks_s = 0.6, kConfirms_s = 0.5;
 constexpr double kScrapes_mm = 2.0, kFiles_mm = 1.3;  ///< pressed beyond the surface
 constexpr double kLifts_mm = 0.4;                     ///< off it, before and after
-constexpr double kGives_mm = 0.3;                     ///< and no slower for it, nor for so much more
+constexpr double kGives_mm = 0.3;                     ///< beyond what is pressed, before the hand waits
 constexpr double kBeyondEnd_mm = 0.6;
 constexpr int kDraws = 2, kFileDraws = 3;
 

@@ -23,8 +23,8 @@ constexpr double kGutter_mm_per_s = 28.0, kCut_mm_per_s = 25.0;  ///< where noth
 /// Means of ways that begin and end at rest: at most 94 mm/s, as hands go with a bur in them.
 constexpr double kOver_mm_per_s = 60.0, kIn_mm_per_s = 40.0;
 constexpr const char* kAllDone = "the operation is done";
-constexpr double kLaidAside_mm = 40.0;  ///< of there
 constexpr double kOutside_mm = 45.0;    ///< from the site, along the line of sight: where tools are turned
+constexpr double kLaidAside_mm = 40.0;  ///< from that place to where a piece is laid down
 
 HandPose handOf(const haptics::Tick& tick) { return tick.hand.X_PT; }
 
