@@ -37,6 +37,7 @@ void addVoice(CommandLine& molar);
 void addStudy(CommandLine& molar);
 void addSessions(CommandLine& molar);
 void addExport(CommandLine& molar);
+void addTeeth(CommandLine& molar);
 void addPieces(CommandLine& molar);
 void addFile(CommandLine& molar);
 void addLaws(CommandLine& molar);
@@ -47,10 +48,10 @@ void addCompletion(CommandLine& molar);
 
 /// In the order of --help.
 inline constexpr auto kCommands = {
-    addRehearse,      addStart,   addImport,     addInspect,   addCheck,     addPlan,      addClearance, addFeel,
-    addCarve,         addSee,     addRadiograph, addDisplay,   addCalibrate, addDevices,   addDoctor,    addDebrief,
-    addReplay,        addMetrics, addReport,     addCompare,   addTrend,     addReference, addEvaluate,  addStudy,
-    addSessions,      addExport,  addPieces,     addFile,      addLaws,      addSeat,      addPage,      addVoice,
-    addPsychophysics, addHelp,    addManual,     addCompletion};
+    addRehearse, addStart,         addImport,     addInspect, addCheck,     addPlan,      addClearance, addFeel,
+    addCarve,    addSee,           addRadiograph, addDisplay, addCalibrate, addDevices,   addDoctor,    addDebrief,
+    addReplay,   addMetrics,       addReport,     addCompare, addTrend,     addReference, addEvaluate,  addStudy,
+    addSessions, addExport,        addPieces,     addTeeth,   addFile,      addLaws,      addSeat,      addPage,
+    addVoice,    addPsychophysics, addHelp,       addManual,  addCompletion};
 
 }  // namespace app

@@ -1,0 +1,26 @@
+// The teeth of a patient whose canals can be treated: their canals, or the reason why a tooth has none here. Frame P,
+// mm. Start-up only; some 0.2 s a tooth of the built-in patient.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/synthetic/jaw.h"
+#include "assets/tooth_canals.h"
+
+namespace app {
+
+struct CanalTooth {
+  int fdi = 0;
+  std::optional<assets::ToothCanals> canals;
+  std::string remark;  ///< why it has none, or what stands in the way
+};
+
+/// From the midline: canals in closed form.
+std::vector<CanalTooth> canalTeeth(const assets::JawParameters& jaw);
+
+/// For people: a line a canal.
+std::string canalTable(const std::vector<CanalTooth>& teeth);
+
+}  // namespace app
