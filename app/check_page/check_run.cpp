@@ -178,17 +178,17 @@ void CheckRun::askIfChanged() {
 
 void CheckRun::paintIfChanged() {
   if (stroke_.isDrawn()) return;
-  bool is_painted = false;
-  const bool could = painted_.follow(menu_.edits().clicks().voxels, [&](std::size_t v, assets::VoxelLabel now) {
-    views_.takeVoxel(v, now.label, now.tooth);
-    is_painted = true;
+  assets::CellBox changed = assets::noCells(views_.grid().size);
+  const bool could = painted_.follow(menu_.edits().clicks().voxels, [&](const glm::ivec3& ijk, assets::VoxelLabel now) {
+    views_.takeVoxel(ijk, now.label, now.tooth);
+    changed.take(ijk);
   });
   // What would have to be taken back was long ago: found anew, it is painted anew.
   if (!could && !search_->isBusy()) {
     shown_.reset();
     search_->ask(*asked_);
   }
-  if (is_painted) page_.forget();
+  page_.changed(changed);
 }
 
 void CheckRun::step() {
@@ -201,9 +201,8 @@ void CheckRun::step() {
         if (answer->halves) canal_.take(std::move(*answer->halves));
         painted_.take(std::move(answer->jaw));
         shown_ = std::move(answer->clicks);
-        painted_.follow(menu_.edits().clicks().voxels, [](std::size_t, assets::VoxelLabel) {});
-        views_.take(whatOf(found().label, found().tooth));
-        page_.forget();
+        painted_.follow(menu_.edits().clicks().voxels, [](const glm::ivec3&, assets::VoxelLabel) {});
+        page_.changed(views_.take(whatOf(found().label, found().tooth)));
         showFound();
         report_(fmt::format("shown: {} teeth, {} canals", found().teeth.size(), found().canals.size()));
       } else if (menu_.edits().done() > 0) {

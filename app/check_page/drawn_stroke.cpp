@@ -13,8 +13,13 @@ constexpr double kLeastStep = 0.2;
 
 }  // namespace
 
-PaintedJaw::Shown DrawnStroke::shown() {
-  return [this](std::size_t v, assets::VoxelLabel now) { views_.takeVoxel(v, now.label, now.tooth); };
+assets::CellBox DrawnStroke::show(const std::function<void(const PaintedJaw::Shown&)>& paint) {
+  assets::CellBox changed = assets::noCells(ct_.grid.size);
+  paint([&](const glm::ivec3& ijk, assets::VoxelLabel now) {
+    views_.takeVoxel(ijk, now.label, now.tooth);
+    changed.take(ijk);
+  });
+  return changed;
 }
 
 void DrawnStroke::begin(const ViewPlace& place, glm::ivec2 view_px) {
@@ -41,8 +46,7 @@ void DrawnStroke::dab(const glm::dvec3& p_P_mm) {
   if (way.size() >= kMostPoints) return;
   if (!way.empty() && glm::distance(way.back(), p_P_mm) < kLeastStep * stroke_->radius_mm) return;
   way.push_back(p_P_mm);
-  jaw_.dab(*stroke_, way.size() - 1, shown());
-  page_.forgetSlices();
+  page_.changed(show([&](const PaintedJaw::Shown& shown) { jaw_.dab(*stroke_, way.size() - 1, shown); }), true);
 }
 
 void DrawnStroke::moveTo(const glm::dvec2& at_view_px, glm::ivec2 view_px) {
@@ -53,16 +57,17 @@ bool DrawnStroke::end() {
   if (!stroke_) return false;
   const assets::BrushStroke stroke = *std::exchange(stroke_, std::nullopt);
   const bool is_one = menu_.addStroke(stroke);
-  is_one ? jaw_.endStroke(stroke) : jaw_.leaveStroke(shown());
-  page_.forget();
+  if (is_one) jaw_.endStroke(stroke);
+  page_.changed(show([&](const PaintedJaw::Shown& shown) {
+    if (!is_one) jaw_.leaveStroke(shown);
+  }));
   return is_one;
 }
 
 void DrawnStroke::leave() {
   if (!stroke_) return;
   stroke_.reset();
-  jaw_.leaveStroke(shown());
-  page_.forget();
+  page_.changed(show([&](const PaintedJaw::Shown& shown) { jaw_.leaveStroke(shown); }));
 }
 
 }  // namespace app

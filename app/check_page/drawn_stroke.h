@@ -2,6 +2,7 @@
 // edit when it ends. Frame P, mm. Main thread; a dab of 1.5 mm 0.1 ms at 0.35 mm.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "app/check_page/check_menu.h"
@@ -26,7 +27,8 @@ class DrawnStroke {
 
  private:
   void dab(const glm::dvec3& p_P_mm);
-  PaintedJaw::Shown shown();
+  /// What `paint` changes goes into the views; around it.
+  assets::CellBox show(const std::function<void(const PaintedJaw::Shown&)>& paint);
 
   CheckMenu& menu_;
   PaintedJaw& jaw_;

@@ -2,6 +2,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -9,31 +10,21 @@
 #include <utility>
 
 #include "app/case/arch_curve.h"
-#include "assets/segment/cell_masks.h"
+#include "app/check_page/slice_picture.h"
+#include "app/check_page/solid_picture.h"
 #include "assets/tooth.h"
-#include "assets/trilinear.h"
 
 namespace app {
 namespace {
 
-constexpr double kSliceHeight_mm = 56.0, kAxialHeight_mm = 76.0, kSolidHeight_mm = 82.0, kSolidReach_mm = 90.0,
-                 kPanoramic_mm = 0.25;
-constexpr double kTint = 0.16, kOutline = 0.9, kBoneShare = 0.5;
+constexpr double kSliceHeight_mm = 56.0, kAxialHeight_mm = 76.0, kSolidHeight_mm = 82.0, kPanoramic_mm = 0.25;
 constexpr double kMostSlope = 0.6;
-constexpr int kBrick = 8;
+/// From the curve of the panoramic view, where teeth are looked for, in this order.
+constexpr std::array kAcross_mm{0.0, -1.5, 1.5, -3.0, 3.0, -4.5, 4.5, -6.0, 6.0};
+/// Around what changed: a surface is lit by what lies two voxels around it.
+constexpr int kLitBy_voxels = 4, kPixelsAround = 2;
 
 std::uint8_t byteOf(double value) { return static_cast<std::uint8_t>(std::clamp(value + 0.5, 0.0, 255.0)); }
-
-/// Distance to the next face of a cell of `edge` along a direction, in the same unit.
-double toNextCell(const glm::dvec3& at, const glm::dvec3& direction, double edge) {
-  double least = edge * 2.0;
-  for (int a = 0; a < 3; ++a) {
-    if (std::abs(direction[a]) < 1e-9) continue;
-    const double low = std::floor(at[a] / edge) * edge;
-    least = std::min(least, ((direction[a] > 0.0 ? low + edge : low) - at[a]) / direction[a]);
-  }
-  return std::max(least, 0.0);
-}
 
 /// Between the teeth of both sides, or beyond those of the one that there is.
 double midlineOf(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& what) {
@@ -46,6 +37,43 @@ double midlineOf(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>
   if (right < -1e8 && left > 1e8) return grid.centre_P_mm(grid.size / 2).x;
   if (right < -1e8) return left;
   return left > 1e8 ? right : 0.5 * (right + left);
+}
+
+/// Around the cells that differ.
+assets::CellBox boxOfDifference(glm::ivec3 size, const std::vector<std::uint8_t>& a,
+                                const std::vector<std::uint8_t>& b) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<int>(0, size.z), assets::noCells(size),
+      [&](const tbb::blocked_range<int>& layers, assets::CellBox box) {
+        for (int k = layers.begin(); k < layers.end(); ++k)
+          for (int j = 0; j < size.y; ++j) {
+            const auto first = static_cast<std::ptrdiff_t>(assets::indexIn(size, {0, j, k}));
+            const auto row = a.begin() + first, end = row + size.x, other = b.begin() + first;
+            const auto from = std::mismatch(row, end, other).first;
+            if (from == end) continue;
+            int last = size.x - 1;
+            while (row[last] == other[last]) --last;
+            box.low = glm::min(box.low, glm::ivec3(static_cast<int>(from - row), j, k));
+            box.end = glm::max(box.end, glm::ivec3(last, j, k) + 1);
+          }
+        return box;
+      },
+      [](const assets::CellBox& left, const assets::CellBox& right) {
+        return assets::CellBox{glm::min(left.low, right.low), glm::max(left.end, right.end)};
+      });
+}
+
+/// Black, as large as that.
+render::Image blackImage(glm::ivec2 px) {
+  render::Image image{px.x, px.y, std::vector<std::uint8_t>(4 * assets::countIn({px, 1}), 0)};
+  for (std::size_t n = 3; n < image.rgba.size(); n += 4) image.rgba[n] = 255;
+  return image;
+}
+
+PixelBox within(const glm::dvec2& low, const glm::dvec2& high, glm::ivec2 px) {
+  const glm::dvec2 none(0.0), all(px);
+  return {glm::ivec2(glm::clamp(glm::floor(low) - double{kPixelsAround}, none, all)),
+          glm::ivec2(glm::clamp(glm::ceil(high) + double{kPixelsAround}, none, all))};
 }
 
 }  // namespace
@@ -128,29 +156,20 @@ JawViews::JawViews(const assets::Patient& patient, std::vector<std::uint8_t> wha
     unrolled_ = assets::panoramicOf(patient.ct, curve_P_mm_, kPanoramic_mm);
   }
   midline_x_P_mm_ = midlineOf(grid, what_);
-  findBricks();
+  bricks_.find(grid, what_);
 }
 
-void JawViews::take(std::vector<std::uint8_t> what) {
+assets::CellBox JawViews::take(std::vector<std::uint8_t> what) {
+  const assets::CellBox changed = boxOfDifference(grid().size, what_, what);
   what_ = std::move(what);
-  findBricks();
+  bricks_.find(grid(), what_);
+  return changed;
 }
 
-void JawViews::takeVoxel(std::size_t v, std::uint8_t label, std::uint8_t tooth) {
-  what_[v] = whatOf(label, tooth);
-  if (what_[v] == 0) return;
-  is_used_[assets::indexIn(grid().bricks(), assets::elementAt(grid().size, v) / kBrick)] = 1;
-}
-
-void JawViews::findBricks() {
-  const glm::ivec3 bricks = grid().bricks();
-  is_used_.assign(assets::countIn(bricks), 0);
-  tbb::parallel_for(0, bricks.z, [&](int brick) {
-    const int end = std::min(grid().size.z, kBrick * (brick + 1));
-    assets::forVoxels({0, 0, kBrick * brick}, {grid().size.x, grid().size.y, end}, [&](glm::ivec3 ijk) {
-      if (what_[grid().index(ijk)] != 0) is_used_[assets::indexIn(bricks, ijk / kBrick)] = 1;
-    });
-  });
+void JawViews::takeVoxel(const glm::ivec3& ijk, std::uint8_t label, std::uint8_t tooth) {
+  std::uint8_t& here = what_[grid().index(ijk)];
+  here = whatOf(label, tooth);
+  bricks_.add(ijk, here);
 }
 
 std::uint8_t JawViews::whatAt(const glm::dvec3& p_P_mm) const {
@@ -196,72 +215,6 @@ JawViews::Plane JawViews::planeOf(JawView view, const glm::dvec3& cursor_P_mm, c
   return plane;
 }
 
-render::Image JawViews::slice(const Plane& plane, const GreyRange& range, glm::ivec2 px) const {
-  const assets::VolumeGrid& voxels = grid();
-  const std::int16_t* const hounsfield = patient_.ct.hounsfield.data();
-  render::Image image{px.x, px.y, std::vector<std::uint8_t>(4 * assets::countIn({px, 1}), 255)};
-  // In voxels: of the first pixel's middle, and a step to the right and down.
-  const glm::vec3 first(voxels.indexFromPoint(plane.at({0.5, 0.5}))),
-      right(plane.pixel_mm / voxels.spacing_mm * plane.right_P),
-      down(plane.pixel_mm / voxels.spacing_mm * plane.down_P);
-  const glm::ivec3 size = voxels.size;
-  const auto row = static_cast<std::ptrdiff_t>(size.x), layer = row * size.y;
-  const auto at = [&](int x, int y) { return first + static_cast<float>(x) * right + static_cast<float>(y) * down; };
-  const auto below = [](float v) { return static_cast<int>(std::floor(v)); };
-
-  const std::size_t width = static_cast<std::size_t>(px.x) + 1;
-  std::vector<std::uint8_t> what(width * (static_cast<std::size_t>(px.y) + 1));
-  tbb::parallel_for(0, px.y + 1, [&](int y) {
-    std::uint8_t* const out = what.data() + static_cast<std::size_t>(y) * width;
-    for (int x = 0; x <= px.x; ++x) {
-      const glm::vec3 p = at(x, y) + 0.5F;
-      const int i = below(p.x), j = below(p.y), k = below(p.z);
-      const bool is_in = i >= 0 && j >= 0 && k >= 0 && i < size.x && j < size.y && k < size.z;
-      out[x] = is_in ? what_[static_cast<std::size_t>(i + row * j + layer * k)] : std::uint8_t{0};
-    }
-  });
-  const auto is_other = [](std::uint8_t a, std::uint8_t b) {
-    return a != b && ((a != 0 && a != kBoneVoxel) || (b != 0 && b != kBoneVoxel));
-  };
-  const float low_hu = static_cast<float>(range.low_hu),
-              per_hu = 255.0F / static_cast<float>(range.high_hu - range.low_hu);
-  tbb::parallel_for(0, px.y, [&](int y) {
-    std::uint8_t* out = image.rgba.data() + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(px.x);
-    const std::uint8_t* const here_row = what.data() + static_cast<std::size_t>(y) * width;
-    for (int x = 0; x < px.x; ++x, out += 4) {
-      const glm::vec3 p = at(x, y);
-      const int i = below(p.x), j = below(p.y), k = below(p.z);
-      float hu = -1000.0F;
-      if (i >= 0 && j >= 0 && k >= 0 && i + 1 < size.x && j + 1 < size.y && k + 1 < size.z) {
-        const std::int16_t* const v = hounsfield + (i + row * j + layer * k);
-        const float u = p.x - static_cast<float>(i), w = p.y - static_cast<float>(j), t = p.z - static_cast<float>(k);
-        const auto along = [u](const std::int16_t* a) {
-          return static_cast<float>(a[0]) + u * static_cast<float>(a[1] - a[0]);
-        };
-        const float near = along(v) + w * (along(v + row) - along(v)),
-                    far = along(v + layer) + w * (along(v + layer + row) - along(v + layer));
-        hu = near + t * (far - near);
-      }
-      const float grey = std::clamp(per_hu * (hu - low_hu), 0.0F, 255.0F);
-      const std::uint8_t here = here_row[x], beside = here_row[x + 1],
-                         under = here_row[static_cast<std::size_t>(x) + width];
-      const bool is_tooth = here != 0 && here != kBoneVoxel;
-      if (!is_tooth && here == beside && here == under) {
-        out[0] = out[1] = out[2] = static_cast<std::uint8_t>(grey + 0.5F);
-        continue;
-      }
-      glm::dvec3 colour(grey);
-      if (is_tooth) colour = glm::mix(colour, colourOf(here), kTint);
-      if (is_other(here, beside) || is_other(here, under)) {
-        const std::uint8_t owner = is_tooth ? here : is_other(here, beside) ? beside : under;
-        colour = glm::mix(colour, colourOf(owner), kOutline);
-      }
-      for (int c = 0; c < 3; ++c) out[c] = byteOf(colour[c]);
-    }
-  });
-  return image;
-}
-
 double JawViews::panoramicScale(glm::ivec2 px) const {
   const glm::dvec2 size(unrolled_.size_px);
   return std::min(px.x / size.x, px.y / size.y);
@@ -287,118 +240,103 @@ std::optional<glm::dvec3> JawViews::inPanoramicAt(const glm::dvec2& at_px, glm::
   const glm::dvec2 along = unrolled_.columns_P_mm[column + 1] - unrolled_.columns_P_mm[column - 1];
   const glm::dvec2 across = glm::dvec2(-along.y, along.x) / std::max(glm::length(along), 1e-9);
   const double z = unrolled_.top_P_mm - unrolled_.pixel_mm * (at.y);
-  for (const double away_mm : {0.0, -1.5, 1.5, -3.0, 3.0, -4.5, 4.5, -6.0, 6.0}) {
+  for (const double away_mm : kAcross_mm) {
     const glm::dvec3 p(on + away_mm * across, z);
     if (const std::uint8_t what = whatAt(p); what != 0 && what != kBoneVoxel) return p;
   }
   return needs_tooth ? std::nullopt : std::optional(glm::dvec3(on, z));
 }
 
-render::Image JawViews::panoramic(const GreyRange& range, glm::ivec2 px) const {
-  render::Image image{px.x, px.y, std::vector<std::uint8_t>(4 * assets::countIn({px, 1}), 0)};
-  for (std::size_t n = 3; n < image.rgba.size(); n += 4) image.rgba[n] = 255;
-  if (unrolled_.hounsfield.empty()) return image;
+void JawViews::drawPanoramic(const GreyRange& range, const PixelBox& box, render::Image& image) const {
+  if (unrolled_.hounsfield.empty()) return;
+  const glm::ivec2 px(image.w, image.h);
   const double scale = panoramicScale(px);
   const glm::dvec2 corner = 0.5 * (glm::dvec2(px) - scale * glm::dvec2(unrolled_.size_px));
   // The layer averages bone with soft tissue and air.
   const double low = range.low_hu - 250.0, high = 0.62 * range.high_hu;
-  tbb::parallel_for(0, px.y, [&](int y) {
-    for (int x = 0; x < px.x; ++x) {
+  tbb::parallel_for(box.low.y, box.end.y, [&](int y) {
+    for (int x = box.low.x; x < box.end.x; ++x) {
       const glm::ivec2 cell(glm::floor((glm::dvec2(x + 0.5, y + 0.5) - corner) / scale));
       if (glm::any(glm::lessThan(cell, glm::ivec2(0))) || glm::any(glm::greaterThanEqual(cell, unrolled_.size_px)))
         continue;
       const double hu = unrolled_.hounsfield[static_cast<std::size_t>(cell.y * unrolled_.size_px.x + cell.x)];
       glm::dvec3 colour(255.0 * std::clamp((hu - low) / (high - low), 0.0, 1.0));
       if (const auto p = inPanoramicAt(glm::dvec2(x + 0.5, y + 0.5), px, true))
-        colour = glm::mix(colour, colourOf(whatAt(*p)), 1.4 * kTint);
+        colour = glm::mix(colour, colourOf(whatAt(*p)), 1.4 * kToothTint);
       for (std::size_t c = 0; c < 3; ++c)
         image.rgba[4 * static_cast<std::size_t>(y * px.x + x) + c] = byteOf(colour[static_cast<int>(c)]);
     }
   });
-  return image;
 }
 
-// `from` and `step` in voxels, `step` a unit vector: the first tooth along the ray; the shade of bone before it.
-JawViews::Hit JawViews::along(const glm::dvec3& from, const glm::dvec3& step, double reach, float* bone_shade) const {
-  const glm::ivec3 size = grid().size, bricks = grid().bricks();
-  const auto normal_at = [&](glm::ivec3 at, bool of_tooth) {
-    glm::dvec3 out(0.0);
-    for (int k = -2; k <= 2; ++k)
-      for (int j = -2; j <= 2; ++j)
-        for (int i = -2; i <= 2; ++i) {
-          const glm::ivec3 ijk = at + glm::ivec3(i, j, k);
-          const std::uint8_t what = grid().contains(ijk) ? what_[grid().index(ijk)] : std::uint8_t{0};
-          if (of_tooth ? what == 0 || what == kBoneVoxel : what == 0) out += glm::dvec3(i, j, k);
-        }
-    return out / std::max(glm::length(out), 1e-9);
-  };
-  for (double t = 0.0; t < reach;) {
-    const glm::dvec3 at = from + t * step;
-    const glm::ivec3 cell(glm::floor(at + 0.5));
-    if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, size))) {
-      t += 1.0;
-      continue;
-    }
-    if (is_used_[assets::indexIn(bricks, cell / kBrick)] == 0) {
-      t += toNextCell(at + 0.5, step, kBrick) + 0.01;
-      continue;
-    }
-    const std::uint8_t what = what_[grid().index(cell)];
-    if (what != 0 && what != kBoneVoxel) return {grid().origin_P_mm + grid().spacing_mm * at, what};
-    if (what == kBoneVoxel && bone_shade != nullptr && *bone_shade < 0.0F)
-      *bone_shade = static_cast<float>(std::abs(glm::dot(normal_at(cell, false), step)));
-    t += 0.7;
+/// The columns that look near a box, and its height.
+PixelBox JawViews::panoramicBoxOf(const glm::dvec3& low_P_mm, const glm::dvec3& high_P_mm, glm::ivec2 px) const {
+  if (unrolled_.hounsfield.empty()) return {};
+  const double reach_mm = std::abs(kAcross_mm.back()) + grid().spacing_mm +
+                          0.5 * glm::distance(glm::dvec2(low_P_mm), glm::dvec2(high_P_mm));
+  const glm::dvec2 middle = 0.5 * glm::dvec2(low_P_mm + high_P_mm);
+  int first = unrolled_.size_px.x, last = -1;
+  for (int column = 0; column < unrolled_.size_px.x; ++column) {
+    if (glm::distance(unrolled_.columns_P_mm[static_cast<std::size_t>(column)], middle) > reach_mm) continue;
+    first = std::min(first, column), last = column;
   }
-  return {};
+  if (last < 0) return {};
+  const double scale = panoramicScale(px);
+  const glm::dvec2 corner = 0.5 * (glm::dvec2(px) - scale * glm::dvec2(unrolled_.size_px));
+  const auto row_of = [&](double z_P_mm) { return (unrolled_.top_P_mm - z_P_mm) / unrolled_.pixel_mm; };
+  return within(corner + scale * glm::dvec2(first, row_of(high_P_mm.z)),
+                corner + scale * glm::dvec2(last + 1, row_of(low_P_mm.z)), px);
 }
 
-render::Image JawViews::solid(const Plane& plane, glm::ivec2 px) const {
-  render::Image image{px.x, px.y, std::vector<std::uint8_t>(4 * assets::countIn({px, 1}), 255)};
-  const glm::dvec3 step = plane.normal_P();
-  tbb::parallel_for(0, px.y, [&](int y) {
-    for (int x = 0; x < px.x; ++x) {
-      float bone = -1.0F;
-      const glm::dvec3 from = grid().indexFromPoint(plane.at({x + 0.5, y + 0.5}) - kSolidReach_mm * step);
-      const Hit hit = along(from, step, 2.0 * kSolidReach_mm / grid().spacing_mm, &bone);
-      glm::dvec3 colour(13.0, 15.0, 18.0);
-      if (hit.what != 0) {
-        // The side that is lit is the one that is seen.
-        const glm::ivec3 cell(glm::floor(grid().indexFromPoint(hit.at_P_mm) + 0.5));
-        glm::dvec3 out(0.0);
-        for (int k = -2; k <= 2; ++k)
-          for (int j = -2; j <= 2; ++j)
-            for (int i = -2; i <= 2; ++i) {
-              const glm::ivec3 ijk = cell + glm::ivec3(i, j, k);
-              if (!grid().contains(ijk) || what_[grid().index(ijk)] != hit.what) out += glm::dvec3(i, j, k);
-            }
-        const double light = std::max(0.0, -glm::dot(out / std::max(glm::length(out), 1e-9), step));
-        colour = colourOf(hit.what) * (0.22 + 0.78 * light);
-      }
-      if (bone >= 0.0F)
-        colour = glm::mix(colour, colourOf(kBoneVoxel) * (0.15 + 0.6 * bone), kBoneShare * (1.1 - 0.6 * bone));
-      for (std::size_t c = 0; c < 3; ++c)
-        image.rgba[4 * static_cast<std::size_t>(y * px.x + x) + c] = byteOf(colour[static_cast<int>(c)]);
-    }
-  });
-  return image;
+PixelBox JawViews::shownIn(JawView view, const Plane& plane, const assets::CellBox& voxels, glm::ivec2 px) const {
+  const int around = view == JawView::solid ? kLitBy_voxels : 1;
+  const glm::dvec3 low_P_mm = grid().centre_P_mm(voxels.low - around),
+                   high_P_mm = grid().centre_P_mm(voxels.end + around);
+  if (view == JawView::panoramic) return panoramicBoxOf(low_P_mm, high_P_mm, px);
+  glm::dvec3 low(1e9), high(-1e9);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at =
+        plane.of({(corner & 1) != 0 ? high_P_mm.x : low_P_mm.x, (corner & 2) != 0 ? high_P_mm.y : low_P_mm.y,
+                  (corner & 4) != 0 ? high_P_mm.z : low_P_mm.z});
+    low = glm::min(low, at), high = glm::max(high, at);
+  }
+  if (view != JawView::solid && (low.z > 0.0 || high.z < 0.0)) return {};
+  return within(glm::dvec2(low), glm::dvec2(high), px);
+}
+
+void JawViews::draw(JawView view, const Plane& plane, const GreyRange& range, const PixelBox& box,
+                    render::Image& image) const {
+  if (view == JawView::panoramic)
+    drawPanoramic(range, box, image);
+  else if (view == JawView::solid)
+    SolidPicture(grid(), what_, bricks_).draw(plane, box, image);
+  else
+    drawSlice(patient_.ct, what_, plane, range, box, image);
 }
 
 render::Image JawViews::picture(JawView view, const glm::dvec3& cursor_P_mm, const SolidLook& look,
                                 const GreyRange& range, glm::ivec2 px) const {
-  if (view == JawView::panoramic) return panoramic(range, px);
+  render::Image image = blackImage(px);
+  draw(view, planeOf(view, cursor_P_mm, look, px), range, {glm::ivec2(0), px}, image);
+  return image;
+}
+
+bool JawViews::redraw(JawView view, const glm::dvec3& cursor_P_mm, const SolidLook& look, const GreyRange& range,
+                      const assets::CellBox& changed, render::Image& image) const {
+  const glm::ivec2 px(image.w, image.h);
   const Plane plane = planeOf(view, cursor_P_mm, look, px);
-  return view == JawView::solid ? solid(plane, px) : slice(plane, range, px);
+  const PixelBox box = shownIn(view, plane, changed, px);
+  if (box.isEmpty()) return false;
+  draw(view, plane, range, box, image);
+  return true;
 }
 
 std::optional<glm::dvec3> JawViews::pointAt(JawView view, const glm::dvec3& cursor_P_mm, const SolidLook& look,
                                             glm::ivec2 px, const glm::dvec2& at_px) const {
   if (view == JawView::panoramic) return inPanoramicAt(at_px, px, false);
   const Plane plane = planeOf(view, cursor_P_mm, look, px);
-  if (view != JawView::solid) return plane.at(at_px);
-  const glm::dvec3 step = plane.normal_P();
-  const Hit hit = along(grid().indexFromPoint(plane.at(at_px) - kSolidReach_mm * step), step,
-                        2.0 * kSolidReach_mm / grid().spacing_mm, nullptr);
-  return hit.what != 0 ? std::optional(hit.at_P_mm) : std::nullopt;
+  return view == JawView::solid ? SolidPicture(grid(), what_, bricks_).toothAt(plane, at_px)
+                                : std::optional(plane.at(at_px));
 }
 
 glm::dvec3 JawViews::nearestOf(std::uint8_t piece, const glm::dvec3& p_P_mm) const {

@@ -23,7 +23,7 @@ void PaintedJaw::change(std::size_t v, const glm::ivec3& ijk, assets::VoxelLabel
     if (to.tooth != 0) counts_.add(ijk, to.tooth, 1);
   }
   jaw_.label[v] = to.label, jaw_.tooth[v] = to.tooth;
-  shown(v, to);
+  shown(ijk, to);
 }
 
 void PaintedJaw::paint(const assets::VoxelEdit& edit, std::size_t first, assets::LabelChanges& changes,

@@ -17,7 +17,7 @@ class PaintedJaw {
  public:
   static constexpr std::size_t kMostKept_bytes = std::size_t{64} << 20;
   /// What a voxel has become.
-  using Shown = std::function<void(std::size_t voxel, assets::VoxelLabel now)>;
+  using Shown = std::function<void(const glm::ivec3& ijk, assets::VoxelLabel now)>;
 
   /// `ct` must outlive it.
   PaintedJaw(const assets::CtVolume& ct, assets::JawSegmentation stored, std::size_t most_bytes = kMostKept_bytes);

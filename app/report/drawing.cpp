@@ -220,6 +220,11 @@ void Drawing::image(const render::Image& picture, const glm::dvec2& corner, cons
   cairo_restore(pen());
 }
 
+void Drawing::layer(const Drawing& other, const glm::dvec2& corner) const {
+  cairo_set_source_surface(pen(), cairo_get_target(other.pen()), corner.x, corner.y);
+  cairo_paint(pen());
+}
+
 double Drawing::textWidth(const std::string& words, double height, bool bold) const {
   return sizeOf(layoutOf(words, height, bold || always_bold_)).x;
 }
@@ -310,26 +315,32 @@ void Drawing::save(calibration::OutputFile& file) const {
 
 render::Image Drawing::picture() const {
   cairo_surface_t* const surface = cairo_get_target(pen());
+  const glm::ivec2 px(cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+  render::Image picture{px.x, px.y, {}};
+  picture.rgba.resize(4 * static_cast<std::size_t>(px.x) * static_cast<std::size_t>(px.y));
+  copyTo(picture, glm::ivec2(0), px);
+  return picture;
+}
+
+void Drawing::copyTo(render::Image& picture, glm::ivec2 low, glm::ivec2 end) const {
+  cairo_surface_t* const surface = cairo_get_target(pen());
   cairo_surface_flush(surface);
   const bool opaque = cairo_image_surface_get_format(surface) == CAIRO_FORMAT_RGB24;
-  const int w = cairo_image_surface_get_width(surface), h = cairo_image_surface_get_height(surface);
   const int row_bytes = cairo_image_surface_get_stride(surface);
   const unsigned char* const rows = cairo_image_surface_get_data(surface);
-  render::Image picture{w, h, {}};
-  picture.rgba.resize(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
-  std::uint8_t* to = picture.rgba.data();
-  for (int y = 0; y < h; ++y) {
+  low = glm::max(low, glm::ivec2(0)), end = glm::min(end, glm::ivec2(picture.w, picture.h));
+  for (int y = low.y; y < end.y; ++y) {
     // Native-endian 0xAARRGGBB; the alpha of an opaque surface is undefined.
     const void* const row = rows + y * row_bytes;
-    const auto* pixel = static_cast<const std::uint32_t*>(row);
-    for (int x = 0; x < w; ++x, ++pixel, to += 4) {
+    const auto* pixel = static_cast<const std::uint32_t*>(row) + low.x;
+    std::uint8_t* to = picture.rgba.data() + 4 * (static_cast<std::ptrdiff_t>(y) * picture.w + low.x);
+    for (int x = low.x; x < end.x; ++x, ++pixel, to += 4) {
       to[0] = static_cast<std::uint8_t>(*pixel >> 16);
       to[1] = static_cast<std::uint8_t>(*pixel >> 8);
       to[2] = static_cast<std::uint8_t>(*pixel);
       to[3] = opaque ? 255 : static_cast<std::uint8_t>(*pixel >> 24);
     }
   }
-  return picture;
 }
 
 bool Drawing::isSvg() const { return cairo_surface_get_type(cairo_get_target(pen())) == CAIRO_SURFACE_TYPE_SVG; }

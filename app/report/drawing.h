@@ -68,6 +68,9 @@ class Drawing {
   /// An opaque picture, scaled to the box and smoothed; of SVG below all shapes.
   void image(const render::Image& picture, const glm::dvec2& corner, const glm::dvec2& size) const;
 
+  /// Pixels only: another drawing of pixels over this one, unscaled.
+  void layer(const Drawing& other, const glm::dvec2& corner) const;
+
   /// Width of one line.
   double textWidth(const std::string& words, double height, bool bold = false) const;
   /// One line; `at`: its left end, middle or right end, at half height.
@@ -85,6 +88,8 @@ class Drawing {
 
   /// Pixels only: a copy, premultiplied by its alpha.
   render::Image picture() const;
+  /// Pixels only: those from `low` to before `end` into a picture() of this drawing.
+  void copyTo(render::Image& picture, glm::ivec2 low, glm::ivec2 end) const;
   /// SVG only, called once: the element for a page. `description`: its label for screen readers.
   std::string markup(std::string_view description);
   /// Pixels only: writes a PNG and commits the file. Throws UsageError when it cannot be written.

@@ -20,11 +20,15 @@ struct CellBox {
   glm::ivec3 size() const { return end - low; }
   friend bool operator==(const CellBox&, const CellBox&) = default;
   bool isEmpty() const { return glm::any(glm::lessThanEqual(size(), glm::ivec3(0))); }
+  void take(const glm::ivec3& cell) { low = glm::min(low, cell), end = glm::max(end, cell + 1); }
   /// Larger on all sides, within a box of `size`.
   CellBox grown(int cells, glm::ivec3 size) const {
     return {glm::max(low - cells, glm::ivec3(0)), glm::min(end + cells, size)};
   }
 };
+
+/// Empty, to be grown by take() and by min and max.
+inline CellBox noCells(glm::ivec3 size) { return {size, glm::ivec3(0)}; }
 
 /// visit(ijk, index) over a whole box.
 template <class Visit>

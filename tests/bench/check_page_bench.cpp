@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   assets::JawFinder finder(phantom.grid, assets::greyToSearch(patient.ct));
   app::PaintedJaw painted(patient.ct, {});
   painted.take(finder.withClicks({}));
-  const auto show = [&](std::size_t v, assets::VoxelLabel now) { views.takeVoxel(v, now.label, now.tooth); };
+  const auto show = [&](const glm::ivec3& ijk, assets::VoxelLabel now) { views.takeVoxel(ijk, now.label, now.tooth); };
   for (const double radius_mm : {1.5, 5.0}) {
     assets::BrushStroke stroke;
     stroke.radius_mm = radius_mm, stroke.as = 48;

@@ -142,6 +142,37 @@ TEST_F(CheckRunTest, StrokesAndCutsMakeThePatientThatTheSameFileMakesAtImport) {
   EXPECT_EQ(voxelsOf(*again, 48), before);
 }
 
+/// What differs is drawn over the picture before: the same pixels as a page that is drawn whole.
+TEST_F(CheckRunTest, WhatChangedIsDrawnAsAWholePageIs) {
+  const auto run = open(folder_.path());
+  const auto expect_whole = [&](const char* after) {
+    const render::Image changed = run->picture(kWindow_px);
+    run->picture({1000, 700});
+    EXPECT_TRUE(changed.rgba == run->picture(kWindow_px).rgba) << after;
+  };
+  run->picture(kWindow_px);
+  const glm::dvec2 at = run->placeOf(JawView::axial, run->menu().cursor_P_mm(), kWindow_px);
+  type(*run, U'b'), type(*run, U'g'), type(*run, U'0');
+  run->handle(render::PointerMoved{at, {}, render::MouseButton::none}, kWindow_px);
+  run->handle(render::ButtonPressed{render::MouseButton::left, true}, kWindow_px);
+  for (int n = 1; n < 6; ++n) {
+    run->handle(render::PointerMoved{at + glm::dvec2(4.0 * n, 0.0), {}, render::MouseButton::left}, kWindow_px);
+    run->picture(kWindow_px);
+  }
+  run->handle(render::ButtonPressed{render::MouseButton::left, false}, kWindow_px);
+  expect_whole("a stroke");
+  press(*run, render::keyOf('Z'), true);
+  expect_whole("taking it back");
+  type(*run, U'-');
+  clickTooth(*run, 37);
+  run->finish();
+  expect_whole("a click");
+  press(*run, Key::down);
+  expect_whole("a row");
+  run->handle(render::WheelTurned{3.0}, kWindow_px);
+  expect_whole("another slice");
+}
+
 TEST_F(CheckRunTest, ACanalsEndIsDraggedAPointInsertedAndRemoved) {
   const auto run = open(folder_.path());
   while (run->menu().rows()[run->menu().selected()].kind != CheckRow::Kind::canal) press(*run, Key::down);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
+
 #include "tests/app/check_page/phantom_patient.h"
 
 namespace app {
@@ -62,6 +65,49 @@ TEST_F(JawViewsTest, TheBiteIsLevelInATiltedScan) {
   EXPECT_NEAR(flat.back_P.z, 0.0, 0.03);
   EXPECT_NEAR(axes.back_P.z / axes.back_P.y, 0.2, 0.03);
   EXPECT_NEAR(glm::dot(axes.up_P, axes.back_P), 0.0, 1e-9);
+}
+
+/// What a brush changes is drawn into a picture as if all of it were drawn anew, whatever bricks held before.
+TEST_F(JawViewsTest, APictureOfWhatChangedIsThatOfEverything) {
+  std::mt19937 random(5);
+  const auto below = [&random](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+  JawViews views(patient(), whatOf(patient().ct));
+  const assets::VolumeGrid& grid = patient().ct.grid;
+  constexpr glm::ivec2 kPx{160, 120};
+  const glm::dvec3 cursor = patient().focus_P_mm();
+  int drawn = 0;
+  for (int round = 0; round < 24; ++round) {
+    const JawView view = static_cast<JawView>(round % static_cast<int>(kJawViews));
+    const SolidLook look{0.3 * round, 0.35, round % 2 == 0 ? 1.0 : 2.0};
+    render::Image image = views.picture(view, cursor, look, {}, kPx);
+    // A ball near the operated tooth, and a voxel anywhere.
+    assets::CellBox changed = assets::noCells(grid.size);
+    const auto change = [&](const glm::ivec3& ijk) {
+      static constexpr std::array<std::uint8_t, 3> kLabels{0, 1, 5};
+      const std::uint8_t label = kLabels[static_cast<std::size_t>(below(3))];
+      views.takeVoxel(ijk, label, label == 5 ? 46 : 0);
+      changed.take(ijk);
+    };
+    const glm::dvec3 ball = cursor + glm::dvec3(below(9) - 4, below(9) - 4, below(9) - 4);
+    assets::forCellsNear(grid.indexFromPoint(ball), 0.5 + below(4), grid.spacing_mm, grid.size,
+                         [&](glm::ivec3 ijk, double) { change(ijk); });
+    if (round % 3 == 0) change({below(grid.size.x), below(grid.size.y), below(grid.size.z)});
+    drawn += views.redraw(view, cursor, look, {}, changed, image) ? 1 : 0;
+    EXPECT_TRUE(image.rgba == views.picture(view, cursor, look, {}, kPx).rgba) << round;
+    std::vector<std::uint8_t> what = views.what();
+    EXPECT_TRUE(views.take(std::move(what)).isEmpty());
+    EXPECT_TRUE(image.rgba == views.picture(view, cursor, look, {}, kPx).rgba) << round;
+  }
+  EXPECT_GT(drawn, 12);
+}
+
+TEST_F(JawViewsTest, OtherTeethDifferInABox) {
+  JawViews views(patient(), whatOf(patient().ct));
+  const assets::VolumeGrid& grid = patient().ct.grid;
+  std::vector<std::uint8_t> what = views.what();
+  for (const glm::ivec3 at : {glm::ivec3(20, 31, 9), glm::ivec3(17, 40, 12)})
+    what[grid.index(at)] = static_cast<std::uint8_t>(what[grid.index(at)] + 1);
+  EXPECT_EQ(views.take(std::move(what)), (assets::CellBox{{17, 31, 9}, {21, 41, 13}}));
 }
 
 TEST_F(JawViewsTest, DrawsEachTooth) {

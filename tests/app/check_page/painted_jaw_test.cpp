@@ -85,7 +85,7 @@ TEST_F(PaintedJawTest, FollowsAThousandEditsAndUndosAsAReplayOfTheLogDoes) {
   PaintedJaw jaw(ct_, {});
   jaw.take(found_);
   std::vector<std::uint8_t> seen = found_.tooth;
-  const auto show = [&seen](std::size_t v, assets::VoxelLabel now) { seen[v] = now.tooth; };
+  const auto show = [&](const glm::ivec3& ijk, assets::VoxelLabel now) { seen[ct_.grid.index(ijk)] = now.tooth; };
   CheckEdits edits;
   for (int n = 0; n < 1000; ++n) {
     const auto what = random() % 9;
@@ -118,16 +118,16 @@ TEST_F(PaintedJawTest, AStrokeDrawnDabByDabIsTheSameEdit) {
   drawn.as = 38, drawn.radius_mm = 2.0;
   for (const glm::dvec3& p : stroke.way_P_mm) {
     drawn.way_P_mm.push_back(p);
-    jaw.dab(drawn, drawn.way_P_mm.size() - 1, [](std::size_t, assets::VoxelLabel) {});
+    jaw.dab(drawn, drawn.way_P_mm.size() - 1, [](const glm::ivec3&, assets::VoxelLabel) {});
   }
   jaw.endStroke(drawn);
   expectSame(jaw.jaw(), painted({stroke}));
   // The painted tooth is a person's, and goes with its stroke.
   EXPECT_EQ(jaw.jaw().teeth.back().told_fdi, 38);
-  ASSERT_TRUE(jaw.follow({}, [](std::size_t, assets::VoxelLabel) {}));
+  ASSERT_TRUE(jaw.follow({}, [](const glm::ivec3&, assets::VoxelLabel) {}));
   expectSame(jaw.jaw(), found_);
-  jaw.dab(drawn, 0, [](std::size_t, assets::VoxelLabel) {});
-  jaw.leaveStroke([](std::size_t, assets::VoxelLabel) {});
+  jaw.dab(drawn, 0, [](const glm::ivec3&, assets::VoxelLabel) {});
+  jaw.leaveStroke([](const glm::ivec3&, assets::VoxelLabel) {});
   expectSame(jaw.jaw(), found_);
 }
 
@@ -137,7 +137,7 @@ TEST_F(PaintedJawTest, WhatWasForgottenIsAskedForAnew) {
   PaintedJaw jaw(ct_, {}, kLittle_bytes);
   jaw.take(found_);
   std::vector<assets::VoxelEdit> edits;
-  const auto show = [](std::size_t, assets::VoxelLabel) {};
+  const auto show = [](const glm::ivec3&, assets::VoxelLabel) {};
   for (int n = 0; n < 60; ++n) {
     edits.push_back(anyEdit(random));
     ASSERT_TRUE(jaw.follow(edits, show));

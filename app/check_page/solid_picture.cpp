@@ -1,0 +1,127 @@
+#include "app/check_page/solid_picture.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+namespace {
+
+constexpr double kReach_mm = 90.0, kBoneShare = 0.5;
+constexpr float kStep = 0.7F;  ///< voxels
+constexpr glm::dvec3 kBackground(13.0, 15.0, 18.0);
+
+}  // namespace
+
+/// In voxels, whose cells begin at whole numbers.
+struct SolidPicture::Rays {
+  Rays(const assets::VolumeGrid& grid, const JawViews::Plane& at)
+      : plane(at),
+        direction(at.normal_P()),
+        reach(static_cast<float>(2.0 * kReach_mm / grid.spacing_mm)),
+        size(grid.size) {
+    for (int a = 0; a < 3; ++a) {
+      const float along = std::abs(direction[a]) < 1e-7F ? 1e-7F : direction[a];
+      per[a] = 1.0F / along;
+      is_up[a] = along > 0.0F ? 1 : 0;
+    }
+  }
+  /// Where a ray leaves the brick of that edge around a voxel.
+  float exitOf(const glm::vec3& from, const glm::ivec3& voxel, int edge) const {
+    const glm::vec3 face((voxel / edge + is_up) * edge);
+    const glm::vec3 t = (face - from) * per;
+    return std::min({t.x, t.y, t.z});
+  }
+
+  const JawViews::Plane& plane;
+  glm::vec3 direction, per{0.0F};
+  float reach;
+  glm::ivec3 size, is_up{0};
+};
+
+// Samples lie at whole steps from the picture's plane, whatever is passed over.
+SolidPicture::Seen SolidPicture::along(const Rays& rays, const glm::dvec2& at_px, bool sees_bone) const {
+  const glm::vec3 from(grid_.indexFromPoint(rays.plane.at(at_px) - kReach_mm * rays.plane.normal_P()) + 0.5);
+  const glm::vec3 low = -from * rays.per, high = (glm::vec3(rays.size) - from) * rays.per;
+  const glm::vec3 in = glm::min(low, high), out = glm::max(low, high);
+  const float begins = std::max({in.x, in.y, in.z, 0.0F}), ends = std::min({out.x, out.y, out.z, rays.reach});
+  const auto row = static_cast<std::size_t>(rays.size.x), layer = row * static_cast<std::size_t>(rays.size.y);
+  Seen seen;
+  std::uint8_t wanted = sees_bone ? LabelBricks::kBone | LabelBricks::kTooth : LabelBricks::kTooth;
+  const auto stepAt = [](float t) { return static_cast<int>(std::ceil(t / kStep)); };
+  for (int n = stepAt(begins); static_cast<float>(n) * kStep < ends;) {
+    const glm::vec3 at = from + static_cast<float>(n) * kStep * rays.direction;
+    const glm::ivec3 voxel = glm::clamp(glm::ivec3(at), glm::ivec3(0), rays.size - 1);
+    if ((bricks_.coarseAt(voxel) & wanted) == 0) {
+      n = std::max(n + 1, stepAt(rays.exitOf(from, voxel, LabelBricks::kCoarse)));
+      continue;
+    }
+    if ((bricks_.fineAt(voxel) & wanted) == 0) {
+      n = std::max(n + 1, stepAt(rays.exitOf(from, voxel, LabelBricks::kFine)));
+      continue;
+    }
+    const std::uint8_t what = what_[static_cast<std::size_t>(voxel.x) + row * static_cast<std::size_t>(voxel.y) +
+                                    layer * static_cast<std::size_t>(voxel.z)];
+    if (what != 0 && what != kBoneVoxel) {
+      seen.tooth = what, seen.voxel = voxel;
+      return seen;
+    }
+    if (what == kBoneVoxel && !seen.is_through_bone) {
+      seen.is_through_bone = true, seen.bone = voxel;
+      wanted = LabelBricks::kTooth;
+    }
+    ++n;
+  }
+  return seen;
+}
+
+/// How far a surface at a voxel faces along a direction, 1 straight: by what lies outside it two voxels around.
+float SolidPicture::facing(const glm::ivec3& voxel, std::uint8_t own, bool is_own_inside,
+                           const glm::vec3& direction) const {
+  glm::ivec3 out(0);
+  const bool is_whole = voxel.x >= 2 && voxel.x + 2 < grid_.size.x;
+  for (int k = -2; k <= 2; ++k)
+    for (int j = -2; j <= 2; ++j) {
+      const glm::ivec3 first = voxel + glm::ivec3(-2, j, k);
+      const bool is_there = first.y >= 0 && first.z >= 0 && first.y < grid_.size.y && first.z < grid_.size.z;
+      int count = 0, sum = 0;
+      for (int i = 0; i < 5; ++i) {
+        const bool is_in = is_there && (is_whole || (first.x + i >= 0 && first.x + i < grid_.size.x));
+        const std::uint8_t what = is_in ? what_[grid_.index(first + glm::ivec3(i, 0, 0))] : std::uint8_t{0};
+        const int is_out = (what == own) != is_own_inside ? 1 : 0;
+        count += is_out, sum += is_out * (i - 2);
+      }
+      out += glm::ivec3(sum, count * j, count * k);
+    }
+  const glm::vec3 normal(out);
+  return glm::dot(normal, direction) / std::max(glm::length(normal), 1e-9F);
+}
+
+void SolidPicture::draw(const JawViews::Plane& plane, const PixelBox& box, render::Image& image) const {
+  const Rays rays(grid_, plane);
+  tbb::parallel_for(box.low.y, box.end.y, [&](int y) {
+    for (int x = box.low.x; x < box.end.x; ++x) {
+      const Seen seen = along(rays, {x + 0.5, y + 0.5}, true);
+      glm::dvec3 colour = kBackground;
+      if (seen.tooth != 0) {
+        // The side that is lit is the one that is seen.
+        const float light = std::max(0.0F, -facing(seen.voxel, seen.tooth, true, rays.direction));
+        colour = colourOf(seen.tooth) * (0.22 + 0.78 * static_cast<double>(light));
+      }
+      if (seen.is_through_bone) {
+        const double bone = std::abs(facing(seen.bone, 0, false, rays.direction));
+        colour = glm::mix(colour, colourOf(kBoneVoxel) * (0.15 + 0.6 * bone), kBoneShare * (1.1 - 0.6 * bone));
+      }
+      std::uint8_t* const to = &image.rgba[4 * static_cast<std::size_t>(y * image.w + x)];
+      for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(std::clamp(colour[c] + 0.5, 0.0, 255.0));
+    }
+  });
+}
+
+std::optional<glm::dvec3> SolidPicture::toothAt(const JawViews::Plane& plane, const glm::dvec2& at_px) const {
+  const Seen seen = along(Rays(grid_, plane), at_px, false);
+  return seen.tooth != 0 ? std::optional(grid_.centre_P_mm(seen.voxel)) : std::nullopt;
+}
+
+}  // namespace app
