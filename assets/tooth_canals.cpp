@@ -1,6 +1,7 @@
 #include "assets/tooth_canals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,8 @@ constexpr double kFunnel_mm = 0.3;       ///< of the smooth union of canals and 
 constexpr double kChamberEdge_mm = 0.4;  ///< its rounded edges
 constexpr double kOpen_mm = 0.5;         ///< a line goes on beyond orifice and foramen
 constexpr double kShortOfForamen_mm = 0.5;
+constexpr double kFar_mm = 1e3;
+constexpr double kChange = 1.25;  ///< of the distances, at most, to the way
 
 /// Signed, of an ellipse about the origin: exact on it, first order beside it.
 double ellipse_mm(double x, double y, double a, double b) {
@@ -28,7 +31,8 @@ double toSegment_mm(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& 
   return glm::distance(p, a + t * edge);
 }
 
-/// Negative inside a polygon; of a point or a line never.
+}  // namespace
+
 double outlineDistance_mm(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
   double least_mm = std::numeric_limits<double>::max();
   bool inside = false;
@@ -39,8 +43,6 @@ double outlineDistance_mm(const std::vector<glm::dvec2>& outline, const glm::dve
   }
   return inside && outline.size() > 2 ? -least_mm : least_mm;
 }
-
-}  // namespace
 
 double ToothCanal::workingLength_mm() const {
   return glm::distance(reference_P_mm, orifice_P_mm()) + length_mm() - kShortOfForamen_mm;
@@ -63,15 +65,28 @@ CanalPlace ToothCanal::at(double along_mm) const {
 }
 
 double schneider_rad(const std::vector<CanalPlace>& places) {
-  constexpr double kLeft_mm = 0.05;
+  constexpr double kNear_mm = 0.05, kFar_mm = 0.2;  // off the axis; an arc is there after sqrt(2 R mm)
   const glm::dvec3 orifice = places.front().p_P_mm, foramen = places.back().p_P_mm;
-  const double third_mm = places.back().along_mm / 3.0;
-  std::size_t leaves = 0;
-  while (leaves + 1 < places.size() && places[leaves].along_mm < third_mm) ++leaves;
-  const glm::dvec3 axis = glm::normalize(places[leaves].p_P_mm - orifice);
-  const auto aside_mm = [&](const glm::dvec3& p) { return glm::length(glm::cross(p - orifice, axis)); };
-  while (leaves + 2 < places.size() && aside_mm(places[leaves + 1].p_P_mm) < kLeft_mm) ++leaves;
-  const glm::dvec3 to_foramen = foramen - places[leaves].p_P_mm;
+  const double quarter_mm = 0.25 * places.back().along_mm;
+  std::size_t coronal = 0;
+  while (coronal + 1 < places.size() && places[coronal].along_mm < quarter_mm) ++coronal;
+  const glm::dvec3 axis = glm::normalize(places[coronal].p_P_mm - orifice);
+  const auto aside_mm = [&](std::size_t n) { return glm::length(glm::cross(places[n].p_P_mm - orifice, axis)); };
+  /// Along the canal, where it is first that far off its axis and remains so.
+  const auto off_at = [&](double mm) {
+    std::size_t n = places.size() - 1;
+    while (n > coronal && aside_mm(n - 1) >= mm) --n;
+    const double before = n > 0 ? aside_mm(n - 1) : 0.0, here = aside_mm(n);
+    if (n == 0 || here <= before || here < mm) return places[n].along_mm;
+    return glm::mix(places[n - 1].along_mm, places[n].along_mm, std::clamp((mm - before) / (here - before), 0.0, 1.0));
+  };
+  // Where it leaves: an arc is twice as far along at four times the way aside.
+  const double leaves_mm = std::clamp(2.0 * off_at(kNear_mm) - off_at(kFar_mm), 0.0, places.back().along_mm);
+  std::size_t next = 1;
+  while (next + 1 < places.size() && places[next].along_mm < leaves_mm) ++next;
+  const CanalPlace &a = places[next - 1], &b = places[next];
+  const double t = std::clamp((leaves_mm - a.along_mm) / (b.along_mm - a.along_mm), 0.0, 1.0);
+  const glm::dvec3 to_foramen = foramen - glm::mix(a.p_P_mm, b.p_P_mm, t);
   return std::atan2(glm::length(glm::cross(axis, to_foramen)), glm::dot(axis, to_foramen));
 }
 
@@ -166,16 +181,35 @@ double PulpDistance::lineDistance_mm(const Line& line, const glm::dvec3& p) {
   return aside_mm > 0.0 ? std::hypot(aside_mm, beyond_mm) : std::max(aside_mm, beyond_mm);
 }
 
-double PulpDistance::at_mm(const glm::dvec3& p_P_mm) const {
+PulpDistance::Parts PulpDistance::partsNear(const glm::dvec3& p_P_mm, double reach_mm) const {
   const glm::dvec3 p = frame_.local(p_P_mm);
-  double distance_mm = chamberDistance_mm(p);
-  for (const Line& line : lines_) {
+  std::array<double, 8 * sizeof(Parts)> distance_mm{};
+  distance_mm[0] = chamberDistance_mm(p);
+  double least_mm = distance_mm[0];
+  for (std::size_t n = 0; n < lines_.size(); ++n) {
+    distance_mm[n + 1] = lineDistance_mm(lines_[n], p);
+    least_mm = std::min(least_mm, distance_mm[n + 1]);
+  }
+  Parts parts = 0;
+  for (std::size_t n = 0; n <= lines_.size(); ++n)
+    if (distance_mm[n] < least_mm + kFunnel_mm + kChange * 2.0 * reach_mm) parts |= 1u << n;
+  return parts;
+}
+
+double PulpDistance::at_mm(const glm::dvec3& p_P_mm, Parts parts) const {
+  const glm::dvec3 p = frame_.local(p_P_mm);
+  double distance_mm = kFar_mm;
+  for (std::size_t n = 0; n < lines_.size(); ++n) {
+    if ((parts >> (n + 1) & 1u) == 0) continue;
+    const Line& line = lines_[n];
     const glm::dvec3 outside = glm::max(glm::max(line.low_mm - p, p - line.high_mm), glm::dvec3(0.0));
     const double least_mm = distance_mm + kFunnel_mm;
     if (least_mm < 0.0 || glm::dot(outside, outside) > least_mm * least_mm) continue;
     distance_mm = smoothMin(distance_mm, lineDistance_mm(line, p), kFunnel_mm);
   }
-  return distance_mm;
+  // Far below its floor the chamber decides nothing.
+  if ((parts & 1u) == 0 || chamber_.floor_mm - kChamberEdge_mm - p.z > distance_mm + kFunnel_mm) return distance_mm;
+  return smoothMin(distance_mm, chamberDistance_mm(p), kFunnel_mm);
 }
 
 }  // namespace assets

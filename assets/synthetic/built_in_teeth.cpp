@@ -205,6 +205,31 @@ ToothCanal joiningCanal(const BuiltInTooth& tooth, const CanalPlan& plan, const 
   return canal;
 }
 
+class BuiltInShell final : public ToothShell {
+ public:
+  explicit BuiltInShell(const BuiltInTooth& tooth) : tooth_(tooth) {}
+
+  Box box() const override {
+    constexpr double kFar = std::numeric_limits<double>::max();
+    Box box{glm::dvec3(kFar), glm::dvec3(-kFar)};
+    for (const glm::dvec3& p : tooth_.placed.shape.surfacePoints_mm()) {
+      const glm::dvec3 p_P = tooth_.frame.inP(p);
+      box.low_P_mm = glm::min(box.low_P_mm, p_P);
+      box.high_P_mm = glm::max(box.high_P_mm, p_P);
+    }
+    return box;
+  }
+  double outer_mm(const glm::dvec3& p_P_mm) const override {
+    return tooth_.placed.shape.outer_mm(tooth_.frame.local(p_P_mm));
+  }
+  double core_mm(const glm::dvec3& p_P_mm, double outer_mm) const override {
+    return tooth_.placed.shape.core_mm(tooth_.frame.local(p_P_mm), outer_mm);
+  }
+
+ private:
+  BuiltInTooth tooth_;
+};
+
 }  // namespace
 
 std::vector<int> builtInTeeth(const JawParameters& jaw) {
@@ -252,6 +277,10 @@ ToothCanals canalsOf(const BuiltInTooth& tooth) {
                                             : canalOf(tooth, one, surface, plan.floor_mm));
   }
   return all;
+}
+
+std::unique_ptr<ToothSampler> fineBuiltInTooth(const BuiltInTooth& tooth, const CtVolume& ct, double spacing_mm) {
+  return fineTooth(std::make_unique<BuiltInShell>(tooth), canalsOf(tooth), ct, spacing_mm);
 }
 
 }  // namespace assets

@@ -6,8 +6,10 @@
 // first call makes the tooth's shape (0.2 s).
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "assets/scan/fine_tooth.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/synthetic/tooth_row.h"
 #include "assets/tooth_canals.h"
@@ -28,5 +30,9 @@ std::vector<int> builtInTeeth(const JawParameters& jaw);
 BuiltInTooth builtInTooth(const JawParameters& jaw, int fdi);
 
 ToothCanals canalsOf(const BuiltInTooth& tooth);
+
+/// `ct`: the jaw's, of the built-in patient of the same parameters.
+std::unique_ptr<ToothSampler> fineBuiltInTooth(const BuiltInTooth& tooth, const CtVolume& ct,
+                                               double spacing_mm = kFineSpacing_mm);
 
 }  // namespace assets

@@ -166,7 +166,7 @@ TEST(PulpDistance, OfARoundCanalIsThatOfASlowTwin) {
 TEST(PulpDistance, SchneidersAngleOfPlacesIsThatOfTheClosedForm) {
   for (int position = 4; position <= 7; ++position)
     for (const ToothCanal& canal : assets::canalsOf(toothAt(position)).canals)
-      EXPECT_NEAR(assets::schneider_rad(canal.places), canal.schneider_rad, 0.06) << position << " " << canal.name;
+      EXPECT_NEAR(assets::schneider_rad(canal.places), canal.schneider_rad, 0.01) << position << " " << canal.name;
 }
 
 }  // namespace
