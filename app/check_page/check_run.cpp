@@ -192,19 +192,20 @@ void CheckRun::paintIfChanged() {
 }
 
 void CheckRun::step() {
-  if (search_)
+  // What is under the hand is not taken from it.
+  if (search_ && !stroke_.isDrawn() && !canal_.isHeld())
     if (auto answer = search_->take()) {
       is_changed_ = true;
       if (answer->refusal.empty()) {
-        stroke_.leave();
-        canal_.leave();
         if (answer->halves) canal_.take(std::move(*answer->halves));
         painted_.take(std::move(answer->jaw));
-        shown_ = std::move(answer->clicks);
+        shown_.reset();
+        if (answer->is_whole) shown_ = std::move(answer->clicks);
         painted_.follow(menu_.edits().clicks().voxels, [](const glm::ivec3&, assets::VoxelLabel) {});
         page_.changed(views_.take(whatOf(found().label, found().tooth)));
         showFound();
-        report_(fmt::format("shown: {} teeth, {} canals", found().teeth.size(), found().canals.size()));
+        if (answer->is_whole)
+          report_(fmt::format("shown: {} teeth, {} canals", found().teeth.size(), found().canals.size()));
       } else if (menu_.edits().done() > 0) {
         report_(answer->refusal);
         menu_.refuseLast(answer->refusal);

@@ -64,7 +64,15 @@ struct JawSearch::Work {
           begin("shading");
           finder = std::make_unique<assets::JawFinder>(ct.grid, assets::greyToSearch(ct), report);
         }
-        found.jaw = finder->withClicks(clicks, report);
+        found.jaw = finder->withClicks(clicks, report, [&](assets::JawSegmentation teeth) {
+          Answer first;
+          first.clicks = clicks;
+          first.jaw = std::move(teeth);
+          first.is_whole = false;
+          const std::lock_guard lock(guard);
+          if (ends || is_unwanted) throw Unwanted{};
+          answer = std::move(first);
+        });
         if (found.jaw.refusal) found.refusal = found.jaw.refusal->sentence;
         if (found.refusal.empty() && needs_halves)
           found.halves = std::array{finder->halfOf(true), finder->halfOf(false)};

@@ -21,7 +21,8 @@ class JawSearch {
     assets::JawSegmentation jaw;  ///< with a refusal of its own, or not at all:
     /// Right and left, where canals are drawn; none: as those of the answer before.
     std::optional<std::array<assets::HalfJaw, 2>> halves{};
-    std::string refusal;  ///< one line; empty: found
+    std::string refusal;   ///< one line; empty: found
+    bool is_whole = true;  ///< false: teeth; canals that they change follow
   };
 
   /// Begins at once; `ct` must outlive it.

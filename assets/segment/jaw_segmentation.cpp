@@ -1,5 +1,7 @@
 #include "assets/segment/jaw_segmentation.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,11 +39,14 @@ void labelJaw(const VolumeGrid& scan, const Mandible& jaw, const ToothRegions& t
               const std::vector<std::uint8_t>& tissue, JawSegmentation& out) {
   out.label.assign(scan.voxelCount(), 0);
   out.tooth.assign(scan.voxelCount(), 0);
-  forVoxels(jaw.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (jaw.solid[v] == 0) return;
-    const bool is_cortical = static_cast<double>(jaw.smooth_hu[v]) > out.levels.thinBone_hu();
-    out.label[scan.index(jaw.first + ijk)] =
-        static_cast<std::uint8_t>(is_cortical ? Tissue::cortical : Tissue::trabecular);
+  tbb::parallel_for(0, jaw.grid.size.z, [&](int k) {
+    forVoxels({0, 0, k}, {jaw.grid.size.x, jaw.grid.size.y, k + 1}, [&](glm::ivec3 ijk) {
+      const std::size_t v = jaw.grid.index(ijk);
+      if (jaw.solid[v] == 0) return;
+      const bool is_cortical = static_cast<double>(jaw.smooth_hu[v]) > out.levels.thinBone_hu();
+      out.label[scan.index(jaw.first + ijk)] =
+          static_cast<std::uint8_t>(is_cortical ? Tissue::cortical : Tissue::trabecular);
+    });
   });
   std::vector<std::uint8_t> fdi(static_cast<std::size_t>(teeth.count) + 1, 0);
   std::vector<std::uint8_t> is_tooth(fdi.size(), 0);
@@ -85,11 +90,12 @@ struct JawFinder::Jaw {
   Mandible mandible;
   GreyLevels levels;
   ToothRegions regions;
+  ToothSurfaces surfaces;
+  ToothTissues tissues;
 };
 
 struct JawFinder::Teeth {
   std::vector<ToothClick> clicks;
-  ToothRegions edited, placed;  ///< before and after their surfaces were placed
   ToothRegions regions;
   std::vector<FoundTooth> teeth;
   std::vector<std::uint8_t> tissue;
@@ -135,26 +141,20 @@ JawFinder::JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& ho
   const GreyLevels levels = greyLevelsOf(mandible, sheet);
   beginStage(report, "teeth");
   ToothRegions regions = findToothRegions(mandible, levels);
-  jaw_ = std::make_unique<Jaw>(Jaw{std::move(*arch), sheet, std::move(mandible), levels, std::move(regions)});
+  jaw_ = std::make_unique<Jaw>(Jaw{std::move(*arch), sheet, std::move(mandible), levels, std::move(regions), {}, {}});
 }
 
-JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage& report) {
+JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage& report, const ShowTeeth& show) {
   if (refusal_) return refused(*refusal_);
   const Mandible& mandible = jaw_->mandible;
-  if (!teeth_ || teeth_->clicks != clicks.teeth) {
+  const bool had_teeth = teeth_ && !teeth_->refusal, is_new = !teeth_ || teeth_->clicks != clicks.teeth;
+  if (is_new) {
     Teeth found;
     found.clicks = clicks.teeth;
-    found.edited = jaw_->regions;
-    const ToldParts told = editTeeth(mandible, jaw_->levels, clicks.teeth, found.edited);
+    ToothRegions edited = jaw_->regions;
+    const ToldParts told = editTeeth(mandible, jaw_->levels, clicks.teeth, edited);
     beginStage(report, "tooth surfaces");
-    // A number changes no surface.
-    if (teeth_ && teeth_->edited == found.edited) {
-      found.placed = teeth_->placed;
-    } else {
-      found.placed = found.edited;
-      moveToEdges(mandible, found.placed);
-    }
-    found.regions = found.placed;
+    found.regions = jaw_->surfaces.placed(mandible, edited);
     const auto measure = [&] {
       found.teeth = measuredTeeth(mandible, found.regions, jaw_->levels);
       told.tell(found.teeth);
@@ -171,8 +171,7 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
     }
     if (!found.refusal) {
       beginStage(report, "tissues");
-      const bool is_same = teeth_ && !teeth_->refusal && teeth_->regions == found.regions;
-      found.tissue = is_same ? teeth_->tissue : tissuesOfTeeth(mandible, found.regions, jaw_->levels);
+      found.tissue = jaw_->tissues.of(mandible, found.regions, jaw_->levels);
     }
     teeth_ = std::make_unique<Teeth>(std::move(found));
   }
@@ -181,22 +180,39 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
   JawSegmentation out;
   out.levels = jaw_->levels;
   out.teeth = teeth_->teeth;
-  const CanalScene scene{mandible, teeth_->regions, jaw_->arch, jaw_->sheet};
-  for (const bool is_right : {true, false}) {
-    std::vector<glm::dvec3> clicked = canalClicksOn(jaw_->arch, clicks.canals, is_right);
-    std::optional<Canal::OfSide>& known = canals_->of_side[is_right ? 0 : 1];
-    const std::uint64_t teeth_there = canalTeeth(scene, teeth_->teeth, is_right);
-    if (!known || known->teeth != teeth_there || known->clicks != clicked) {
-      beginStage(report, is_right ? "right canal" : "left canal");
-      std::optional<CanalProposal> found = canalOn(scene, teeth_->teeth, clicked, is_right);
-      known = Canal::OfSide{teeth_there, std::move(clicked), std::move(found)};
-    }
-    if (known->found) out.canals.push_back(*known->found);
-  }
   beginStage(report, "labels");
   labelJaw(scan_, mandible, teeth_->regions, teeth_->tissue, out);
-  for (const CanalProposal& canal : out.canals) labelCanal(scan_, canal, out.label);
-  return out;
+  // What canals depend on, right and left.
+  const CanalScene scene{mandible, teeth_->regions, jaw_->arch, jaw_->sheet};
+  struct Asked {
+    std::vector<glm::dvec3> clicks;
+    std::uint64_t teeth = 0;
+    bool is_known = false;
+  };
+  std::array<Asked, 2> asked;
+  for (const bool is_right : {true, false}) {
+    const std::size_t side = is_right ? 0 : 1;
+    const std::optional<Canal::OfSide>& known = canals_->of_side[side];
+    Asked& one = asked[side];
+    one.clicks = canalClicksOn(jaw_->arch, clicks.canals, is_right);
+    one.teeth = canalTeeth(scene, teeth_->teeth, is_right);
+    one.is_known = known && known->teeth == one.teeth && known->clicks == one.clicks;
+  }
+  const auto withCanals = [&](JawSegmentation jaw) {
+    for (const std::optional<Canal::OfSide>& side : canals_->of_side)
+      if (side && side->found) jaw.canals.push_back(*side->found);
+    for (const CanalProposal& canal : jaw.canals) labelCanal(scan_, canal, jaw.label);
+    return jaw;
+  };
+  if (show && had_teeth && is_new && !(asked[0].is_known && asked[1].is_known)) show(withCanals(out));
+  for (const bool is_right : {true, false}) {
+    Asked& one = asked[is_right ? 0 : 1];
+    if (one.is_known) continue;
+    beginStage(report, is_right ? "right canal" : "left canal");
+    std::optional<CanalProposal> found = canalOn(scene, teeth_->teeth, one.clicks, is_right);
+    canals_->of_side[is_right ? 0 : 1] = Canal::OfSide{one.teeth, std::move(one.clicks), std::move(found)};
+  }
+  return withCanals(std::move(out));
 }
 
 HalfJaw JawFinder::halfOf(bool is_right) const {

@@ -70,6 +70,15 @@ std::vector<float> highGreys(const CellPieces& parts, const std::vector<float>& 
 
 }  // namespace
 
+std::vector<CellBox> boxesOfParts(const ToothRegions& teeth) {
+  const glm::ivec3 size = teeth.box.size();
+  std::vector<CellBox> boxes(static_cast<std::size_t>(teeth.count) + 1, noCells(size));
+  forCells(size, [&](glm::ivec3 ijk, std::size_t n) {
+    if (teeth.part[n] != 0) boxes[teeth.part[n]].take(ijk);
+  });
+  return boxes;
+}
+
 ToothRegions findToothRegions(const Mandible& jaw, const GreyLevels& levels) {
   ToothRegions teeth;
   std::vector<float> smooth_hu = jaw.smooth_hu;

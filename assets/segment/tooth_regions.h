@@ -20,6 +20,9 @@ struct ToothRegions {
   friend bool operator==(const ToothRegions&, const ToothRegions&) = default;
 };
 
+/// By part, in the box; [0] is none's. Empty: it has no cells.
+std::vector<CellBox> boxesOfParts(const ToothRegions& teeth);
+
 /// More than 254 parts: the smallest are left out.
 ToothRegions findToothRegions(const Mandible& jaw, const GreyLevels& levels);
 

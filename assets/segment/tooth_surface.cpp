@@ -1,5 +1,7 @@
 #include "assets/segment/tooth_surface.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,23 +16,13 @@ constexpr double kReach_mm = 0.8, kSlack_mm = 1.0, kGradientBlur_cells = 0.5;
 constexpr float kPerLevel_hu = 1.0F, kMostLevel = 4000.0F;
 constexpr std::uint8_t kOutside = 255;
 
-}  // namespace
-
-void moveToEdges(const Mandible& jaw, ToothRegions& teeth) {
-  if (teeth.box.isEmpty()) return;
-  // The same regions in a box with room around them.
-  const CellBox tight = teeth.box;
-  teeth.box = tight.grown(static_cast<int>(std::ceil((kReach_mm + kSlack_mm) / jaw.grid.spacing_mm)), jaw.grid.size);
-  const glm::ivec3 size = teeth.box.size();
-  std::vector<std::uint8_t> label(countIn(size), 0);
-  forVoxels(glm::ivec3(0), tight.size(), [&](glm::ivec3 ijk) {
-    label[indexIn(size, tight.low - teeth.box.low + ijk)] = teeth.part[indexIn(tight.size(), ijk)];
-  });
-
+/// `label`: the regions in a box of the jaw.
+CellMask cellsOf(const Mandible& jaw, const CellBox& box, std::uint8_t part, std::vector<std::uint8_t> label) {
+  const glm::ivec3 size = box.size();
   const std::vector<float> away_mm = exactDistance_mm(size, jaw.grid.spacing_mm, label);
   const CellMask core = shrunkByOne(size, label);
   const std::vector<float> gradient =
-      gradientOfCells(size, kGradientBlur_cells, croppedTo(teeth.box, jaw.grid.size, jaw.hounsfield));
+      gradientOfCells(size, kGradientBlur_cells, croppedTo(box, jaw.grid.size, jaw.hounsfield));
   std::vector<std::uint16_t> level(label.size());
   CellMask may_flood(label.size());
   for (std::size_t n = 0; n < label.size(); ++n) {
@@ -44,8 +36,51 @@ void moveToEdges(const Mandible& jaw, ToothRegions& teeth) {
       label[n] = 0;
   }
   flood(size, level, may_flood, label);
-  std::ranges::replace(label, kOutside, std::uint8_t{0});
-  teeth.part = std::move(label);
+  for (std::uint8_t& cell : label) cell = cell == part ? 1 : 0;
+  return label;
+}
+
+}  // namespace
+
+ToothRegions ToothSurfaces::placed(const Mandible& jaw, const ToothRegions& teeth) {
+  if (teeth.box.isEmpty()) return teeth;
+  const int room = static_cast<int>(std::ceil((kReach_mm + kSlack_mm) / jaw.grid.spacing_mm));
+  // The same regions in a box with room around them.
+  ToothRegions wide{teeth.box.grown(room, jaw.grid.size), {}, teeth.count};
+  const glm::ivec3 size = wide.box.size();
+  wide.part.assign(countIn(size), 0);
+  forCells(teeth.box.size(), [&](glm::ivec3 ijk, std::size_t n) {
+    wide.part[indexIn(size, teeth.box.low - wide.box.low + ijk)] = teeth.part[n];
+  });
+  struct Asked {
+    std::uint8_t part = 0;
+    CellBox box;  ///< of the jaw
+    std::vector<std::uint8_t> label;
+    CellMask cells;
+    bool is_known = false;
+  };
+  std::vector<Asked> asked;
+  const std::vector<CellBox> boxes = boxesOfParts(wide);
+  for (std::size_t part = 1; part < boxes.size(); ++part) {
+    if (boxes[part].isEmpty()) continue;
+    const CellBox box = boxes[part].grown(room, size);
+    Asked one{static_cast<std::uint8_t>(part), {box.low + wide.box.low, box.end + wide.box.low}, {}, {}, false};
+    one.label = croppedTo(box, size, wide.part);
+    if (const CellMask* const known = known_.find(one.box, one.label)) one.cells = *known, one.is_known = true;
+    asked.push_back(std::move(one));
+  }
+  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t n) {
+    if (!asked[n].is_known) asked[n].cells = cellsOf(jaw, asked[n].box, asked[n].part, asked[n].label);
+  });
+  std::ranges::fill(wide.part, std::uint8_t{0});
+  for (Asked& one : asked) {
+    forCells(one.box.size(), [&](glm::ivec3 ijk, std::size_t n) {
+      std::uint8_t& part = wide.part[indexIn(size, one.box.low - wide.box.low + ijk)];
+      if (one.cells[n] != 0 && part == 0) part = one.part;
+    });
+    if (!one.is_known) known_.keep(one.box, std::move(one.label), std::move(one.cells));
+  }
+  return wide;
 }
 
 }  // namespace assets

@@ -1,5 +1,7 @@
 #include "assets/segment/tooth_tissue.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -90,31 +92,42 @@ class ToothBody {
   std::vector<float> grey_, depth_mm_;
 };
 
+std::vector<std::uint8_t> tissuesIn(const Mandible& jaw, const CellBox& box, const CellMask& tooth,
+                                    const GreyLevels& levels) {
+  std::vector<float> grey = croppedTo(box, jaw.grid.size, jaw.hounsfield);
+  smoothCells(box.size(), kTissueSmooth_mm / jaw.grid.spacing_mm, grey);
+  return ToothBody(box.size(), jaw.grid.spacing_mm, tooth, std::move(grey)).tissues(levels);
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> tissuesOfTeeth(const Mandible& jaw, const ToothRegions& teeth, const GreyLevels& levels) {
+std::vector<std::uint8_t> ToothTissues::of(const Mandible& jaw, const ToothRegions& teeth, const GreyLevels& levels) {
+  struct Asked {
+    CellBox box;  ///< of the jaw
+    CellMask tooth;
+    std::vector<std::uint8_t> tissue;
+    bool is_known = false;
+  };
   const glm::ivec3 size = teeth.box.size();
-  std::vector<std::uint8_t> out(teeth.part.size(), 0);
-  std::vector<CellBox> boxes(static_cast<std::size_t>(teeth.count) + 1, CellBox{size, glm::ivec3(0)});
-  forCells(size, [&](glm::ivec3 ijk, std::size_t n) {
-    CellBox& box = boxes[teeth.part[n]];
-    box.low = glm::min(box.low, ijk);
-    box.end = glm::max(box.end, ijk + 1);
+  const std::vector<CellBox> boxes = boxesOfParts(teeth);
+  std::vector<Asked> asked;
+  for (std::size_t part = 1; part < boxes.size(); ++part) {
+    if (boxes[part].isEmpty()) continue;
+    const CellBox box = boxes[part].grown(kToothMargin, size);
+    Asked one{{box.low + teeth.box.low, box.end + teeth.box.low}, croppedTo(box, size, teeth.part), {}, false};
+    for (std::uint8_t& cell : one.tooth) cell = cell == part ? 1 : 0;
+    if (const auto* const known = known_.find(one.box, one.tooth)) one.tissue = *known, one.is_known = true;
+    asked.push_back(std::move(one));
+  }
+  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t n) {
+    if (!asked[n].is_known) asked[n].tissue = tissuesIn(jaw, asked[n].box, asked[n].tooth, levels);
   });
-  for (int part = 1; part <= teeth.count; ++part) {
-    if (boxes[static_cast<std::size_t>(part)].isEmpty()) continue;
-    const CellBox box = boxes[static_cast<std::size_t>(part)].grown(kToothMargin, size);
-    CellMask mask = croppedTo(box, size, teeth.part);
-    for (std::uint8_t& value : mask) value = value == part ? 1 : 0;
-    std::vector<float> grey =
-        croppedTo({box.low + teeth.box.low, box.end + teeth.box.low}, jaw.grid.size, jaw.hounsfield);
-    smoothCells(box.size(), kTissueSmooth_mm / jaw.grid.spacing_mm, grey);
-    const CellMask own = mask;
-    const std::vector<std::uint8_t> tissue =
-        ToothBody(box.size(), jaw.grid.spacing_mm, std::move(mask), std::move(grey)).tissues(levels);
-    forCells(box.size(), [&](glm::ivec3 ijk, std::size_t n) {
-      if (own[n] != 0) out[indexIn(size, box.low + ijk)] = tissue[n];
+  std::vector<std::uint8_t> out(teeth.part.size(), 0);
+  for (Asked& one : asked) {
+    forCells(one.box.size(), [&](glm::ivec3 ijk, std::size_t n) {
+      if (one.tooth[n] != 0) out[indexIn(size, one.box.low - teeth.box.low + ijk)] = one.tissue[n];
     });
+    if (!one.is_known) known_.keep(one.box, std::move(one.tooth), std::move(one.tissue));
   }
   return out;
 }

@@ -75,14 +75,46 @@ int main(int argc, char** argv) {
                                          canal.line_P_mm.back()};
     print("canal through three points, under a hand", 50.0, 10, [&](int) { assets::quickCanal(half, points); });
   }
+  // Where the time of a click goes, and one of the canals' without it.
+  Clock::time_point begun = Clock::now();
+  std::string stage;
+  const auto next = [&](std::string_view name) {
+    const Clock::time_point now = Clock::now();
+    if (!stage.empty())
+      fmt::print("    {:16} {:7.2f} ms\n", stage, std::chrono::duration<double, std::milli>(now - begun).count());
+    stage = name, begun = now;
+  };
   const auto row = std::ranges::find(found.teeth, 48, &assets::FoundTooth::fdi);
   if (row != found.teeth.end()) {
     print("a number on one tooth, computed", 300.0, 2, [&](int n) {
       finder.withClicks({{{assets::ToothEdit::number, {row->centre_P_mm, {}}, n % 2 == 0 ? 48 : 47}}, {}});
     });
-    print("one tooth dropped, computed", 300.0, 1, [&](int) {
-      finder.withClicks({{{assets::ToothEdit::no_tooth, {row->centre_P_mm, {}}, 0}}, {}});
+    finder.withClicks({});
+    double until_shown_ms = 0.0;
+    print("one tooth dropped, with its canal", 1000.0, 1, [&](int) {
+      const Clock::time_point start = Clock::now();
+      stage = "edited teeth", begun = start;
+      finder.withClicks({{{assets::ToothEdit::no_tooth, {row->centre_P_mm, {}}, 0}}, {}}, next,
+                        [&](const assets::JawSegmentation&) {
+                          until_shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+                        });
+      next("");
     });
+    fmt::print("{:44} {:7.2f} ms (goal 300)\n", "  of it until the teeth are shown", until_shown_ms);
+    const auto other = std::ranges::find(found.teeth, 47, &assets::FoundTooth::fdi);
+    if (other != found.teeth.end()) {
+      finder.withClicks({});
+      const assets::ToothClick join{assets::ToothEdit::same_tooth, {row->centre_P_mm, other->centre_P_mm}, 0},
+          divide{assets::ToothEdit::two_teeth, {row->centre_P_mm, other->centre_P_mm}, 0};
+      const auto until_shown = [&](const assets::JawClicks& clicks) {
+        try {
+          finder.withClicks(clicks, {}, [](const assets::JawSegmentation&) { throw 0; });
+        } catch (int) {
+        }
+      };
+      print("two pieces joined, until they are shown", 300.0, 1, [&](int) { until_shown({{join}, {}}); });
+      print("one piece divided, until it is shown", 300.0, 1, [&](int) { until_shown({{join, divide}, {}}); });
+    }
   }
 
   const tests::PhantomFolder folder("molar_check_bench_", patient);

@@ -175,6 +175,28 @@ TEST(JawFinder, FindsWhatASearchFromTheBeginningFinds) {
   EXPECT_TRUE(finder.withClicks({{join}, {}}).tooth == edited(phantom, {{join}, {}}).tooth);
 }
 
+TEST(JawFinder, ShowsTeethBeforeTheCanalsThatTheyChange) {
+  tests::ArchPhantom phantom = tests::archPhantom({.spacing_mm = kSpacing_mm});
+  addCanal(phantom);
+  assets::JawFinder finder(phantom.grid, phantom.hounsfield);
+  const auto never = [](const assets::JawSegmentation&) { FAIL() << "nothing was there before"; };
+  const assets::JawSegmentation before = finder.withClicks({}, {}, never);
+  const assets::JawClicks clicks{{{ToothEdit::no_tooth, {centreOf(phantom, 47)}, 0}}, {}};
+  struct Left {};
+  EXPECT_THROW(finder.withClicks(clicks, {}, [](const assets::JawSegmentation&) { throw Left{}; }), Left);
+  EXPECT_TRUE(finder.withClicks({}).label == before.label);
+  std::vector<assets::JawSegmentation> shown;
+  const auto found =
+      finder.withClicks(clicks, {}, [&](assets::JawSegmentation teeth) { shown.push_back(std::move(teeth)); });
+  ASSERT_EQ(shown.size(), 1u);
+  EXPECT_TRUE(shown[0].tooth == found.tooth);
+  EXPECT_EQ(shown[0].teeth.size(), found.teeth.size());
+  ASSERT_EQ(shown[0].canals.size(), before.canals.size());
+  for (std::size_t n = 0; n < before.canals.size(); ++n)
+    EXPECT_EQ(shown[0].canals[n].line_P_mm, before.canals[n].line_P_mm);
+  EXPECT_TRUE(found.label == edited(phantom, clicks).label);
+}
+
 TEST(JawClicks, WhatDoesNotFitIsRefusedInOneLine) {
   const tests::ArchPhantom phantom = tests::archPhantom({.spacing_mm = kSpacing_mm});
   const glm::dvec3 a = centreOf(phantom, 46), b = centreOf(phantom, 36), air(0.0, -60.0, 20.0);
