@@ -1,6 +1,7 @@
 #include "assets/scenery/face_placement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +25,7 @@ constexpr int kIterations = 40;
 constexpr std::size_t kMaxPoints = 4000;
 constexpr double kSiteWeight = 0.3;  ///< of the tooth at the site, often impacted
 constexpr double kHold_mm = 15.0;
+constexpr int kLeastNumbered = 3;
 
 // "LR8": lower right, eighth from the midline, is FDI 48.
 int fdiOf(const std::string& name) {
@@ -60,13 +62,25 @@ Slope slopeOf(const std::vector<glm::dvec3>& points) {
   return {mean.z - slope.x * mean.x - slope.y * mean.y, slope.x, slope.y};
 }
 
-// Lower teeth without the one at the site. The occlusal plane is fitted to the tops of their columns, repeatedly
-// without those well below it (cut roots); the teeth extend down from it.
+// Besides the one at the site.
+bool hasNumberedLowerTeeth(const CtVolume& ct, int site_fdi) {
+  std::array<bool, 256> is_there{};
+  for (const std::uint8_t fdi : ct.tooth) is_there[fdi] = true;
+  int count = 0;
+  for (int fdi = 1; fdi < 256; ++fdi)
+    if (is_there[static_cast<std::size_t>(fdi)] && fdi != site_fdi && !isUpper(fdi)) ++count;
+  return count >= kLeastNumbered;
+}
+
+// Lower teeth without the one at the site: those with numbers, as teeth without one are the upper jaw's where jaws are
+// closed, or else all that are labelled. The occlusal plane is fitted to the tops of their columns, repeatedly without
+// those well below it (cut roots); the teeth extend down from it.
 LowerTeeth lowerTeethOf(const CtVolume& ct, int site_fdi) {
+  const bool is_numbered = hasNumberedLowerTeeth(ct, site_fdi);
   const auto is_tooth = [&](glm::ivec3 at) {
     const std::size_t v = ct.grid.index(at);
     const int fdi = ct.tooth.empty() ? 0 : ct.tooth[v];
-    if (fdi == 0) return Tissue{ct.label[v]} == Tissue::other_teeth;
+    if (fdi == 0) return !is_numbered && Tissue{ct.label[v]} == Tissue::other_teeth;
     return fdi != site_fdi && !isUpper(fdi);
   };
   std::vector<glm::ivec3> columns;

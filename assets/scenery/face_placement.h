@@ -1,6 +1,6 @@
 // Fits a face model to an imported jaw by its teeth: rigid, scale 1:1.
 // The face comes with teeth.json: per tooth ("LR8") the centroid of the whole tooth with the mouth open
-// (`open_mean_m`), in metres, axes of F. The jaw has labels: lower teeth (by number, or one label for all), and the
+// (`open_mean_m`), in metres, axes of F. The jaw has labels: lower teeth (by number, else one label for all), and the
 // tooth at the site. Method: occlusal planes are aligned from several directions; then voxels are assigned to the
 // nearest tooth and both sets of centroids matched (iterative closest point, Besl and McKay 1992; rotation after Horn
 // 1987), the worst fifth left out. The residual is returned; some millimetres are normal between different people.

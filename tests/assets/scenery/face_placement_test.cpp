@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
@@ -92,6 +93,38 @@ TEST(FacePlacement, FindsThePoseWithoutASite) {
   const FacePlacement placement = fitFace(p.ct, p.site, p.teeth);
   EXPECT_LT(placement.rms_mm, 0.3);
   EXPECT_GT(std::abs(glm::dot(placement.X_PF.rotation, p.X_PF.rotation)), std::cos(0.5 * 0.02));
+}
+
+// Teeth without numbers over numbered ones are the upper jaw's, where the mouth is closed.
+TEST(FacePlacement, UpperTeethOfAClosedMouthMoveNothing) {
+  Phantom p = phantom();
+  std::ranges::transform(p.ct.label, std::back_inserter(p.ct.tooth), [](std::uint8_t label) -> std::uint8_t {
+    return Tissue{label} == Tissue::other_teeth ? 46 : Tissue{label} == Tissue::enamel ? 48 : 0;
+  });
+  // A number for each tooth, by the nearest.
+  forVoxels(p.ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (p.ct.tooth[v] != 46) return;
+    const glm::dvec3 at = p.ct.grid.centre_P_mm(ijk);
+    p.ct.tooth[v] = static_cast<std::uint8_t>(
+        std::ranges::min(p.teeth, {}, [&](const FaceTooth& tooth) {
+          return glm::distance((p.X_PF * calibration::Point<calibration::Face>{tooth.open_F_mm}).mm, at);
+        }).fdi);
+  });
+  const FacePlacement open = fitFace(p.ct, p.site, p.teeth);
+  const glm::dvec3 up_P = p.X_PF.rotation * glm::dvec3(0.0, 1.0, 0.0);
+  const std::vector<std::uint8_t> lower = p.ct.tooth;
+  forVoxels(p.ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::ivec3 below(glm::floor(p.ct.grid.indexFromPoint(p.ct.grid.centre_P_mm(ijk) - 8.0 * up_P) + 0.5));
+    if (p.ct.label[v] == 0 && p.ct.grid.contains(below) && lower[p.ct.grid.index(below)] != 0)
+      p.ct.label[v] = static_cast<std::uint8_t>(Tissue::other_teeth);
+  });
+  const FacePlacement closed = fitFace(p.ct, p.site, p.teeth);
+  EXPECT_LT(closed.rms_mm, 0.3);
+  for (const FaceTooth& tooth : p.teeth) {
+    const calibration::Point<calibration::Face> at{tooth.open_F_mm};
+    EXPECT_LT(glm::distance((closed.X_PF * at).mm, (open.X_PF * at).mm), 0.1) << tooth.fdi;
+    EXPECT_LT(glm::distance((closed.X_PF * at).mm, (p.X_PF * at).mm), 0.5) << tooth.fdi;
+  }
 }
 
 // The built-in face finds its own teeth: a jaw of them in any pose.
