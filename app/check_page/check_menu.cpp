@@ -176,6 +176,10 @@ CheckMenu::Answer CheckMenu::act(CheckAction action) {
       return Answer::save;
     case CheckAction::reviewed:
       if (asked_review) return Answer::reviewed;
+      if (may_edit_ && isChanged()) {
+        say("save first: pictures count as reviewed until the next change is saved", true);
+        return Answer::none;
+      }
       asks_review_ = true;
       say("You looked at all pictures of this scan and they name nobody? Press again to say so", true);
       return Answer::none;

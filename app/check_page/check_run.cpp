@@ -90,6 +90,17 @@ void takeAway(const assets::CanalProposal& canal, const assets::VolumeGrid& grid
                          });
 }
 
+std::string wordsOnSaved(assets::StatementAfterEdits statement) {
+  switch (statement) {
+    case assets::StatementAfterEdits::review_lapsed:
+      return "saved; its pictures count as not reviewed again: press Pictures reviewed when you have looked";
+    case assets::StatementAfterEdits::left_unsigned:
+      return "saved; its deidentified.toml was changed by somebody else and is not signed again: import the scan again";
+    default:
+      return "saved";
+  }
+}
+
 /// The patient of what is shown.
 assets::Patient checkedPatient(assets::Patient patient, assets::JawSegmentation jaw, const CheckEdits& edits) {
   std::erase_if(jaw.canals, [&](assets::CanalProposal& canal) {
@@ -216,14 +227,14 @@ void CheckRun::step() {
       }
     }
   if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    const std::string trouble = saving_.get();
+    const Saved saved = saving_.get();
     is_changed_ = true;
-    if (trouble.empty()) {
+    if (saved.trouble.empty()) {
       menu_.saved();
       keepLog(true);
     }
-    menu_.say(trouble.empty() ? "saved" : trouble, !trouble.empty());
-    report_(trouble.empty() ? "saved" : trouble);
+    menu_.say(saved.trouble.empty() ? saved.words : saved.trouble, !saved.trouble.empty());
+    report_(menu_.message());
   }
   menu_.setBusy(isBusy());
 }
@@ -242,11 +253,11 @@ void CheckRun::save() {
   saving_ = std::async(std::launch::async, [this, patient = patient_, jaw = found(), edits = menu_.edits()]() mutable {
     try {
       const assets::Patient checked = checkedPatient(std::move(patient), std::move(jaw), edits);
-      assets::savePatientAgain(checked, folder_, jawClicksText(edits.clicks()));
+      const auto statement = assets::savePatientAgain(checked, folder_, jawClicksText(edits.clicks()));
       keepCheckPicture(checked, folder_);
-      return std::string();
+      return Saved{wordsOnSaved(statement), ""};
     } catch (const std::exception& error) {
-      return calibration::withoutTemporaryNames(error.what());
+      return Saved{"", calibration::withoutTemporaryNames(error.what())};
     }
   });
   menu_.say("saving", false);

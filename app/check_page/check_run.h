@@ -54,6 +54,10 @@ class CheckRun {
   glm::dvec2 placeOf(JawView view, const glm::dvec3& p_P_mm, glm::ivec2 window_px) const;
 
  private:
+  struct Saved {
+    std::string words, trouble;  ///< one of them
+  };
+
   void press(const glm::dvec2& at_px, glm::ivec2 window_px);
   void release(const glm::dvec2& at_px, glm::ivec2 window_px);
   void drag(const render::PointerMoved& moved);
@@ -89,8 +93,8 @@ class CheckRun {
   bool is_dragged_ = false, is_changed_ = true, is_log_lost_ = false;
   glm::dvec2 pointer_px_{-1.0};
   JawView held_view_ = JawView::axial;
-  std::size_t range_ = 0;            ///< of grey values that are shown
-  std::future<std::string> saving_;  ///< empty: saved; else why not
+  std::size_t range_ = 0;  ///< of grey values that are shown
+  std::future<Saved> saving_;
   std::unique_ptr<JawSearch> search_;
 };
 

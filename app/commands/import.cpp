@@ -1,27 +1,36 @@
-// `molar import SOURCE --out PATIENT` and `molar inspect SOURCE`: scans become patient folders, de-identified.
+// `molar import SOURCE --out PATIENT`: a scan becomes a patient folder, de-identified, and is checked.
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <unistd.h>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/case/built_in_face.h"
 #include "app/case/gutter_plan.h"
 #include "app/check_page/check_picture.h"
 #include "app/check_page/check_run.h"
+#include "app/check_page/check_window.h"
+#include "app/check_page/import_page.h"
+#include "app/check_page/show_check_page.h"
 #include "app/commands/command.h"
 #include "app/commands/dicom_options.h"
 #include "app/commands/dicom_report.h"
+#include "app/commands/import_course.h"
+#include "app/commands/patient_words.h"
 #include "app/commands/segmenter.h"
 #include "app/commands/stop_signals.h"
+#include "app/imaging_server/server_address.h"
 #include "app/options/jaw_clicks_file.h"
 #include "app/session/data_folder.h"
 #include "app/station/patient_list.h"
@@ -30,15 +39,13 @@
 #include "app/text/message.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
-#include "assets/import/modelled_gum.h"
 #include "assets/import/scan_import.h"
-#include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
 #include "assets/patient/patient_folder.h"
-#include "assets/patient/statement_file.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
+#include "render/gpu/gpu_error.h"
 
 namespace app {
 namespace {
@@ -47,124 +54,8 @@ struct ImportOptions {
   std::string source, out, window, scale, report, label_set, segment_with, clicks;
   DicomOptions dicom;
   assets::ScanImportOptions choices;
-  bool no_face = false, force = false;
+  bool no_face = false, no_check = false, force = false;
 };
-
-struct InspectOptions {
-  std::string patient;
-  DicomOptions dicom;
-  bool json = false;
-};
-
-using Volumes_mm3 = std::array<double, assets::kTissueCount>;
-
-Volumes_mm3 tissueVolumes(const assets::CtVolume& ct) {
-  std::array<std::uint64_t, assets::kTissueCount> voxels{};
-  for (const std::uint8_t label : ct.label) ++voxels[label < assets::kTissueCount ? label : 0];
-  Volumes_mm3 volumes{};
-  for (std::size_t l = 0; l < volumes.size(); ++l)
-    volumes[l] = static_cast<double>(voxels[l]) * ct.grid.voxelVolume_mm3();
-  return volumes;
-}
-
-double mandibularCanalLength_mm(const assets::Patient& patient) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < patient.mandibular_canal_P_mm.size(); ++i)
-    length += glm::distance(patient.mandibular_canal_P_mm[i - 1], patient.mandibular_canal_P_mm[i]);
-  return length;
-}
-
-std::size_t triangles(const assets::MeshModel& model) {
-  std::size_t count = 0;
-  for (const assets::MeshPart& part : model.parts) count += part.triangles.size() / 3;
-  return count;
-}
-
-nlohmann::json jsonOf(const assets::Patient& patient) {
-  using nlohmann::json;
-  const auto list = [](const auto& v) { return json{v.x, v.y, v.z}; };
-  const assets::VolumeGrid& grid = patient.ct.grid;
-  json tissues = json::object();
-  const Volumes_mm3 volumes = tissueVolumes(patient.ct);
-  for (std::size_t l = 1; l < volumes.size(); ++l) tissues[std::string(assets::kTissues[l].key)] = volumes[l];
-  json out{{"title", patient.title},
-           {"confirmed", !patient.isProposed()},
-           {"size", list(grid.size)},
-           {"spacing_mm", grid.spacing_mm},
-           {"origin_P_mm", list(grid.origin_P_mm)},
-           {"iso_hu", patient.classification.iso_hu},
-           {"sigma_hu", patient.classification.sigma_hu},
-           {"tissue_mm3", tissues},
-           {"mandibular_canal",
-            {{"points", patient.mandibular_canal_P_mm.size()},
-             {"length_mm", mandibularCanalLength_mm(patient)},
-             {"radius_mm", patient.mandibular_canal_radius_mm}}},
-           {"gum_triangles", triangles(patient.gingiva)},
-           {"gum", patient.has_modelled_gum        ? "modelled"
-                   : patient.gingiva.parts.empty() ? "none"
-                                                   : "labelled"},
-           {"face_triangles", triangles(patient.face)},
-           {"face", patient.has_built_in_face    ? "built-in"
-                    : patient.face.parts.empty() ? "none"
-                                                 : "own"}};
-  json teeth = json::array();
-  for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
-    teeth.push_back({{"fdi", fdi}, {"name", assets::toothName(fdi)}, {"volume_mm3", volume_mm3}});
-  out["teeth"] = teeth;
-  out["site"] = out["third_molar"] = nullptr;
-  if (!patient.site) return out;
-  const assets::OperativeSite& site = *patient.site;
-  out["site"] = {{"fdi", site.fdi},
-                 {"name", assets::toothName(site.fdi)},
-                 {"centre_P_mm", list(site.centre_P_mm)},
-                 {"axis_P", list(site.axis_P)}};
-  // The name of before any tooth could be the site.
-  if (assets::isThirdMolar(site.fdi))
-    out["third_molar"] = {
-        {"fdi", site.fdi}, {"centroid_P_mm", list(site.centre_P_mm)}, {"crown_direction_P", list(site.axis_P)}};
-  return out;
-}
-
-std::string wordsOn(const assets::Patient& patient) {
-  const assets::VolumeGrid& grid = patient.ct.grid;
-  std::string text = fmt::format("patient      {}\nvolume       {} x {} x {} voxels of {:.3f} mm\n",
-                                 patient.shownTitle(), grid.size.x, grid.size.y, grid.size.z, grid.spacing_mm);
-  if (const auto& site = patient.site)
-    text += fmt::format("site         FDI {}, {}, at ({:.1f}, {:.1f}, {:.1f}) mm\n", site->fdi,
-                        assets::toothName(site->fdi), site->centre_P_mm.x, site->centre_P_mm.y, site->centre_P_mm.z);
-  else
-    text += "site         no third molar labelled here\n";
-  for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
-    text += fmt::format("  tooth {}         {:9.1f} mm³\n", fdi, volume_mm3);
-  const Volumes_mm3 volumes = tissueVolumes(patient.ct);
-  for (std::size_t l = 1; l < volumes.size(); ++l)
-    if (volumes[l] > 0.0) text += fmt::format("  {:16} {:9.1f} mm³\n", assets::kTissues[l].name, volumes[l]);
-  if (!patient.mandibular_canal_P_mm.empty())
-    text += fmt::format("canal        {:.1f} mm long, radius {:.1f} mm\n", mandibularCanalLength_mm(patient),
-                        patient.mandibular_canal_radius_mm);
-  if (patient.has_modelled_gum)
-    text += fmt::format("gum          modelled, {:g} mm over the bone: not the patient's\n", assets::kGumThickness_mm);
-  text += patient.has_built_in_face    ? "face         built-in, placed by the lower teeth: not the patient's\n"
-          : patient.face.parts.empty() ? "face         none\n"
-                                       : "face         the patient's\n";
-  return text;
-}
-
-constexpr std::array kSeals = {"none", "broken", "of another machine", "of this machine"};
-
-nlohmann::json jsonOf(const assets::StatementFacts& statement) {
-  return {{"reviewed", statement.is_reviewed},
-          {"signature", kSeals[static_cast<std::size_t>(statement.seal)]},
-          {"of_this_volume", statement.is_of_volume}};
-}
-
-std::string wordsOn(const assets::StatementFacts& statement) {
-  return fmt::format("identity     removed by software, {}; statement {}, signature {}\n",
-                     statement.is_reviewed ? "pictures reviewed by a person"
-                                           : "not reviewed (molar check PATIENT --pictures-reviewed)",
-                     statement.is_of_volume ? "of this volume" : "of another volume",
-                     kSeals[static_cast<std::size_t>(statement.seal)]);
-}
 
 /// "hu", "hu+1024", or the grey values of air, muscle and dentine.
 assets::GreyMap scaleOf(const std::string& text) {
@@ -190,30 +81,6 @@ assets::GreyWindow windowOf(const std::string& text) {
   return {*low_hu, *high_hu};
 }
 
-/// How long each stage of the segmentation took. On a terminal its name stands there meanwhile.
-class StageClock {
- public:
-  void begin(std::string_view stage) {
-    end();
-    stage_ = stage;
-    begun_ = std::chrono::steady_clock::now();
-    if (on_terminal_) std::fprintf(stderr, "\r\033[K  finding: %s", stage_.c_str());
-  }
-  void end() {
-    if (stage_.empty()) return;
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun_;
-    stages_.push_back({{"stage", std::exchange(stage_, {})}, {"seconds", took.count()}});
-    if (on_terminal_) std::fputs("\r\033[K", stderr);
-  }
-  const nlohmann::json& stages() const { return stages_; }
-
- private:
-  bool on_terminal_ = isatty(STDERR_FILENO) == 1;
-  std::string stage_;
-  std::chrono::steady_clock::time_point begun_;
-  nlohmann::json stages_ = nlohmann::json::array();
-};
-
 /// What was found in a scan without labels.
 nlohmann::json jsonOf(const assets::FoundJaw& jaw) {
   nlohmann::json teeth = nlohmann::json::array();
@@ -235,15 +102,22 @@ nlohmann::json jsonOf(const assets::FoundJaw& jaw) {
           {"canals", canals}};
 }
 
+/// What an import leaves behind.
+struct Imported {
+  std::string words;         ///< on the patient
+  bool is_to_check = false;  ///< something was found by the program, or pictures are to be reviewed
+};
+
 /// A DICOM source is surveyed before; its path may name a person and is said nowhere. The report is written whether it
 /// is refused or not.
-assets::ImportedScan importDicom(const ImportOptions& options, nlohmann::json& report) {
+assets::ImportedScan importDicom(const ImportOptions& options, ImportCourse& course, nlohmann::json& report) {
+  course.begin(isServerAddress(options.source) ? "receiving" : "files");
   SurveyedSource source = surveySource(options.source, options.dicom);
   assets::DicomSurvey& survey = source.survey;
   try {
     assets::ImportedScan imported = assets::importScan(survey, options.choices);
     report = nlohmann::json::parse(dicomReportJson(survey));
-    for (const assets::DicomVerdict& verdict : survey.verdicts) printMessage(assets::lineOf(verdict));
+    for (const assets::DicomVerdict& verdict : survey.verdicts) course.say(assets::lineOf(verdict));
     return imported;
   } catch (const assets::LoadError&) {
     report = nlohmann::json::parse(dicomReportJson(survey));
@@ -251,7 +125,8 @@ assets::ImportedScan importDicom(const ImportOptions& options, nlohmann::json& r
   }
 }
 
-assets::ImportedScan importFile(const ImportOptions& options, nlohmann::json& report) {
+assets::ImportedScan importFile(const ImportOptions& options, ImportCourse& course, nlohmann::json& report) {
+  course.begin("files");
   report = {{"kind", "volume"}, {"verdicts", nlohmann::json::array()}};
   try {
     return assets::importScan(options.source, options.choices);
@@ -262,27 +137,39 @@ assets::ImportedScan importFile(const ImportOptions& options, nlohmann::json& re
   }
 }
 
-assets::ImportedScan importAny(ImportOptions& options) {
+/// The names and seconds of those that have ended.
+nlohmann::json jsonOf(const ImportStages& stages) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ImportStage& stage : stages.all())
+    if (stage.state == ImportStage::State::done) list.push_back({{"stage", stage.name}, {"seconds", stage.took_s}});
+  return list;
+}
+
+assets::ImportedScan importAny(ImportOptions& options, ImportCourse& course) {
   // Whether it can be written, before the work.
-  if (!options.report.empty()) calibration::OutputFile(options.report, options.force);
+  if (!options.report.empty()) {
+    const auto whole = course.whole();
+    calibration::OutputFile(options.report, options.force);
+  }
   nlohmann::json report;
-  StageClock clock;
-  options.choices.stage = [&clock](std::string_view stage) { clock.begin(stage); };
+  options.choices.stage = [&course](std::string_view stage) { course.begin(stage); };
   const auto write = [&] {
-    clock.end();
     if (report.is_null()) return;
-    report["stages"] = clock.stages();
+    report["stages"] = jsonOf(course.stages());
+    const auto whole = course.whole();
     if (!options.report.empty()) calibration::OutputFile(options.report, options.force).commit(report.dump(2) + "\n");
   };
   const bool is_dicom = isDicomOrServer(options.source, options.dicom);
   try {
-    assets::ImportedScan imported = is_dicom ? importDicom(options, report) : importFile(options, report);
+    assets::ImportedScan imported =
+        is_dicom ? importDicom(options, course, report) : importFile(options, course, report);
+    course.end();
     report["jaw"] = imported.jaw ? jsonOf(*imported.jaw) : nlohmann::json(nullptr);
     write();
-    for (const std::string& remark : imported.remarks)
-      printMessage((is_dicom ? "scan" : options.source) + ": " + remark);
+    for (const std::string& remark : imported.remarks) course.say((is_dicom ? "scan" : options.source) + ": " + remark);
     return imported;
   } catch (const assets::LoadError&) {
+    course.abandon();
     write();
     throw;
   }
@@ -294,23 +181,111 @@ std::string nameOf(const std::string& folder) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
-constexpr const char* kStopped = "import: stopped, nothing was imported";
-constexpr std::string_view kStoppedLine = "molar: import: stopped, nothing was imported\n";
+/// From the source to the patient folder.
+Imported importWhole(ImportOptions& options, ImportCourse& course) {
+  std::optional<Segmenter> segmenter;
+  if (!options.segment_with.empty()) {
+    segmenter.emplace(options.segment_with);
+    options.choices.segment = [&](const assets::VolumeGrid& grid, const std::vector<std::int16_t>& grey) {
+      course.begin("outside program");
+      course.leaveStopsToCaller(true);
+      std::string labels = segmenter->labels(grid, grey);
+      course.removeIfStopped(segmenter->folder());
+      course.leaveStopsToCaller(false);
+      course.begin("label map");
+      return labels;
+    };
+  }
+  assets::ImportedScan imported = importAny(options, course);
+  assets::Patient& patient = imported.patient;
+  course.begin("gum");
+  patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
+  course.begin("face");
+  if (options.choices.keep_face && !options.no_face && !placeOwnFace(patient))
+    course.say("the scan shows too little skin for a face");
+  if (!options.no_face && patient.site && patient.face.parts.empty())
+    if (const std::string why_not = placeBuiltInFace(patient); !why_not.empty())
+      course.say("without a face: " + why_not);
+  course.begin("writing");
+  // Nothing of the folder is there that a stop does not know of.
+  auto whole = course.whole();
+  assets::FolderWatch watch;
+  watch.begun = [&](const std::string& folder) {
+    course.removeIfStopped(folder);
+    whole.unlock();
+    if (imported.jaw) keepCheckPicture(patient, folder);
+  };
+  watch.before_commit = [&course] { course.commit(); };
+  assets::savePatient(patient, options.out, options.force, imported.origin ? &*imported.origin : nullptr,
+                      options.choices.clicks.isEmpty() ? "" : jawClicksText(options.choices.clicks), watch);
+  // Edits of another import of this folder.
+  std::error_code ignored;
+  std::filesystem::remove(checkLogPath(options.out), ignored);
+  course.end();
+  return {patientWords(patient), patient.isProposed() || imported.origin.has_value()};
+}
+
+/// Somebody who may look at it, and stop it.
+bool isWatched(const ImportOptions& options) {
+  const auto is_set = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  return !options.no_check && options.report.empty() && isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1 &&
+         (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
+}
+
+void showCourse(CheckWindow& window, const ImportCourse& course, glm::dvec2& pointer_px) {
+  for (const render::WindowEvent& event : window.takeEvents()) {
+    const auto* const key = std::get_if<render::KeyPressed>(&event);
+    const auto* const button = std::get_if<render::ButtonPressed>(&event);
+    if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px = moved->to_px;
+    const bool is_cancel = (key != nullptr && key->down && key->key == render::Key::escape) ||
+                           (button != nullptr && button->down && isCancelAt(pointer_px, window.size_px())) ||
+                           std::holds_alternative<render::CloseRequested>(event);
+    // As Ctrl+C.
+    if (is_cancel) ::kill(::getpid(), SIGINT);
+  }
+  window.show([&course](glm::ivec2 px) {
+    return importPage(
+        course.stages(), course.now_s(),
+        {"Importing a scan", "What names a person is left out, jaw, teeth and canals are looked for.", true}, px);
+  });
+}
+
+/// Shown meanwhile, and stopped by a signal or in the window, which stays open afterwards.
+Imported importShown(ImportOptions& options, std::optional<CheckWindow>& window) {
+  constexpr std::chrono::milliseconds kDrawnEvery{60}, kRefusedWithin{300};
+  const StopSignals signals;
+  ImportCourse course;
+  const ImportStopper stopper(signals, course);
+  auto work = std::async(std::launch::async, [&] { return importWhole(options, course); });
+  // What is refused at once needs no window.
+  if (work.wait_for(kRefusedWithin) != std::future_status::ready && isWatched(options)) try {
+      window.emplace("Molar: import", [&course](const std::string& line) { course.say(line); });
+    } catch (const render::GpuError& error) {
+      course.say(std::string("no window: ") + error.what());
+    }
+  glm::dvec2 pointer_px{-1.0};
+  while (work.wait_for(kDrawnEvery) != std::future_status::ready) {
+    course.drawLine();
+    if (window) showCourse(*window, course, pointer_px);
+  }
+  Imported imported = work.get();
+  // Too late to undo it, early enough not to go on.
+  if (signals.isAsked()) window.reset();
+  return imported;
+}
 
 int import(ImportOptions options) {
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
     throw UsageError("--tooth " + std::to_string(*fdi) + ": not an FDI number, give 11 to 48 or 51 to 85");
   if (const auto named = std::ranges::find(assets::kLabelSets, options.label_set); named != assets::kLabelSets.end())
     options.choices.label_set = static_cast<assets::LabelSet>(named - assets::kLabelSets.begin());
-  std::optional<Segmenter> segmenter;
-  if (!options.segment_with.empty()) {
-    if (options.choices.labels)
-      throw UsageError("--labels " + *options.choices.labels + ": the map is made by --segment-with, give one of them");
-    segmenter.emplace(options.segment_with);
-    options.choices.segment = [&segmenter](const assets::VolumeGrid& grid, const std::vector<std::int16_t>& grey) {
-      return segmenter->labels(grid, grey);
-    };
-  }
+  if (!options.segment_with.empty() && options.choices.labels)
+    throw UsageError("--labels " + *options.choices.labels + ": the map is made by --segment-with, give one of them");
+  // Whether it is a command, before the work.
+  if (!options.segment_with.empty()) Segmenter(options.segment_with);
   if (!options.clicks.empty()) options.choices.clicks = readJawClicks(options.clicks);
   if (!options.scale.empty()) options.choices.scale = scaleOf(options.scale);
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
@@ -320,54 +295,18 @@ int import(ImportOptions options) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     options.out = newPatientPath(usualPatientFolder(), now.time_since_epoch().count());
   }
-  auto at_once = std::make_unique<StopsWithALine>(kStoppedLine);
-  assets::ImportedScan imported = importAny(options);
-  assets::Patient& patient = imported.patient;
-  patient.gingiva = assets::gingivaSurface(patient.ct, planGutter(patient, kUsualBurRadius_mm));
-  if (options.choices.keep_face && !options.no_face && !placeOwnFace(patient))
-    printMessage("the scan shows too little skin for a face");
-  if (!options.no_face && patient.site && patient.face.parts.empty())
-    if (const std::string why_not = placeBuiltInFace(patient); !why_not.empty())
-      printMessage("without a face: " + why_not);
-  at_once.reset();
-  const StopSignals signals;
-  assets::savePatient(patient, options.out, options.force, imported.origin ? &*imported.origin : nullptr,
-                      options.choices.clicks.isEmpty() ? "" : jawClicksText(options.choices.clicks), [&] {
-                        if (signals.isAsked()) throw UsageError(kStopped);
-                      });
-  // Edits of another import of this folder.
-  std::error_code ignored;
-  std::filesystem::remove(checkLogPath(options.out), ignored);
-  if (imported.jaw) keepCheckPicture(patient, options.out);
-  std::fputs(wordsOn(patient).c_str(), stderr);
-  if (patient.isProposed()) printMessage("look at what was found: molar check " + nameOf(options.out));
+  std::optional<CheckWindow> window;
+  const Imported imported = importShown(options, window);
+  std::fputs(imported.words.c_str(), stderr);
   if (has_no_place)
     printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +
                  usualPatientFolder().string() + ": rename the folder as you like; molar start offers it");
-  return 0;
-}
-
-bool isPatientFolder(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::exists(std::filesystem::path(path) / "patient.toml", error);
-}
-
-int inspect(const InspectOptions& options) {
-  if (!isPatientFolder(options.patient) && isDicomOrServer(options.patient, options.dicom)) {
-    const SurveyedSource source = surveySource(options.patient, options.dicom);
-    const assets::DicomSurvey& survey = source.survey;
-    std::fputs((options.json ? dicomReportJson(survey) : dicomReportText(survey)).c_str(), stdout);
-    return 0;
-  }
-  const std::string folder = patientNamed(options.patient);
-  const assets::Patient patient = assets::loadPatient(folder);
-  const auto statement = assets::statementIn(folder);
-  if (options.json) {
-    nlohmann::json out = jsonOf(patient);
-    out["deidentified"] = statement ? jsonOf(*statement) : nlohmann::json(nullptr);
-    std::fputs((out.dump(2) + "\n").c_str(), stdout);
+  if (!imported.is_to_check) return 0;
+  if (window) {
+    window->setTitle("Molar: check");
+    showCheckPage(*window, options.out, printMessage);
   } else {
-    std::fputs((wordsOn(patient) + (statement ? wordsOn(*statement) : std::string())).c_str(), stdout);
+    printMessage("look at what was found: molar check " + nameOf(options.out));
   }
   return 0;
 }
@@ -416,20 +355,13 @@ void addImport(CommandLine& molar) {
       .option("--scale", options->scale,
               "Grey values: hu, hu+1000, hu+1024 or AIR,MUSCLE,DENTINE [judged by their histogram]")
       .excludes(window);
+  command.flag("--no-check", options->no_check,
+               "Without the check page, which opens by itself on a terminal with a display");
   command.flag("--no-face", options->no_face, "Without the built-in face, which stands for lips, cheek and tongue");
   command.flag("--keep-face", options->choices.keep_face,
                "Keep the skin, by which the patient can be recognised, as the face");
   command.flag("--keep-age-band", options->choices.keep_age_band, "Keep the patient's age in decades, and sex");
   command.does([options] { return import(*options); });
-}
-
-void addInspect(CommandLine& molar) {
-  auto options = std::make_shared<InspectOptions>();
-  CommandLine& command = molar.command("inspect", "What a patient folder, a DICOM folder or a server's study holds");
-  command.option("PATIENT", options->patient, kPatientHelp).required();
-  command.flag("--json", options->json, "For programs");
-  addDicomOptions(command, options->dicom);
-  command.does([options] { return inspect(*options); });
 }
 
 }  // namespace app

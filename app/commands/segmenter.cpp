@@ -128,6 +128,8 @@ Segmenter::Segmenter(const std::string& command) : words_(wordsOfCommand(command
 
 Segmenter::~Segmenter() = default;
 
+std::string Segmenter::folder() const { return folder_ ? folder_->path() : std::string(); }
+
 std::string Segmenter::labels(const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
                               std::chrono::seconds limit) {
   std::error_code none;

@@ -27,6 +27,8 @@ class Segmenter {
   /// fails, takes longer than `limit`, or leaves no label map.
   std::string labels(const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
                      std::chrono::seconds limit = std::chrono::hours(3));
+  /// Where the map lies; empty: none was made.
+  std::string folder() const;
 
  private:
   std::vector<std::string> words_;

@@ -1,5 +1,6 @@
 // `molar start`: the start screen, for a desktop entry. What is chosen there goes through the parser and the action of
-// `molar rehearse`; after a rehearsal the start screen is there again, with what went wrong, if anything did.
+// `molar rehearse`, or of `molar check` for a patient that nobody has checked; after that the start screen is there
+// again, with what went wrong, if anything did.
 
 #include <csignal>
 #include <exception>
@@ -23,6 +24,7 @@ namespace {
 int runCommand(const std::vector<std::string>& arguments) {
   CommandLine molar("Molar", "");
   addRehearse(molar);
+  addCheck(molar);
   std::vector<const char*> words{"molar"};
   for (const std::string& argument : arguments) words.push_back(argument.c_str());
   return molar.run(static_cast<int>(words.size()), words.data());
@@ -50,21 +52,38 @@ std::string inShort(const std::string& session) {
   }
 }
 
+/// After the check page of a patient.
+std::string wordsAfterCheck(const StartMenu& menu, const std::string& folder) {
+  for (const StartChoice& choice : menu.lists()[static_cast<std::size_t>(StartListName::cases)].choices)
+    if (choice.is_imported && choice.arguments.front() == folder)
+      return choice.is_to_check
+                 ? "What was found in " + choice.words + " is not confirmed: Start rehearses it as it is."
+                 : choice.words + " is checked: Start begins its rehearsal.";
+  return "";
+}
+
 int start() {
+  // Looked at since the program began.
+  std::vector<std::string> seen;
   StartMenu menu(startListsHere());
   menu.chooseAsIn(keptChoices());
   while (showStartScreen(menu, printMessage)) {
     keepChoices(menu.chosenWords());
-    const std::string trouble = troubleOf(menu.arguments());
+    const std::vector<std::string> arguments = menu.arguments();
+    const std::string trouble = troubleOf(arguments);
     if (wasInterrupted()) return 0;
     // The rehearsal's own would no longer end the program.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
     StartMenu next(startListsHere());
     next.chooseAsIn(menu.chosenWords());
+    if (arguments.front() == "check" && trouble.empty()) seen.push_back(arguments.back());
     if (!trouble.empty())
       next.say(trouble, true);
+    else if (arguments.front() == "check")
+      next.say(wordsAfterCheck(next, arguments.back()), false);
     else if (next.newestSession() != menu.newestSession())
       next.say("Recorded, first in the list to go on with: " + inShort(next.newestSession()), false);
+    for (const std::string& folder : seen) next.rehearseAsItIs(folder);
     menu = std::move(next);
   }
   return 0;

@@ -1,7 +1,6 @@
 #include "app/commands/stop_signals.h"
 
 #include <signal.h>
-#include <unistd.h>
 
 #include <array>
 
@@ -13,7 +12,6 @@ using Actions = std::array<struct sigaction, kStops.size()>;
 
 volatile std::sig_atomic_t stop_asked = 0;
 int stop_signals_alive = 0;
-std::string_view line_of_stop;
 
 Actions handledBy(void (*handler)(int)) {
   Actions before{};
@@ -32,26 +30,16 @@ void restore(const Actions& before) {
   for (std::size_t n = 0; n < kStops.size(); ++n) ::sigaction(kStops[n], &before[n], nullptr);
 }
 
-void sayAndEnd(int number) {
-  const ssize_t ignored = ::write(STDERR_FILENO, line_of_stop.data(), line_of_stop.size());
-  static_cast<void>(ignored);
-  ::signal(number, SIG_DFL);
-  ::raise(number);
-}
-
 }  // namespace
 
 struct StopSignals::Before {
-  Actions actions;
-};
-struct StopsWithALine::Before {
   Actions actions;
 };
 
 StopSignals::StopSignals() {
   // Within another, what it was asked is not forgotten.
   if (stop_signals_alive++ == 0) stop_asked = 0;
-  before_ = std::make_unique<Before>(Before{handledBy([](int) { stop_asked = 1; })});
+  before_ = std::make_unique<Before>(Before{handledBy([](int number) { stop_asked = number; })});
 }
 StopSignals::~StopSignals() {
   --stop_signals_alive;
@@ -60,10 +48,6 @@ StopSignals::~StopSignals() {
 
 bool StopSignals::isAsked() const { return stop_asked != 0; }
 
-StopsWithALine::StopsWithALine(std::string_view line) {
-  line_of_stop = line;
-  before_ = std::make_unique<Before>(Before{handledBy(sayAndEnd)});
-}
-StopsWithALine::~StopsWithALine() { restore(before_->actions); }
+int StopSignals::number() const { return stop_asked; }
 
 }  // namespace app

@@ -3,7 +3,6 @@
 
 #include <csignal>
 #include <memory>
-#include <string_view>
 
 #include "assets/scan/confined_child.h"
 
@@ -18,25 +17,13 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   bool isAsked() const;
+  /// Which one; 0: none.
+  int number() const;
 
  private:
   struct Before;
   std::unique_ptr<Before> before_;
   assets::DefaultChildSignal child_;
-};
-
-/// While it lives they end the program as ever, after a line that says so: nothing is being written.
-class StopsWithALine {
- public:
-  /// `line` lives as long.
-  explicit StopsWithALine(std::string_view line);
-  ~StopsWithALine();
-  StopsWithALine(const StopsWithALine&) = delete;
-  StopsWithALine& operator=(const StopsWithALine&) = delete;
-
- private:
-  struct Before;
-  std::unique_ptr<Before> before_;
 };
 
 }  // namespace app

@@ -28,11 +28,15 @@ std::string begun(std::string words) {
 StartList caseStartList(std::span<const PatientListing> patients) {
   StartList list{"Case", {}, 0};
   for (const PatientListing& one : patients.first(std::min(patients.size(), kPatientsOffered)))
-    list.choices.push_back({.words = one.name,
-                            .beside = "imported",
-                            .about = begun(one.title) + ". Its folder is " + one.path + ".",
-                            .arguments = {one.path},
-                            .is_imported = true});
+    list.choices.push_back(
+        {.words = one.name,
+         .beside = one.is_to_check ? "to be checked" : "imported",
+         .about = begun(one.title) + (one.is_to_check ? ". Nobody has confirmed what was found in its scan: it is "
+                                                        "looked at before the first rehearsal."
+                                                      : ". Its folder is " + one.path + "."),
+         .arguments = {one.path},
+         .is_imported = true,
+         .is_to_check = one.is_to_check});
   for (const Case& one : cases()) {
     if (one.name == usualCase().name) list.chosen = list.choices.size();
     list.choices.push_back(

@@ -83,7 +83,17 @@ bool StartMenu::isOverruled(std::size_t list) const {
   return list == kCases && goes_on && !imported_goes_on;
 }
 
+bool StartMenu::startsCheck() const {
+  return lists_[kCases].choice().is_to_check && !goesOn(lists_[kSessions].choice());
+}
+
+void StartMenu::rehearseAsItIs(const std::string& patient_folder) {
+  for (StartChoice& choice : lists_[kCases].choices)
+    if (choice.is_to_check && choice.arguments.front() == patient_folder) choice.is_to_check = false;
+}
+
 std::vector<std::string> StartMenu::arguments() const {
+  if (startsCheck()) return {"check", lists_[kCases].choice().arguments.front()};
   std::vector<std::string> all{"rehearse"};
   for (std::size_t n = 0; n < lists_.size(); ++n)
     if (!isOverruled(n)) {

@@ -1,6 +1,6 @@
 // The start screen as a state machine: lists of choices, one of each chosen, one list under the keys. What is chosen
-// are arguments of `molar rehearse`, so that the start screen cannot mean anything that the command line does not.
-// Plain values; any thread.
+// are arguments of `molar rehearse` or `molar check`, so that the start screen cannot mean anything that the command
+// line does not. Plain values; any thread.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ struct StartChoice {
   std::string why_not = "";  ///< cannot be started, and what to do; empty: it can
   /// Of a patient: imported. Of a session to go on with: of an imported patient, which is to be chosen beside it.
   bool is_imported = false;
-  bool has_mouth = true;  ///< of a case: a face whose mouth opens
+  bool has_mouth = true;     ///< of a case: a face whose mouth opens
+  bool is_to_check = false;  ///< of a patient: what was found in its scan is looked at before a rehearsal
 };
 
 struct StartList {
@@ -58,7 +59,11 @@ class StartMenu {
   std::size_t focus() const { return focus_; }
   /// A session to go on with brings its own case, but not an imported patient; only a built-in one has a mouth to open.
   bool isOverruled(std::size_t list) const;
-  /// Of `molar`: "rehearse", then those of all choices.
+  /// A patient that is to be checked first is chosen, for a new rehearsal.
+  bool startsCheck() const;
+  /// It was looked at: the next start rehearses it, confirmed or not.
+  void rehearseAsItIs(const std::string& patient_folder);
+  /// Of `molar`: "rehearse", then those of all choices; or "check" and the patient.
   std::vector<std::string> arguments() const;
 
   /// How the rehearsal ended, or why it did not start (`trouble`); until the next key or click.

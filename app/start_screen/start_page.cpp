@@ -125,7 +125,7 @@ render::Image startPage(const StartMenu& menu, glm::ivec2 window_px) {
   page.paragraph(tells ? menu.message() : menu.lists()[menu.focus()].choice().about, {5.0 + kInset, kAboutTop},
                  kAboutWidth, kText, tells && menu.isTrouble() ? kWarning : kWords, Align::left);
   page.box(kButton, kButtonSize, kAccent);
-  page.text("Start", kButton + 0.5 * kButtonSize, 3.4, kGround, Align::centre, true);
+  page.text(menu.startsCheck() ? "Check" : "Start", kButton + 0.5 * kButtonSize, 3.4, kGround, Align::centre, true);
   page.text("Up, Down or wheel choose · Tab, Left, Right next list · Enter starts · Esc leaves", {5.0 + kInset, 97.0},
             2.1, kDim, Align::left);
 

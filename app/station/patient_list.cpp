@@ -47,8 +47,9 @@ std::vector<PatientListing> listPatients(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (!isName(name) || !entry.is_directory(failed)) continue;
     try {
+      const assets::Patient patient = assets::describedPatient(entry.path().string());
       found.push_back({fs::last_write_time(entry.path(), failed),
-                       {entry.path().string(), name, assets::describedPatient(entry.path().string()).shownTitle()}});
+                       {entry.path().string(), name, patient.shownTitle(), patient.isProposed()}});
     } catch (const assets::LoadError&) {  // molar inspect tells why
     }
   }

@@ -20,6 +20,8 @@ struct PatientListing {
   std::string path;
   std::string name;   ///< of the folder
   std::string title;  ///< "imported scan, lower right third molar (48)"
+  /// Tooth or canal were found by the program, and nobody has confirmed them.
+  bool is_to_check = false;
 };
 
 /// Those whose description can be read, the newest import first. A folder that does not exist is empty.

@@ -375,7 +375,9 @@ GreyMap greyMapOf(DicomSurvey& survey, std::span<const std::int16_t> grey, const
 
 ImportedScan importScan(DicomSurvey& survey, const ScanImportOptions& options) {
   const std::string name = "scan";
+  if (options.stage) options.stage("pictures");
   std::vector<std::int16_t> grey = readDicomVolume(survey);
+  if (options.stage) options.stage("grey values");
   const std::vector<TextBox> text = burntInText(survey.plan->geometry.size, grey, kNoGrey);
   blankText(survey.plan->geometry.size, text, kNoGrey, grey);
   if (!text.empty())

@@ -38,7 +38,7 @@ struct ScanImportOptions {
   std::function<std::string(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield)> segment{};
   bool grey_only = false;  ///< without labels: tissues by grey value alone, no jaw and no teeth are looked for
   JawClicks clicks{};      ///< a person's edits of what is found in a scan without labels
-  ReportStage stage{};     ///< called when a stage of the segmentation begins
+  ReportStage stage{};     ///< called when a stage begins
 };
 
 /// No teeth can be found in the scan.

@@ -28,7 +28,6 @@ constexpr const char* kStatement = "deidentified.toml";
 constexpr const char* kClicks = "clicks.json";
 constexpr const char* kCheckPicture = "check.png";
 constexpr const char* kScanTable = "\n[scan]\n";
-constexpr const char* kDigestKey = "volume_sha256 = ";
 constexpr const char* kGingivaPrefix = "Gum";
 constexpr std::size_t kMaxToml_bytes = 4 << 20;
 
@@ -62,14 +61,15 @@ namespace {
 /// What a folder tells of its scan beside the patient, as text; empty: nothing.
 struct ScanWords {
   std::string table;
-  /// deidentified.toml for a volume of that digest.
+  /// deidentified.toml for a volume of that digest, signed.
   std::function<std::string(const std::string& volume_sha256)> statement;
 };
 
 void write(const Patient& patient, const std::string& folder, bool overwrite, const ScanWords& scan,
-           const std::string& clicks, const std::function<void()>& before_commit) {
+           const std::string& clicks, const FolderWatch& watch) {
   calibration::OutputFolder output(folder, overwrite, {kToml, kVolume, kMeshes, kStatement, kClicks, kCheckPicture});
   const fs::path written = output.temporaryPath();
+  if (watch.begun) watch.begun(output.temporaryPath());
   calibration::OutputFile(written / kToml, false).commit(patientToml(patient) + scan.table);
   if (!clicks.empty()) calibration::OutputFile(written / kClicks, false).commit(clicks);
   writeVdb(patient.ct, (written / kVolume).string());
@@ -77,37 +77,44 @@ void write(const Patient& patient, const std::string& folder, bool overwrite, co
   if (!meshes_P.parts.empty()) writeGltf(modelInFaceFrame(meshes_P), (written / kMeshes).string());
   if (scan.statement)
     calibration::OutputFile(written / kStatement, false)
-        .commit(sealedStatement(scan.statement(digestOfFile((written / kVolume).string()))));
-  if (before_commit) before_commit();
+        .commit(scan.statement(digestOfFile((written / kVolume).string())));
+  // So that what follows takes no time.
+  for (const auto& entry : fs::directory_iterator(written)) calibration::syncToDisk(entry.path().string());
+  if (watch.before_commit) watch.before_commit();
   output.commit();
 }
 
 }  // namespace
 
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin,
-                 const std::string& clicks, const std::function<void()>& before_commit) {
+                 const std::string& clicks, const FolderWatch& watch) {
   ScanWords scan;
   if (origin != nullptr) {
     scan.table = scanTable(*origin);
-    scan.statement = [origin](const std::string& digest) { return deidentificationStatement(*origin, digest); };
+    scan.statement = [origin](const std::string& digest) {
+      return sealedStatement(deidentificationStatement(*origin, digest));
+    };
   }
-  write(patient, folder, overwrite, scan, clicks, before_commit);
+  write(patient, folder, overwrite, scan, clicks, watch);
 }
 
-void savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks) {
+StatementAfterEdits savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks) {
   const fs::path path = folder;
   ScanWords scan;
+  StatementAfterEdits became = StatementAfterEdits::none;
   const std::string toml = readSmallFile((path / kToml).string(), kMaxToml_bytes);
   if (const auto at = toml.find(kScanTable); at != std::string::npos) scan.table = toml.substr(at);
-  std::error_code error;
-  if (fs::exists(path / kStatement, error))
-    scan.statement = [text = readSmallFile((path / kStatement).string())](const std::string& digest) {
-      std::string renewed = text;
-      if (const auto at = renewed.find(kDigestKey); at != std::string::npos)
-        renewed.replace(at, renewed.find('\n', at) - at, kDigestKey + quotedToml(digest));
-      return renewed;
+  if (const auto facts = statementIn(folder)) {
+    const bool is_whole = isWhole(*facts);
+    became = !is_whole            ? StatementAfterEdits::left_unsigned
+             : facts->is_reviewed ? StatementAfterEdits::review_lapsed
+                                  : StatementAfterEdits::renewed;
+    scan.statement = [is_whole, text = readSmallFile((path / kStatement).string())](const std::string& digest) {
+      return is_whole ? statementAfterEdits(text, digest) : text;
     };
+  }
   write(patient, folder, true, scan, clicks, {});
+  return became;
 }
 
 std::string clicksPath(const std::string& folder) { return (fs::path(folder) / kClicks).string(); }

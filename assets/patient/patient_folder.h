@@ -15,15 +15,28 @@
 
 namespace assets {
 
+/// While a folder is written beside its place.
+struct FolderWatch {
+  std::function<void(const std::string& folder)> begun{};  ///< it is there, empty, and may be written into
+  std::function<void()> before_commit{};  ///< all of it is on the disk; if it throws, nothing is left of it
+};
+
 /// Throws as OutputFolder: no parent folder, not writable, already present without `overwrite`, or present with other
 /// content, which would be lost. `origin`: of a DICOM scan; it is written, and not read back. `clicks`: of
-/// clicks.json; empty: none is written. `before_commit`: called when all is written beside the folder; if it throws,
-/// nothing is left of it.
+/// clicks.json; empty: none is written.
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite, const ScanOrigin* origin = nullptr,
-                 const std::string& clicks = {}, const std::function<void()>& before_commit = {});
+                 const std::string& clicks = {}, const FolderWatch& watch = {});
+
+/// What became of deidentified.toml.
+enum class StatementAfterEdits {
+  none,           ///< the folder has none
+  renewed,        ///< of the new volume, signed
+  review_lapsed,  ///< the same, and it was reviewed: this volume is not
+  left_unsigned   ///< it was changed, or is of another volume: as it was, so that it stays in doubt
+};
 
 /// Replaces a patient folder by the patient after edits; what is told of its scan stays. Throws as savePatient().
-void savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks);
+StatementAfterEdits savePatientAgain(const Patient& patient, const std::string& folder, const std::string& clicks);
 
 /// Of a patient folder, for clicks.json.
 std::string clicksPath(const std::string& folder);

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSealTable = "\n[signature]\n", kNotReviewed = "\nreviewed = false\n",
                            kReviewed = "\nreviewed = true\n";
+constexpr std::string_view kDigestKey = "volume_sha256 = ";
 constexpr std::string_view kReviewedByNobody = "Done by software, reviewed by\n# nobody.",
                            kReviewedByAPerson = "Done by software; a person\n# has looked at the pictures.";
 
@@ -57,6 +58,12 @@ Seal sealOf(const std::string& text) {
 
 }  // namespace
 
+bool isWhole(const StatementFacts& facts) {
+  // A machine that can sign has signed what it made: there the signature was taken away.
+  const bool was_taken_away = facts.seal == Seal::none && calibration::signedByMachine({});
+  return facts.seal != Seal::broken && facts.is_of_volume && !was_taken_away;
+}
+
 std::string digestOfFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   calibration::Sha256 hash;
@@ -76,14 +83,23 @@ std::string sealedStatement(std::string text) {
   return text + sealTable(*signature);
 }
 
+std::string statementAfterEdits(std::string text, const std::string& volume_sha256) {
+  const std::string line = "\n" + std::string(kDigestKey);
+  if (const std::size_t at = text.find(line); at != std::string::npos)
+    text.replace(at, text.find('\n', at + 1) - at, line + quotedToml(volume_sha256));
+  replace(text, kReviewed, kNotReviewed);
+  replace(text, kReviewedByAPerson, kReviewedByNobody);
+  return sealedStatement(std::move(text));
+}
+
 std::optional<StatementFacts> statementIn(const std::string& folder) {
   std::error_code error;
   if (!fs::exists(pathIn(folder, "deidentified.toml"), error)) return std::nullopt;
   const std::string text = readSmallFile(pathIn(folder, "deidentified.toml"));
   StatementFacts facts;
-  facts.is_reviewed = text.find(kReviewed) != std::string::npos;
   facts.seal = sealOf(text);
   facts.is_of_volume = valueOf(text, "volume_sha256") == digestOfFile(pathIn(folder, "volume.vdb"));
+  facts.is_reviewed = text.find(kReviewed) != std::string::npos && isWhole(facts);
   return facts;
 }
 
@@ -92,10 +108,9 @@ void reviewStatement(const std::string& folder) {
   if (!facts)
     throw LoadError(folder +
                     ": it has no deidentified.toml, as a patient of DICOM files has; there is nothing to review");
-  // A machine that can sign has signed what it made: there the signature was taken away.
-  if (facts->seal == Seal::none && calibration::signedByMachine({}))
+  if (!isWhole(*facts) && facts->seal == Seal::none && facts->is_of_volume)
     throw LoadError(folder + ": its deidentified.toml carries no signature; import the scan again");
-  if (facts->seal == Seal::broken || !facts->is_of_volume)
+  if (!isWhole(*facts))
     throw LoadError(folder + ": its deidentified.toml was changed, or is of another volume; import the scan again");
   if (facts->is_reviewed) return;
   std::string text = readSmallFile(pathIn(folder, "deidentified.toml"));

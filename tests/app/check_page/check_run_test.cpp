@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "assets/patient/scan_origin_toml.h"
 #include "assets/patient/statement_file.h"
@@ -331,21 +333,93 @@ TEST_F(CheckRunTest, ThePicturesAreReviewedByAButtonThatAsksFirst) {
   unsetenv("XDG_CONFIG_HOME");
 }
 
-TEST_F(CheckRunTest, TheScansStatementFollowsItsVolume) {
-  const std::string statement = folder_.path() + "/deidentified.toml";
-  std::ofstream(statement) << "schema = 1\nvolume_sha256 = \"old\"\n\n[face]\nkept = false\n";
-  std::ofstream(folder_.path() + "/patient.toml", std::ios::app) << "\n[scan]\nmodality = \"CT\"\n";
+/// A statement of the folder's volume, signed with a key in the test's folder.
+class SavedStatement : public CheckRunTest {
+ protected:
+  void SetUp() override {
+    setenv("XDG_CONFIG_HOME", (folder_.path() + "_config").c_str(), 1);
+    write();
+    std::ofstream(folder_.path() + "/patient.toml", std::ios::app) << "\n[scan]\nmodality = \"CT\"\n";
+  }
+  void TearDown() override { unsetenv("XDG_CONFIG_HOME"); }
+
+  void write() const {
+    const std::string digest = assets::digestOfFile(folder_.path() + "/volume.vdb");
+    std::ofstream(statement_) << assets::sealedStatement(assets::deidentificationStatement({}, digest));
+  }
+  /// What the page says of it.
+  std::string confirmAndSave() const { return saveAfter(Key::enter, false); }
+  std::string saveAfter(Key key, bool control) const {
+    const auto run = open(folder_.path());
+    press(*run, key, control);
+    run->finish();
+    press(*run, render::keyOf('S'), true);
+    run->finish();
+    EXPECT_FALSE(run->menu().isTrouble());
+    return run->menu().message();
+  }
+  assets::StatementFacts facts() const { return *assets::statementIn(folder_.path()); }
+  static std::string read(const std::string& path) {
+    std::ifstream file(path);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  }
+
+  const std::string statement_ = folder_.path() + "/deidentified.toml";
+};
+
+TEST_F(SavedStatement, FollowsItsVolume) {
+  EXPECT_EQ(confirmAndSave(), "saved");
+  EXPECT_TRUE(facts().is_of_volume);
+  EXPECT_EQ(facts().seal, assets::Seal::of_this_machine);
+  EXPECT_FALSE(facts().is_reviewed);
+  EXPECT_THAT(read(folder_.path() + "/patient.toml"), testing::HasSubstr("[scan]\nmodality = \"CT\""));
+}
+
+TEST_F(SavedStatement, IsNotReviewedAnyMoreOnceSomethingElseIsSaved) {
+  const std::string before = read(statement_);
+  assets::reviewStatement(folder_.path());
+  ASSERT_TRUE(facts().is_reviewed);
+  EXPECT_THAT(confirmAndSave(), testing::StartsWith("saved; its pictures count as not reviewed again"));
+  EXPECT_FALSE(facts().is_reviewed);
+  EXPECT_TRUE(facts().is_of_volume);
+  EXPECT_EQ(facts().seal, assets::Seal::of_this_machine);
+  EXPECT_THAT(read(statement_), testing::StartsWith(before.substr(0, before.find("volume_sha256"))));
+  // And can be reviewed again.
+  assets::reviewStatement(folder_.path());
+  EXPECT_TRUE(facts().is_reviewed);
+}
+
+TEST_F(SavedStatement, ThatWasChangedIsNotSignedAgain) {
+  using Change = std::function<void(std::string&)>;
+  const std::array<Change, 3> changes{
+      [](std::string& text) { text.replace(text.find("kept = false"), 12, "kept = true "); },
+      [](std::string& text) { text += "# more\n"; }, [](std::string& text) { text.erase(text.find("\n[signature]")); }};
+  bool is_confirmed = false;
+  for (const Change& change : changes) {
+    write();
+    assets::reviewStatement(folder_.path());
+    std::string doubtful = read(statement_);
+    change(doubtful);
+    std::ofstream(statement_) << doubtful;
+    EXPECT_FALSE(facts().is_reviewed);
+    // Confirmed, taken back, and confirmed.
+    const std::string said = is_confirmed ? saveAfter(render::keyOf('Z'), true) : confirmAndSave();
+    is_confirmed = !is_confirmed;
+    EXPECT_THAT(said, testing::HasSubstr("is not signed again"));
+    EXPECT_EQ(read(statement_), doubtful);
+    EXPECT_FALSE(facts().is_reviewed);
+    EXPECT_FALSE(facts().is_of_volume);
+  }
+}
+
+TEST_F(SavedStatement, IsReviewedOfWhatIsSaved) {
   const auto run = open(folder_.path());
   press(*run, Key::enter);
   run->finish();
-  press(*run, render::keyOf('S'), true);
-  run->finish();
-  const auto read = [](const std::string& path) {
-    std::ifstream file(path);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-  };
-  EXPECT_THAT(read(statement), testing::ContainsRegex("volume_sha256 = .[0-9a-f]+.\n\n.face."));
-  EXPECT_THAT(read(folder_.path() + "/patient.toml"), testing::HasSubstr("[scan]\nmodality = \"CT\""));
+  const glm::dvec2 button(220.0, kWindow_px.y - 47.0);
+  clickOn(*run, button), clickOn(*run, button);
+  EXPECT_THAT(run->menu().message(), testing::HasSubstr("save first"));
+  EXPECT_FALSE(facts().is_reviewed);
 }
 
 }  // namespace

@@ -80,6 +80,20 @@ TEST(StartLists, ImportedPatientsAreOfferedBeforeTheCases) {
   EXPECT_EQ(options.case_name, "");
 }
 
+TEST(StartLists, APatientThatNobodyConfirmedIsToBeChecked) {
+  StartFindings found{.patients = {{"/p/a", "a", "imported scan", true}, {"/p/b", "b", "imported scan", false}},
+                      .devices = {},
+                      .calibrations = {},
+                      .sessions = {}};
+  StartMenu menu(startLists(found));
+  menu.choose(0, 0);
+  EXPECT_EQ(menu.lists()[0].choice().beside, "to be checked");
+  EXPECT_EQ(menu.arguments(), std::vector<std::string>({"check", "/p/a"}));
+  menu.choose(0, 1);
+  EXPECT_EQ(menu.lists()[0].choice().beside, "imported");
+  EXPECT_EQ(menu.arguments().front(), "rehearse");
+}
+
 TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
   const StartLists lists = someLists();
   for (std::size_t list = 0; list < lists.size(); ++list)

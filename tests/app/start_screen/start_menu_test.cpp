@@ -42,6 +42,27 @@ TEST(StartMenu, EnterStartsWhatIsChosenAsArgumentsOfRehearse) {
   EXPECT_EQ(menu.arguments(), Words({"rehearse", "--case", "shallow", "--device", "mouse", "--position", "behind"}));
 }
 
+TEST(StartMenu, APatientToBeCheckedIsLookedAtBeforeItsFirstRehearsal) {
+  StartLists lists = smallMenu().lists();
+  lists[0].choices[0] = {
+      .words = "mine", .beside = "", .about = "", .arguments = {"/p/mine"}, .is_imported = true, .is_to_check = true};
+  lists[5].choices[1].is_imported = true;
+  StartMenu menu(lists);
+  EXPECT_FALSE(menu.startsCheck());
+  menu.choose(0, 0);
+  EXPECT_TRUE(menu.startsCheck());
+  EXPECT_EQ(menu.arguments(), Words({"check", "/p/mine"}));
+  // A session of it that goes on is a rehearsal.
+  menu.choose(5, 1);
+  EXPECT_EQ(menu.arguments().front(), "rehearse");
+  menu.choose(5, 0);
+  menu.rehearseAsItIs("/p/another");
+  EXPECT_TRUE(menu.startsCheck());
+  menu.rehearseAsItIs("/p/mine");
+  EXPECT_FALSE(menu.startsCheck());
+  EXPECT_EQ(menu.arguments(), Words({"rehearse", "/p/mine", "--device", "mouse"}));
+}
+
 TEST(StartMenu, TabGoesRoundAllListsAndBack) {
   StartMenu menu = smallMenu();
   for (std::size_t n = 0; n < kStartLists; ++n) {

@@ -49,6 +49,16 @@ TEST_F(PatientList, ShowsTheNewestFirstUnderTheNameOfItsFolder) {
   EXPECT_EQ(list[1].name, "old one");
 }
 
+TEST_F(PatientList, TellsWhatNobodyHasConfirmed) {
+  add("mine", "imported scan", 0);
+  EXPECT_FALSE(listPatients(usualPatientFolder())[0].is_to_check);
+  assets::Patient found;
+  found.site = assets::OperativeSite{};
+  found.found = assets::Confirmation{};
+  std::ofstream(usualPatientFolder() / "mine" / "patient.toml") << assets::patientToml(found);
+  EXPECT_TRUE(listPatients(usualPatientFolder())[0].is_to_check);
+}
+
 TEST_F(PatientList, LeavesOutWhatIsNoPatientOrCannotStandInALine) {
   add("good", "a", 0);
   add(".part-1-killed", "b", 0);
