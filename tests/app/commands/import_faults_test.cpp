@@ -102,9 +102,7 @@ TEST_F(ImportFaults, AReadOnlyDiscStaysAsItIs) {
   fs::permissions(at("scan"), fs::perms::owner_all);
 }
 
-/// An import that a signal ends after some time; its status as waitpid tells it.
-int importStoppedBy(int number, std::chrono::microseconds after, const std::string& source, const std::string& out,
-                    const std::string& said) {
+pid_t beginImport(const std::string& source, const std::string& out, const std::string& said) {
   const pid_t child = ::fork();
   if (child == 0) {
     const int file = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -112,6 +110,13 @@ int importStoppedBy(int number, std::chrono::microseconds after, const std::stri
     ::execl(MOLAR_PROGRAM, "molar", "import", source.c_str(), "--out", out.c_str(), "--no-face", nullptr);
     ::_exit(127);
   }
+  return child;
+}
+
+/// An import that a signal ends after some time; its status as waitpid tells it.
+int importStoppedBy(int number, std::chrono::microseconds after, const std::string& source, const std::string& out,
+                    const std::string& said) {
+  const pid_t child = beginImport(source, out, said);
   std::this_thread::sleep_for(after);
   ::kill(child, number);
   int status = 0;
@@ -145,6 +150,24 @@ TEST_F(ImportFaults, AStoppedImportLeavesNothing) {
       // Before the program's first line of its own it is the shell's to say.
       EXPECT_TRUE(said.empty() || said.find("molar: import: stopped, nothing was imported\n") != said.npos) << said;
     }
+  }
+  EXPECT_GT(stopped, 0);
+}
+
+// While the folder is written beside its place, with another thread's hand in it.
+TEST_F(ImportFaults, AnImportStoppedAtItsWritingLeavesNothing) {
+  int stopped = 0;
+  for (int round = 0; round < 40 && stopped < 3; ++round) {
+    const pid_t child = beginImport(at("scan"), at("patients/one"), at("said"));
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+      if (!fs::is_empty(at("patients"))) ::kill(child, SIGINT);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    expectNothingElse();
+    if (!fs::exists(at("patients/one"))) ++stopped;
+    EXPECT_TRUE(fs::exists(at("patients/one")) || read("said").find("nothing was imported\n") != std::string::npos);
+    fs::remove_all(at("patients/one"));
   }
   EXPECT_GT(stopped, 0);
 }
