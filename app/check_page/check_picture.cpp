@@ -42,9 +42,15 @@ assets::JawSegmentation foundIn(const assets::Patient& patient) {
   return jaw;
 }
 
+std::vector<std::uint8_t> whatIn(const assets::Patient& patient) {
+  std::vector<std::uint8_t> what = whatOf(patient.ct);
+  if (patient.found) std::ranges::replace(what, kPieceVoxel, kBoneVoxel);
+  return what;
+}
+
 render::Image checkPicture(const assets::Patient& patient) {
   constexpr glm::ivec2 kPicture_px{1280, 800};
-  const JawViews views(patient, whatOf(patient.ct));
+  const JawViews views(patient, whatIn(patient));
   const assets::JawSegmentation found = foundIn(patient);
   CheckMenu menu({}, false, {});
   menu.moveCursor(patient.focus_P_mm());

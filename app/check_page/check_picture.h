@@ -2,7 +2,9 @@
 // whoever looks into the folder. Frame P. Any one thread; 0.5 s for 512^3.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "assets/patient.h"
 #include "assets/segment/jaw_segmentation.h"
@@ -12,6 +14,10 @@ namespace app {
 
 /// What a patient holds, as if it had just been found; without labels.
 assets::JawSegmentation foundIn(const assets::Patient& patient);
+
+/// What its voxels belong to. Of what the program found teeth without a number are bone until it is found again: most
+/// of them are upper ones.
+std::vector<std::uint8_t> whatIn(const assets::Patient& patient);
 
 render::Image checkPicture(const assets::Patient& patient);
 

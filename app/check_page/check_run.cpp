@@ -127,7 +127,7 @@ CheckRun::CheckRun(std::string folder, ReportLine report)
       report_(std::move(report)),
       patient_(assets::loadPatient(folder_)),
       may_edit_(patient_.found && assets::canHoldJaw(patient_.ct.grid)),
-      views_(patient_, whatOf(patient_.ct)),
+      views_(patient_, whatIn(patient_)),
       menu_([this] {
         Edits edits = editsOf(folder_, patient_, views_.midline_x_P_mm());
         return CheckMenu(std::move(edits.now), may_edit_, edits.saved);
@@ -158,6 +158,10 @@ void CheckRun::showFound() {
   for (CheckRow& row : rows)
     if (row.kind == CheckRow::Kind::tooth && row.is_there)
       row.at_P_mm = views_.nearestOf(row.fdi != 0 ? static_cast<std::uint8_t>(row.fdi) : kPieceVoxel, row.at_P_mm);
+  // A folder keeps the operated side's canal alone.
+  if (may_edit_ && !painted_.isFound())
+    for (CheckRow& row : rows)
+      if (row.kind == CheckRow::Kind::canal && !row.is_there) row.beside = "is looked for", row.light = Light::open;
   menu_.showRows(std::move(rows));
   is_changed_ = true;
 }

@@ -67,21 +67,21 @@ std::vector<ImportStage> expectedImportStages() {
   const auto expect = [&stages](const char* name, double usual_s) {
     stages.push_back({.name = name, .usual_s = usual_s});
   };
-  expect("files", 1.0);
-  expect("pictures", 3.0);
-  expect("grey values", 6.0);
-  expect("shading", 2.0);
-  expect("row of teeth", 2.0);
+  expect("files", 0.5);
+  expect("pictures", 2.5);
+  expect("grey values", 8.0);
+  expect("shading", 4.5);
+  expect("row of teeth", 1.0);
   expect("lower jaw", 5.0);
   expect("teeth", 4.0);
-  expect("tooth surfaces", 5.0);
-  expect("tissues", 2.0);
-  expect("right canal", 3.0);
-  expect("left canal", 3.0);
-  expect("labels", 1.0);
-  expect("gum", 3.0);
-  expect("face", 1.0);
-  expect("writing", 8.0);
+  expect("tooth surfaces", 2.0);
+  expect("tissues", 0.5);
+  expect("right canal", 1.5);
+  expect("left canal", 1.5);
+  expect("labels", 5.0);
+  expect("gum", 5.0);
+  expect("face", 4.5);
+  expect("writing", 10.0);
   return stages;
 }
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -20,8 +18,6 @@
 #include "app/case/gutter_plan.h"
 #include "app/check_page/check_picture.h"
 #include "app/check_page/check_run.h"
-#include "app/check_page/check_window.h"
-#include "app/check_page/import_page.h"
 #include "app/check_page/show_check_page.h"
 #include "app/commands/command.h"
 #include "app/commands/dicom_options.h"
@@ -29,10 +25,11 @@
 #include "app/commands/import_course.h"
 #include "app/commands/patient_words.h"
 #include "app/commands/segmenter.h"
-#include "app/commands/stop_signals.h"
+#include "app/commands/shown_import.h"
 #include "app/imaging_server/server_address.h"
 #include "app/options/jaw_clicks_file.h"
 #include "app/session/data_folder.h"
+#include "app/session/session_error.h"
 #include "app/station/patient_list.h"
 #include "app/text/command_line.h"
 #include "app/text/list.h"
@@ -45,7 +42,6 @@
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
-#include "render/gpu/gpu_error.h"
 
 namespace app {
 namespace {
@@ -225,6 +221,18 @@ Imported importWhole(ImportOptions& options, ImportCourse& course) {
   return {patientWords(patient), patient.isProposed() || imported.origin.has_value()};
 }
 
+/// On the start screen.
+bool isOffered(const std::string& patient_folder) {
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::absolute(patient_folder, error).lexically_normal();
+  const std::filesystem::path parent = (path.has_filename() ? path : path.parent_path()).parent_path();
+  try {
+    return std::filesystem::equivalent(parent, usualPatientFolder(), error);
+  } catch (const SessionError&) {  // no data folder: there is nothing to say
+    return true;
+  }
+}
+
 /// Somebody who may look at it, and stop it.
 bool isWatched(const ImportOptions& options) {
   const auto is_set = [](const char* name) {
@@ -233,48 +241,6 @@ bool isWatched(const ImportOptions& options) {
   };
   return !options.no_check && options.report.empty() && isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1 &&
          (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
-}
-
-void showCourse(CheckWindow& window, const ImportCourse& course, glm::dvec2& pointer_px) {
-  for (const render::WindowEvent& event : window.takeEvents()) {
-    const auto* const key = std::get_if<render::KeyPressed>(&event);
-    const auto* const button = std::get_if<render::ButtonPressed>(&event);
-    if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px = moved->to_px;
-    const bool is_cancel = (key != nullptr && key->down && key->key == render::Key::escape) ||
-                           (button != nullptr && button->down && isCancelAt(pointer_px, window.size_px())) ||
-                           std::holds_alternative<render::CloseRequested>(event);
-    // As Ctrl+C.
-    if (is_cancel) ::kill(::getpid(), SIGINT);
-  }
-  window.show([&course](glm::ivec2 px) {
-    return importPage(
-        course.stages(), course.now_s(),
-        {"Importing a scan", "What names a person is left out, jaw, teeth and canals are looked for.", true}, px);
-  });
-}
-
-/// Shown meanwhile, and stopped by a signal or in the window, which stays open afterwards.
-Imported importShown(ImportOptions& options, std::optional<CheckWindow>& window) {
-  constexpr std::chrono::milliseconds kDrawnEvery{60}, kRefusedWithin{300};
-  const StopSignals signals;
-  ImportCourse course;
-  const ImportStopper stopper(signals, course);
-  auto work = std::async(std::launch::async, [&] { return importWhole(options, course); });
-  // What is refused at once needs no window.
-  if (work.wait_for(kRefusedWithin) != std::future_status::ready && isWatched(options)) try {
-      window.emplace("Molar: import", [&course](const std::string& line) { course.say(line); });
-    } catch (const render::GpuError& error) {
-      course.say(std::string("no window: ") + error.what());
-    }
-  glm::dvec2 pointer_px{-1.0};
-  while (work.wait_for(kDrawnEvery) != std::future_status::ready) {
-    course.drawLine();
-    if (window) showCourse(*window, course, pointer_px);
-  }
-  Imported imported = work.get();
-  // Too late to undo it, early enough not to go on.
-  if (signals.isAsked()) window.reset();
-  return imported;
 }
 
 int import(ImportOptions options) {
@@ -295,12 +261,16 @@ int import(ImportOptions options) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     options.out = newPatientPath(usualPatientFolder(), now.time_since_epoch().count());
   }
-  std::optional<CheckWindow> window;
-  const Imported imported = importShown(options, window);
+  Imported imported;
+  const std::unique_ptr<CheckWindow> window =
+      runShown([&](ImportCourse& course) { imported = importWhole(options, course); }, isWatched(options));
   std::fputs(imported.words.c_str(), stderr);
   if (has_no_place)
     printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +
                  usualPatientFolder().string() + ": rename the folder as you like; molar start offers it");
+  else if (!isOffered(options.out))
+    printMessage("molar start offers the patients in " + usualPatientFolder().string() +
+                 ": move the folder there to have it offered");
   if (!imported.is_to_check) return 0;
   if (window) {
     window->setTitle("Molar: check");
