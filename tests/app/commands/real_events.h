@@ -90,6 +90,26 @@ class ScreenHand {
     moveTo(from_px + by_px);
     press(button, false);
   }
+  /// The window under the mouse gets the keys: nobody manages windows here, and one that closes leaves them to none.
+  void takeKeys() {
+    XSetInputFocus(display_, PointerRoot, RevertToPointerRoot, CurrentTime);
+    XSync(display_, False);
+  }
+  /// A window of that title.
+  bool sees(const std::string& title) {
+    Window root = 0, parent = 0, *windows = nullptr;
+    unsigned count = 0;
+    if (XQueryTree(display_, DefaultRootWindow(display_), &root, &parent, &windows, &count) == 0) return false;
+    bool is_there = false;
+    for (unsigned n = 0; n < count && !is_there; ++n) {
+      char* name = nullptr;
+      if (XFetchName(display_, windows[n], &name) == 0) continue;
+      is_there = title == name;
+      XFree(name);
+    }
+    if (windows != nullptr) XFree(windows);
+    return is_there;
+  }
   void controlKey(KeySym symbol) {
     const KeyCode control = XKeysymToKeycode(display_, XK_Control_L);
     XTestFakeKeyEvent(display_, control, True, CurrentTime);
