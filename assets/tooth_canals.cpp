@@ -33,6 +33,26 @@ double toSegment_mm(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& 
 
 }  // namespace
 
+std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
+  std::ranges::sort(points,
+                    [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  if (points.size() < 3) return points;
+  const auto turns_left = [](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0;
+  };
+  std::vector<glm::dvec2> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const glm::dvec2& p : points) {
+      while (hull.size() >= first + 2 && !turns_left(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::ranges::reverse(points);
+  }
+  return hull;
+}
+
 double outlineDistance_mm(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
   double least_mm = std::numeric_limits<double>::max();
   bool inside = false;

@@ -70,6 +70,9 @@ struct ToothCanals {
 /// Surg. 32:271); for centre lines without a closed form.
 double schneider_rad(const std::vector<CanalPlace>& places);
 
+/// The convex hull, counter-clockwise; the points themselves where they are fewer than three.
+std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points);
+
 /// Negative inside a polygon; of one point or two the distance to them or the line between.
 double outlineDistance_mm(const std::vector<glm::dvec2>& outline_mm, const glm::dvec2& p_mm);
 

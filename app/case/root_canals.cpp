@@ -1,9 +1,12 @@
 #include "app/case/root_canals.h"
 
+#include <array>
 #include <numbers>
 
 #include <fmt/core.h>
 
+#include "assets/import/modelled_canals.h"
+#include "assets/load_error.h"
 #include "assets/synthetic/built_in_teeth.h"
 #include "assets/tooth.h"
 
@@ -19,12 +22,38 @@ std::vector<CanalTooth> canalTeeth(const assets::JawParameters& jaw) {
   return teeth;
 }
 
+std::vector<CanalTooth> canalTeeth(const assets::CtVolume& ct) {
+  std::array<bool, 256> is_there{};
+  for (const std::uint8_t fdi : ct.tooth) is_there[fdi] = true;
+  std::vector<CanalTooth> teeth;
+  for (int fdi = 1; fdi < 256; ++fdi) {
+    if (!is_there[static_cast<std::size_t>(fdi)]) continue;
+    CanalTooth tooth{fdi, std::nullopt, ""};
+    try {
+      tooth.canals = assets::modelledCanals(ct, fdi);
+    } catch (const assets::LoadError& refused) {
+      tooth.remark = refused.what();
+    }
+    teeth.push_back(std::move(tooth));
+  }
+  return teeth;
+}
+
+std::unique_ptr<assets::ToothSampler> fineTooth(const assets::CtVolume& ct,
+                                                const std::optional<assets::JawParameters>& jaw,
+                                                const assets::ToothCanals& canals) {
+  if (jaw) return assets::fineBuiltInTooth(assets::builtInTooth(*jaw, canals.fdi), ct);
+  return assets::fineScannedTooth(ct, canals);
+}
+
 std::string canalTable(const std::vector<CanalTooth>& teeth) {
   std::string text = fmt::format("{:<5} {:<14} {:>9} {:>12} {:>12} {:>9}  {}\n", "tooth", "canal", "length mm",
                                  "working l mm", "Schneider °", "width mm", "");
   for (const CanalTooth& tooth : teeth) {
-    if (!tooth.canals) text += fmt::format("{:<5} {}\n", tooth.fdi, tooth.remark);
-    if (!tooth.canals) continue;
+    if (!tooth.canals) {
+      text += tooth.remark + "\n";
+      continue;
+    }
     for (const assets::ToothCanal& canal : tooth.canals->canals) {
       std::string remark = tooth.canals->is_modelled ? "modelled" : "built-in";
       if (canal.joins) remark += ", joins the " + tooth.canals->canals[*canal.joins].name;

@@ -2,12 +2,15 @@
 // mm. Start-up only; some 0.2 s a tooth of the built-in patient.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "assets/ct_volume.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/tooth_canals.h"
+#include "assets/tooth_sampler.h"
 
 namespace app {
 
@@ -19,6 +22,14 @@ struct CanalTooth {
 
 /// From the midline: canals in closed form.
 std::vector<CanalTooth> canalTeeth(const assets::JawParameters& jaw);
+
+/// Of a scan, by number: canals modelled into it, labelled so.
+std::vector<CanalTooth> canalTeeth(const assets::CtVolume& ct);
+
+/// On a fine grid, in its scan. `jaw`: of a built-in patient.
+std::unique_ptr<assets::ToothSampler> fineTooth(const assets::CtVolume& ct,
+                                                const std::optional<assets::JawParameters>& jaw,
+                                                const assets::ToothCanals& canals);
 
 /// For people: a line a canal.
 std::string canalTable(const std::vector<CanalTooth>& teeth);

@@ -22,6 +22,11 @@ void PatientOrCase::refuseUnlessOne(const std::string& command) const {
 
 std::string PatientOrCase::name() const { return case_name_.empty() ? patient_ : "--case " + case_name_; }
 
+std::optional<assets::JawParameters> PatientOrCase::builtInJaw() const {
+  if (case_name_.empty()) return std::nullopt;
+  return caseNamed(case_name_)->jaw;
+}
+
 assets::Patient PatientOrCase::load() const {
   if (!case_name_.empty()) return builtInPatient(caseNamed(case_name_)->jaw);
   assets::Patient patient = assets::loadPatient(patientNamed(patient_));

@@ -1,9 +1,11 @@
 // The patient that a command reads: PATIENT, a folder or its name, or --case, of the built-in patient. Start-up only.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "assets/patient.h"
+#include "assets/synthetic/jaw.h"
 
 namespace app {
 
@@ -17,6 +19,8 @@ class PatientOrCase {
   bool isGiven() const { return !patient_.empty() || !case_name_.empty(); }
   /// As given, for messages: "--case usual".
   std::string name() const;
+  /// What the built-in patient is made from; none: a patient of a folder.
+  std::optional<assets::JawParameters> builtInJaw() const;
   /// Some seconds where the built-in patient has to be made. Throws UsageError, assets::LoadError.
   assets::Patient load() const;
 

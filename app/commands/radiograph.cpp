@@ -1,5 +1,6 @@
 // `molar radiograph`: a periapical radiograph of one tooth, of a patient as scanned or of what a session left of it.
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -14,6 +15,8 @@
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/view/radiograph_picture.h"
+#include "assets/scan/fine_radiograph.h"
+#include "assets/synthetic/built_in_teeth.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
 #include "calibration/png_file.h"
@@ -34,17 +37,29 @@ struct RadiographOptions {
 struct Exposed {
   assets::CtVolume ct;
   std::string name;
+  std::optional<assets::JawParameters> jaw;  ///< of a built-in patient, as it was made
 };
 
 Exposed exposedOf(const RadiographOptions& options) {
   if (options.session.empty()) {
     options.patient.refuseUnlessOne("radiograph");
-    return {options.patient.load().ct, options.patient.name()};
+    return {options.patient.load().ct, options.patient.name(), options.patient.builtInJaw()};
   }
   BoneAtTime bone = boneAtTime(sessionNamed(options.session), options.to_s);
   for (const std::string& remark : bone.remarks) printMessage(remark);
   return {{bone.start.grid, {}, std::move(bone.start.label), std::move(bone.solid), std::move(bone.start.teeth)},
-          options.session};
+          options.session,
+          std::nullopt};
+}
+
+/// The canals of a built-in tooth are in it: no voxel of a scan holds them.
+std::vector<float> weakening_mm(const Exposed& exposed, const assets::PeriapicalView& view, int fdi) {
+  constexpr double kSpacing_mm = 0.08;
+  const assets::CtVolume& ct = exposed.ct;
+  if (!exposed.jaw || !std::ranges::count(assets::builtInTeeth(*exposed.jaw), fdi))
+    return assets::radiographOf(ct.grid, ct.solid, ct.label, view);
+  const assets::BuiltInTooth tooth = assets::builtInTooth(*exposed.jaw, fdi);
+  return assets::fineRadiographOf(ct, fdi, *assets::fineBuiltInTooth(tooth, ct, kSpacing_mm), view);
 }
 
 int expose(const RadiographOptions& options) {
@@ -58,7 +73,7 @@ int expose(const RadiographOptions& options) {
   const auto view = assets::periapicalViewOf(ct, options.fdi, options.shift_deg);
   if (!view)
     throw UsageError(fmt::format("{}: no voxel is labelled as tooth {}, see molar inspect", exposed.name, options.fdi));
-  const std::vector<float> bone_mm = assets::radiographOf(ct.grid, ct.solid, ct.label, *view);
+  const std::vector<float> bone_mm = weakening_mm(exposed, *view, options.fdi);
   const render::Image image = radiographPicture(*view, bone_mm, options.fdi, options.shift_deg);
   calibration::writePng(out.temporaryPath(), {image.w, image.h}, image.rgba);
   out.commit();
@@ -85,7 +100,7 @@ void addRadiograph(CommandLine& molar) {
   command.footer(
       "The film stands along the tooth, 0.1 mm a pixel, two of the image's each; seen from the tube. Attenuations of\n"
       "enamel, dentine, bone and pulp are ratios of our own, no dose is modelled. Canals thinner than a voxel of the\n"
-      "scan are not in it.");
+      "scan are not in it, but those of a built-in patient as it was made are (molar teeth --case).");
   command.does([options] {
     refuseUnlessPng("--out", options->out);
     return expose(*options);

@@ -49,7 +49,7 @@ class FineTooth final : public ToothSampler {
     const Cube cube = cubeAt(low, edge);
     const double outer_mm = shell_->outer_mm(cube.middle_P);
     if (outer_mm < -kSteep * cube.reach_mm) {
-      const double pulp_mm = pulp_.at_mm(cube.middle_P);
+      const double pulp_mm = std::min(pulp_.at_mm(cube.middle_P), shell_->pulp_mm(cube.middle_P));
       if (pulp_mm < -kPulpSteep * cube.reach_mm) return Same{0, labelOf(Tissue::pulp)};
       if (pulp_mm < kPulpSteep * cube.reach_mm) return std::nullopt;
       const double core_mm = shell_->core_mm(cube.middle_P, outer_mm);
@@ -91,10 +91,13 @@ class FineTooth final : public ToothSampler {
     const double pulp_mm = outside ? 1.0 : pulp_.at_mm(cube.middle_P);
     const bool near_pulp = std::abs(pulp_mm) < kPulpSteep * cube.reach_mm;
     const PulpDistance::Parts parts = near_pulp ? pulp_.partsNear(cube.middle_P, cube.reach_mm) : 0;
+    const double shown_mm = outside ? 1.0 : shell_->pulp_mm(cube.middle_P);
+    const bool near_shown = std::abs(shown_mm) < near_mm;
     std::size_t v = 0;
     forVoxels(block * kEdge, block * kEdge + kEdge, [&](glm::ivec3 ijk) {
       const glm::dvec3 p_P = grid_.centre_P_mm(ijk);
-      const double pulp = near_pulp ? pulp_.at_mm(p_P, parts) : pulp_mm;
+      const double pulp =
+          std::min(near_pulp ? pulp_.at_mm(p_P, parts) : pulp_mm, near_shown ? shell_->pulp_mm(p_P) : shown_mm);
       const double hard = inside ? 1.0 : std::max(hard_tissue[v], kLigament_mm - outer[v]);
       const double tooth = outside ? -1.0 : std::min(-outer[v], pulp);
       solid[v] = solidOf(std::max(tooth, -hard));

@@ -27,6 +27,8 @@ class ToothShell {
   virtual double outer_mm(const glm::dvec3& p_P_mm) const = 0;
   /// Dentine and pulp, given the outer distance there; changes by at most 1.6 times the way.
   virtual double core_mm(const glm::dvec3& p_P_mm, double outer_mm) const = 0;
+  /// Pulp that a scan shows, beside canals and chamber; far where there is none.
+  virtual double pulp_mm(const glm::dvec3&) const { return StructureDistance::kReach_mm; }
 };
 
 inline constexpr double kFineSpacing_mm = 0.04;

@@ -92,7 +92,7 @@ float attenuationOf(std::uint8_t solid, std::uint8_t label) {
 }
 
 Slab slabOf(const VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
-            const PeriapicalView& view, int across) {
+            const PeriapicalView& view, int across, std::span<const std::uint8_t> share) {
   Slab slab;
   slab.axis = {(across + 1) % 3, (across + 2) % 3, across};
   if (slab.axis[0] > slab.axis[1]) std::swap(slab.axis[0], slab.axis[1]);
@@ -100,8 +100,8 @@ Slab slabOf(const VolumeGrid& grid, std::span<const std::uint8_t> solid, std::sp
   // The box of the four edges of the beam, within the volume and before the film.
   const glm::dvec3 source = grid.indexFromPoint(view.source_P_mm);
   glm::dvec3 low(std::numeric_limits<double>::max()), high(-std::numeric_limits<double>::max());
-  for (const glm::dvec2 share : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
-    const glm::dvec2 px = share * glm::dvec2(view.size_px - 1);
+  for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+    const glm::dvec2 px = corner * glm::dvec2(view.size_px - 1);
     const glm::dvec3 film =
         grid.indexFromPoint(view.corner_P_mm + view.pixel_mm * (px.x * view.right_P + px.y * view.down_P));
     const double depth = film[across] - source[across];
@@ -132,7 +132,8 @@ Slab slabOf(const VolumeGrid& grid, std::span<const std::uint8_t> solid, std::sp
       float* to = slab.attenuation.data() + indexIn(slab.size, at - slab.low);
       const std::size_t first = grid.index(ijk), last = first + static_cast<std::size_t>(end.x - from.x);
       for (std::size_t v = first; v < last; ++v, to += step[0])
-        *to = attenuationOf(solid[v], label.empty() ? 0 : label[v]);
+        *to = attenuationOf(solid[v], label.empty() ? 0 : label[v]) *
+              (share.empty() ? 1.0f : static_cast<float>(share[v]) / 255.0f);
     }
   findShadows(slab);
   return slab;
@@ -183,7 +184,9 @@ std::optional<PeriapicalView> periapicalViewOf(const CtVolume& ct, int fdi, doub
 }
 
 std::vector<float> radiographOf(const VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                                std::span<const std::uint8_t> label, const PeriapicalView& view) {
+                                std::span<const std::uint8_t> label, const PeriapicalView& view,
+                                std::span<const std::uint8_t> share) {
+  assert(share.empty() || share.size() == solid.size());
   assert(solid.size() == grid.voxelCount() && (label.empty() || label.size() == solid.size()));
   const auto columns = static_cast<std::size_t>(view.size_px.x), rows = static_cast<std::size_t>(view.size_px.y);
   std::vector<float> bone_mm(columns * rows, 0.0f);
@@ -191,7 +194,7 @@ std::vector<float> radiographOf(const VolumeGrid& grid, std::span<const std::uin
       0.5 * view.pixel_mm *
       (static_cast<double>(columns - 1) * view.right_P + static_cast<double>(rows - 1) * view.down_P);
   const int across = longestAxis(view.corner_P_mm + half_P_mm - view.source_P_mm);
-  const Slab slab = slabOf(grid, solid, label, view, across);
+  const Slab slab = slabOf(grid, solid, label, view, across, share);
   if (slab.attenuation.empty()) return bone_mm;
 
   std::vector<Ray> rays(columns);

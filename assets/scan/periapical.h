@@ -28,8 +28,9 @@ struct PeriapicalView {
 std::optional<PeriapicalView> periapicalViewOf(const CtVolume& ct, int fdi, double shift_deg);
 
 /// For every pixel, rows from the top, mm of cortical bone that weaken the beam as much. Outside the volume is air, and
-/// so is hard tissue where it is not solid (any more).
+/// so is hard tissue where it is not solid (any more). `share`: of each voxel that counts, 255 all; empty: all.
 std::vector<float> radiographOf(const VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                                std::span<const std::uint8_t> label, const PeriapicalView& view);
+                                std::span<const std::uint8_t> label, const PeriapicalView& view,
+                                std::span<const std::uint8_t> share = {});
 
 }  // namespace assets

@@ -1,0 +1,54 @@
+// What the preparation of one canal has come to (reference/sisters 2.4): E1 volume, E2 transportation, E3 centring, E4
+// untouched wall, E5 straightening, E6 least dentine, E7 working length, E9 apical form. From the field before and
+// after, the canal's axis and the side of the furcation. Frame P, mm, rad. Pure; any thread; some 0.1 s a canal.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/procedure/root_canal/canal_section.h"
+
+namespace app {
+
+/// From the foramen: where sections are shown and transportation is told.
+inline constexpr std::array<double, 4> kSections_mm{1.0, 3.0, 5.0, 7.0};
+/// Dentine thinner than this is a danger.
+inline constexpr double kThinWall_mm = 0.5;
+
+struct CanalOutcomes {
+  double removed_mm3 = 0.0;
+  std::array<CanalSection, kSections_mm.size()> sections;
+  double untouched = 1.0;  ///< share of the canal's wall
+  double schneider_before_rad = 0.0, schneider_after_rad = 0.0;
+  std::vector<glm::dvec3> axis_before_P_mm, axis_after_P_mm;  ///< through the middles of the sections
+  double least_wall_mm = 0.0;
+  glm::dvec3 thinnest_P_mm{0.0};
+  double thin_share = 0.0;                             ///< of the wall with less dentine behind than kThinWall_mm
+  double apical_long_mm = 0.0, apical_short_mm = 0.0;  ///< diameters at the working length
+  double taper = 0.0;                                  ///< growth of the diameter over its last 5 mm
+  double foramen_moved_mm = 0.0;                       ///< the most that its wall went outwards
+};
+
+/// `canals`: all of the tooth, to tell which one a voxel belongs to; `canal`: the one that is measured.
+CanalOutcomes canalOutcomes(const ToothBlocks& before, const FineSolid& after,
+                            const std::vector<assets::ToothCanal>& canals, std::size_t canal,
+                            const glm::dvec3& furcation_P);
+
+/// Towards the middle of the tooth's other orifices; of a tooth with one canal to distal.
+glm::dvec3 furcationSide_P(const assets::ToothCanals& tooth, std::size_t canal);
+
+/// What was cut of the whole field.
+double removed_mm3(const FineSolid& before, const FineSolid& after);
+
+/// The tip of a file over time.
+struct TipSample {
+  double t_s, along_mm;  ///< of the canal, beyond its end where the tip is outside
+};
+struct LengthError {
+  double at_rest_mm = 0.0;  ///< of the last sample, from 0.5 mm short of the foramen; positive: too long
+  double most_over_mm = 0.0;
+  double over_s = 0.0;  ///< beyond the foramen
+};
+LengthError lengthError(std::span<const TipSample> tip, double canal_length_mm);
+
+}  // namespace app

@@ -1,0 +1,72 @@
+#include "app/procedure/root_canal/section_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/report/drawing.h"
+
+namespace app {
+namespace {
+
+constexpr double kPanel = 250.0, kNames = 26.0, kWords = 13.0, kHalf_mm = 3.2;
+constexpr double kPerMm = 0.5 * kPanel / kHalf_mm;
+constexpr Ink kDentine = inkOf(0xf0e2c4);
+
+/// As it lies in a panel, seen towards the apex: the furcation to the right.
+std::vector<glm::dvec2> shapeOf(const CanalSection& section, const CanalSection::Radii& radii_mm,
+                                const glm::dvec2& centre) {
+  std::vector<glm::dvec2> shape;
+  for (std::size_t ray = 0; ray < radii_mm.size(); ++ray) {
+    const double mm = std::min(radii_mm[ray], 2.0 * kHalf_mm);
+    const glm::dvec2 way = section.wayOf(ray);
+    shape.push_back(centre + kPerMm * mm * way);
+  }
+  return shape;
+}
+
+void drawPanel(const Drawing& drawing, const CanalSection& section, const glm::dvec2& corner) {
+  const glm::dvec2 size(kPanel - 4.0, kPanel - 4.0), centre = corner + 0.5 * size;
+  drawing.inside(corner, size, [&] {
+    drawing.box(corner, size, paper::kFaint);
+    drawing.polygon(shapeOf(section, section.root_mm, centre), kDentine);
+    const bool is_cut = section.after_mm != section.before_mm;
+    drawing.polygon(shapeOf(section, section.after_mm, centre), paper::kWhite);
+    if (is_cut) drawing.path(shapeOf(section, section.after_mm, centre), 2.0, paper::kOrange, true);
+    drawing.path(shapeOf(section, section.before_mm, centre), 1.5, paper::kBlue, true, {4.0, 3.0});
+  });
+  double least_mm = section.wall_mm(0);
+  for (std::size_t ray = 0; ray < CanalSection::kRays; ++ray) least_mm = std::min(least_mm, section.wall_mm(ray));
+  drawing.text(fmt::format("{:g} mm", section.from_foramen_mm), corner + glm::dvec2(8.0, 14.0), kWords, paper::kInk,
+               Align::left, true);
+  const double shift_mm = transportation_mm(section);
+  std::string words = fmt::format("dentine {:.2f} mm", std::max(0.0, least_mm));
+  if (std::abs(shift_mm) >= 0.005)
+    words += fmt::format(", moved {:.2f} mm {}", std::abs(shift_mm), shift_mm > 0.0 ? "to the furcation" : "off it");
+  drawing.text(words, corner + glm::dvec2(8.0, kPanel - 18.0), kWords, paper::kInk, Align::left);
+}
+
+}  // namespace
+
+render::Image sectionPicture(const std::vector<CanalRow>& canals) {
+  std::size_t columns = 1;
+  for (const CanalRow& canal : canals) columns = std::max(columns, canal.sections.size());
+  const double width = kPanel * static_cast<double>(columns), row = kNames + kPanel;
+  const glm::dvec2 size(width, row * static_cast<double>(canals.size()) + kNames);
+  const Drawing drawing(glm::ivec2(size), 1.0);
+  drawing.fill(paper::kWhite);
+  for (std::size_t n = 0; n < canals.size(); ++n) {
+    const double top = row * static_cast<double>(n);
+    drawing.text(canals[n].name, {8.0, top + 0.5 * kNames}, kWords + 1.0, paper::kInk, Align::left, true);
+    for (std::size_t c = 0; c < canals[n].sections.size(); ++c)
+      drawPanel(drawing, canals[n].sections[c], {kPanel * static_cast<double>(c) + 2.0, top + kNames});
+  }
+  const double y = size.y - 0.5 * kNames;
+  drawing.line({8.0, y}, {8.0 + kPerMm, y}, 2.0, paper::kInk);
+  drawing.text("1 mm; blue as it was, orange as it is; seen towards the apex, the furcation to the right",
+               {16.0 + kPerMm, y}, kWords, paper::kQuiet, Align::left);
+  return drawing.picture();
+}
+
+}  // namespace app
