@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "assets/import/root_course.h"
@@ -97,6 +98,53 @@ TEST(ModelledCanals, AreOpenInTheFineField) {
   EXPECT_GT(pulp, 100);
   EXPECT_EQ(pulp_solid, 0);
   EXPECT_LT(dentine_open, dentine / 20);
+}
+
+/// A crown over round roots at `roots_mm`, upside down as an upper tooth stands, with a pulp chamber.
+CtVolume upperTooth(int fdi, const std::vector<glm::dvec2>& roots_mm) {
+  CtVolume ct;
+  ct.grid = {{50, 50, 80}, 0.3, {-7.5, -7.5, -8.0}};
+  ct.label.resize(ct.grid.voxelCount());
+  ct.tooth.resize(ct.grid.voxelCount());
+  ct.hounsfield.assign(ct.grid.voxelCount(), 0);
+  forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p = ct.grid.centre_P_mm(ijk);
+    const double aside = std::hypot(p.x, p.y);
+    bool is_root = false;
+    for (const glm::dvec2& at : roots_mm)
+      is_root = is_root || (p.z >= 0.0 && p.z < 13.0 && glm::distance(glm::dvec2(p), at) < 1.9 - 0.08 * p.z);
+    const bool is_crown = p.z > -7.0 && p.z < 3.0 && aside < 4.5;
+    if (!is_crown && !is_root) return;
+    ct.tooth[v] = static_cast<std::uint8_t>(fdi);
+    Tissue tissue = is_crown && p.z < 0.0 && (aside > 3.3 || p.z < -5.0) ? Tissue::enamel : Tissue::dentine;
+    if (aside < 2.0 && p.z > -0.5 && p.z < 1.2) tissue = Tissue::pulp;
+    ct.label[v] = static_cast<std::uint8_t>(tissue);
+  });
+  return ct;
+}
+
+TEST(ModelledCanals, AnUpperMolarHasThreeRootsAndFourCanals) {
+  // 26: the patient's left; cheek to +x, mesial to -y.
+  const ToothCanals found = modelledCanals(upperTooth(26, {{2.2, -2.2}, {2.2, 2.2}, {-2.6, 0.0}}), 26);
+  ASSERT_EQ(found.canals.size(), 4U);
+  const auto canal = [&](std::string_view name) -> const ToothCanal& {
+    for (const ToothCanal& one : found.canals)
+      if (one.name == name) return one;
+    ADD_FAILURE() << "no canal " << name;
+    return found.canals[0];
+  };
+  EXPECT_LT(canal("mesiobuccal").apex_P_mm.y, -1.5);
+  EXPECT_GT(canal("second mesiobuccal").apex_P_mm.x, 1.0);
+  EXPECT_GT(canal("distobuccal").apex_P_mm.y, 1.5);
+  EXPECT_LT(canal("palatal").apex_P_mm.x, -1.5);
+  for (const ToothCanal& one : found.canals) EXPECT_GT(one.foramen_P_mm().z, one.orifice_P_mm().z + 8.0) << one.name;
+}
+
+TEST(ModelledCanals, AnUpperPremolarOfOneRootHasTwoCanals) {
+  const ToothCanals found = modelledCanals(upperTooth(24, {{0.0, 0.0}}), 24);
+  ASSERT_EQ(found.canals.size(), 2U);
+  EXPECT_EQ(found.canals[0].name, "buccal");
+  EXPECT_EQ(found.canals[1].name, "palatal");
 }
 
 TEST(ModelledCanals, AToothWithoutPulpIsRefusedInOneLine) {
