@@ -20,7 +20,8 @@ constexpr double kChange = 1.25;  ///< of the distances, at most, to the way
 
 /// Signed, of an ellipse about the origin: exact on it, first order beside it.
 double ellipse_mm(double x, double y, double a, double b) {
-  const double u = x / a, v = y / b, k0 = std::hypot(u, v), k1 = std::hypot(u / a, v / b);
+  // Not std::hypot, which guards against overflow at twice the cost.
+  const double u = x / a, v = y / b, k0 = std::sqrt(u * u + v * v), s = u / a, t = v / b, k1 = std::sqrt(s * s + t * t);
   return k1 < 1e-9 ? -std::min(a, b) : k0 * (k0 - 1.0) / k1;
 }
 
@@ -85,7 +86,7 @@ CanalPlace ToothCanal::at(double along_mm) const {
 }
 
 double schneider_rad(const std::vector<CanalPlace>& places) {
-  constexpr double kNear_mm = 0.05, kFar_mm = 0.2;  // off the axis; an arc is there after sqrt(2 R mm)
+  constexpr double kNear_mm = 0.05, kClear_mm = 0.2;  // off the axis; an arc is there after sqrt(2 R mm)
   const glm::dvec3 orifice = places.front().p_P_mm, foramen = places.back().p_P_mm;
   const double quarter_mm = 0.25 * places.back().along_mm;
   std::size_t coronal = 0;
@@ -101,7 +102,7 @@ double schneider_rad(const std::vector<CanalPlace>& places) {
     return glm::mix(places[n - 1].along_mm, places[n].along_mm, std::clamp((mm - before) / (here - before), 0.0, 1.0));
   };
   // Where it leaves: an arc is twice as far along at four times the way aside.
-  const double leaves_mm = std::clamp(2.0 * off_at(kNear_mm) - off_at(kFar_mm), 0.0, places.back().along_mm);
+  const double leaves_mm = std::clamp(2.0 * off_at(kNear_mm) - off_at(kClear_mm), 0.0, places.back().along_mm);
   std::size_t next = 1;
   while (next + 1 < places.size() && places[next].along_mm < leaves_mm) ++next;
   const CanalPlace &a = places[next - 1], &b = places[next];
@@ -156,6 +157,8 @@ double PulpDistance::chamberDistance_mm(const glm::dvec3& p) const {
   double distance_mm =
       smoothMax(outlineDistance_mm(chamber_.outline_mm, {p.x, p.y}) - chamber_.round_mm, slab_mm, kChamberEdge_mm);
   for (const PulpChamber::Horn& horn : chamber_.horns) {
+    const double lowest_mm = std::min(horn.from_mm.z, horn.to_mm.z) - horn.from_radius_mm;
+    if (lowest_mm - p.z > distance_mm + kChamberEdge_mm) continue;
     const glm::dvec3 edge = horn.to_mm - horn.from_mm;
     const double t = std::clamp(glm::dot(p - horn.from_mm, edge) / glm::dot(edge, edge), 0.0, 1.0);
     const double radius_mm = glm::mix(horn.from_radius_mm, horn.to_radius_mm, t);

@@ -74,14 +74,18 @@ class FineTooth final : public ToothSampler {
     const bool inside = middle_mm<-near_mm, outside = middle_mm> near_mm + kLigament_mm;
     const double middle_core_mm = outside ? middle_mm : shell_->core_mm(cube.middle_P, middle_mm);
     const bool near_core = !outside && std::abs(middle_core_mm) < kCoreSteep * cube.reach_mm;
+    const auto corner = [&](std::size_t n) {
+      return glm::mix(cube.low_P, cube.high_P, glm::dvec3(cornerOffset(static_cast<int>(n))));
+    };
     Corners outer_at{}, core_at{}, hard_at{};
     for (std::size_t n = 0; n < outer_at.size(); ++n) {
-      const glm::dvec3 p_P = glm::mix(cube.low_P, cube.high_P, glm::dvec3(cornerOffset(static_cast<int>(n))));
-      outer_at[n] = outside ? middle_mm : shell_->outer_mm(p_P);
-      core_at[n] = near_core ? shell_->core_mm(p_P, outer_at[n]) : middle_core_mm;
-      hard_at[n] = inside ? 1.0 : around_.hard_mm(p_P);
+      if (!outside) outer_at[n] = shell_->outer_mm(corner(n));
+      if (near_core) core_at[n] = shell_->core_mm(corner(n), outer_at[n]);
+      if (!inside) hard_at[n] = around_.hard_mm(corner(n));
     }
-    const Spread outer = spread(outer_at), core = spread(core_at), hard_tissue = spread(hard_at);
+    const Spread outer = outside ? constant(middle_mm) : spread(outer_at);
+    const Spread core = near_core ? spread(core_at) : constant(middle_core_mm);
+    const Spread hard_tissue = inside ? constant(1.0) : spread(hard_at);
     const auto soft_label = around_.label(cube.low_P, cube.high_P, false);
     const auto hard_label = around_.label(cube.low_P, cube.high_P, true);
     const auto label_at = [&](const glm::dvec3& p_P, bool is_hard) {
@@ -124,6 +128,11 @@ class FineTooth final : public ToothSampler {
 
   using Corners = std::array<double, 8>;
   using Spread = std::array<double, kVoxels>;
+  static Spread constant(double everywhere) {
+    Spread out;
+    out.fill(everywhere);
+    return out;
+  }
   /// Linear between the corners of a block.
   static Spread spread(const Corners& at) {
     Spread out;

@@ -44,13 +44,13 @@ ToothSurroundings::ToothSurroundings(const CtVolume& ct, int fdi, const glm::dve
         out[v] = label[v];
         return;
       }
-      bool found = false;
-      forVoxels(glm::max(ijk - 1, glm::ivec3(0)), glm::min(ijk + 2, grid_.size), [&](glm::ivec3 beside) {
-        const std::size_t b = grid_.index(beside);
-        if (found || is_it[b] == 0) return;
-        out[v] = label[b];
-        found = true;
-      });
+      for (int side = 0; side < 6; ++side) {
+        glm::ivec3 beside = ijk;
+        beside[side / 2] += side % 2 == 0 ? -1 : 1;
+        if (!grid_.contains(beside) || is_it[grid_.index(beside)] == 0) continue;
+        out[v] = label[grid_.index(beside)];
+        return;
+      }
     });
     return out;
   };
