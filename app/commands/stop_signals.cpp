@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <array>
+#include <atomic>
 
 namespace app {
 namespace {
@@ -10,7 +11,9 @@ namespace {
 constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
 using Actions = std::array<struct sigaction, kStops.size()>;
 
-volatile std::sig_atomic_t stop_asked = 0;
+/// Read by any thread.
+std::atomic<int> stop_asked{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 int stop_signals_alive = 0;
 
 Actions handledBy(void (*handler)(int)) {

@@ -80,6 +80,17 @@ TEST_F(CheckRunTest, ShowsWhatTheImportFound) {
   EXPECT_EQ(picture.h, kWindow_px.y);
 }
 
+TEST_F(CheckRunTest, BeforeTheJawIsFoundAgainTheOtherSidesCanalIsLookedFor) {
+  const auto left = [](const CheckRun& run) {
+    return *std::ranges::find_if(
+        run.menu().rows(), [](const CheckRow& row) { return row.kind == CheckRow::Kind::canal && !row.is_right; });
+  };
+  const CheckRun run(folder_.path(), [](const std::string&) {});
+  EXPECT_EQ(left(run).beside, "is looked for");
+  EXPECT_EQ(left(run).light, Light::open);
+  EXPECT_THAT(left(*open(folder_.path())).beside, testing::Not(testing::HasSubstr("looked for")));
+}
+
 TEST_F(CheckRunTest, ClicksMakeThePatientThatTheSameClicksMakeAtImport) {
   const auto run = open(folder_.path());
   press(*run, Key::enter);
