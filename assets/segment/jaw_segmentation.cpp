@@ -90,6 +90,7 @@ struct JawFinder::Jaw {
   Mandible mandible;
   GreyLevels levels;
   ToothRegions regions;
+  double hard_within_arch = 0.0;
   ToothSurfaces surfaces;
   ToothTissues tissues;
 };
@@ -136,12 +137,14 @@ JawFinder::JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& ho
     refusal_ = toothlessJaw();
     return;
   }
+  const double hard_within_arch = hardWithinArch(cells, smooth_hu, *arch, sheet);
   Mandible mandible = mandibleIn(grid, hounsfield, cells, jaw_cells, edge);
   smooth_hu = {};
   const GreyLevels levels = greyLevelsOf(mandible, sheet);
   beginStage(report, "teeth");
   ToothRegions regions = findToothRegions(mandible, levels);
-  jaw_ = std::make_unique<Jaw>(Jaw{std::move(*arch), sheet, std::move(mandible), levels, std::move(regions), {}, {}});
+  jaw_ = std::make_unique<Jaw>(
+      Jaw{std::move(*arch), sheet, std::move(mandible), levels, std::move(regions), hard_within_arch, {}, {}});
 }
 
 JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage& report, const ShowTeeth& show) {
@@ -161,6 +164,8 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
     };
     measure();
     found.refusal = judgeJaw(mandible.grid, found.teeth);
+    if (!found.refusal)
+      found.refusal = judgeSigns(jawSigns(mandible, jaw_->arch, jaw_->sheet, found.teeth), jaw_->hard_within_arch);
     if (!found.refusal) {
       numberTeeth(jaw_->arch, found.teeth);
       if (joinSpareParts(mandible, found.teeth, found.regions)) {

@@ -5,15 +5,13 @@
 namespace assets {
 namespace {
 
-constexpr double kSmallTooth_mm3 = 90.0, kLargeTooth_mm3 = 2600.0, kLongTooth_mm = 32.0, kToothShare = 0.6;
+constexpr double kToothShare = 0.6;
 constexpr std::size_t kMostTeeth = 18;
 constexpr double kWidestJaw_mm = 150.0;
 constexpr int kCrownsDown = -2;
-
-bool hasToothSize(const FoundTooth& tooth) {
-  return tooth.volume_mm3 > kSmallTooth_mm3 && tooth.volume_mm3 < kLargeTooth_mm3 &&
-         std::max({tooth.extent_mm.x, tooth.extent_mm.y, tooth.extent_mm.z}) < kLongTooth_mm;
-}
+/// Of jaws at least 0.94 are capped, all stand in the row and over bone, and 0.00 within the arch is hard; of scans
+/// without one at most 0.5 are capped, none over bone, or 0.3 within the arch is.
+constexpr double kSignShare = 0.5, kManyCaps = 4.0, kMostWithinArch = 0.2;
 
 }  // namespace
 
@@ -39,6 +37,16 @@ std::optional<JawRefusal> judgeJaw(const VolumeGrid& jaw_box, const std::vector<
     return JawRefusal{"J3", "the dense pieces have no tooth's size (" + std::to_string(tooth_sized) + " of " + count +
                                 " have): metal or contrast"};
   if (up <= kCrownsDown) return upperArch();
+  return std::nullopt;
+}
+
+std::optional<JawRefusal> judgeSigns(const JawSigns& signs, double hard_within_arch) {
+  if (signs.in_row < kSignShare || hard_within_arch > kMostWithinArch)
+    return JawRefusal{"J5", "the dense pieces stand in no row around a tongue: this is no lower jaw"};
+  const bool is_capped = signs.capped >= kSignShare || signs.capped * signs.tooth_sized >= kManyCaps;
+  if (!is_capped || signs.over_bone < kSignShare)
+    return JawRefusal{
+        "J5", "hardly a dense piece has a crown of enamel over a root in bone: this is no lower jaw with teeth"};
   return std::nullopt;
 }
 

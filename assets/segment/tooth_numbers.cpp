@@ -123,6 +123,7 @@ std::vector<FoundTooth> measuredTeeth(const Mandible& jaw, const ToothRegions& r
     tooth.volume_mm3 = sum.count * voxel_mm3;
     tooth.centre_P_mm = sum.all / sum.count;
     tooth.extent_mm = sum.high - sum.low;
+    tooth.low_z_P_mm = sum.low.z;
     if (sum.enamel_count * voxel_mm3 > kLeastCrown_mm3)
       tooth.crown_P_mm = sum.enamel / sum.enamel_count - tooth.centre_P_mm;
     found.push_back(tooth);

@@ -21,6 +21,7 @@ struct FoundTooth {
   int fdi = 0;                 ///< 0: none
   int told_fdi = 0;            ///< a person gave it this number
   bool is_apart = false;       ///< a person said that it is a tooth of its own
+  double low_z_P_mm = 0.0;     ///< its lowest voxel
 };
 
 /// Parts of at least 80 mm3, without numbers; by part.

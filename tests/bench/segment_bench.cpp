@@ -1,6 +1,6 @@
 // What the segmentation of a jaw reaches on scans with known teeth, and how long it takes:
-// segment_bench PATIENTS [SPACING_MM…]: the shared data's patients; right_third_molar, then head phantoms of these
-// voxels, plain and with metal. Dice against truth, seconds of the wall clock by stage.
+// segment_bench PATIENTS [SPACING_MM…]: the shared data's patients; right_third_molar and its mirror image, or head
+// phantoms of these voxels, plain and with metal. Dice against truth, seconds of the wall clock by stage.
 
 #include <fmt/core.h>
 
@@ -128,6 +128,19 @@ void judge(Case scan) {
   std::fputs(tests::comparison(scan.grid, jaw, scan.tissue, scan.tooth, scan.mandible).c_str(), stdout);
 }
 
+/// Left for right.
+Case mirrored(const Case& scan) {
+  Case out = scan;
+  out.name = scan.name + ", mirrored";
+  assets::forVoxels(scan.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const std::size_t from = scan.grid.index({scan.grid.size.x - 1 - ijk.x, ijk.y, ijk.z});
+    const std::uint8_t fdi = scan.tooth[from];
+    out.grey[v] = scan.grey[from], out.tissue[v] = scan.tissue[from], out.mandible[v] = scan.mandible[from];
+    out.tooth[v] = static_cast<std::uint8_t>(fdi == 0 ? 0 : fdi < 40 ? fdi + 10 : fdi - 10);
+  });
+  return out;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -142,6 +155,7 @@ int main(int argc, char** argv) {
     dev.tooth = tests::teethOfRightThirdMolar(patients);
     dev.mandible = dev.tissue;
     for (std::uint8_t& value : dev.mandible) value = value >= 1 && value <= 8 ? 1 : 0;
+    judge(mirrored(dev));
     judge(std::move(dev));
   }
   for (int n = 2; n < argc; ++n) {
