@@ -41,10 +41,11 @@ void drawPanel(const Drawing& drawing, const CanalSection& section, const glm::d
   drawing.text(fmt::format("{:g} mm", section.from_foramen_mm), corner + glm::dvec2(8.0, 14.0), kWords, paper::kInk,
                Align::left, true);
   const double shift_mm = transportation_mm(section);
-  std::string words = fmt::format("dentine {:.2f} mm", std::max(0.0, least_mm));
   if (std::abs(shift_mm) >= 0.005)
-    words += fmt::format(", moved {:.2f} mm {}", std::abs(shift_mm), shift_mm > 0.0 ? "to the furcation" : "off it");
-  drawing.text(words, corner + glm::dvec2(8.0, kPanel - 18.0), kWords, paper::kInk, Align::left);
+    drawing.text(fmt::format("moved {:.2f} mm {} the furcation", std::abs(shift_mm), shift_mm > 0.0 ? "to" : "off"),
+                 corner + glm::dvec2(8.0, kPanel - 36.0), kWords, paper::kInk, Align::left);
+  drawing.text(fmt::format("dentine {:.2f} mm", std::max(0.0, least_mm)), corner + glm::dvec2(8.0, kPanel - 18.0),
+               kWords, paper::kInk, Align::left);
 }
 
 }  // namespace
