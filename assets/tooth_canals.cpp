@@ -114,6 +114,12 @@ double schneider_rad(const std::vector<CanalPlace>& places) {
 PulpDistance::PulpDistance(const ToothCanals& canals) : frame_(canals.frame), chamber_(canals.chamber) {
   for (const ToothCanal& canal : canals.canals) {
     std::vector<CanalPlace> places = canal.places;
+    // What it shares with another is that one's: a union with itself would be wider.
+    if (canal.joins) {
+      const std::vector<CanalPlace>& other = canals.canals[*canal.joins].places;
+      const auto shared = std::ranges::find_first_of(places, other, {}, &CanalPlace::p_P_mm, &CanalPlace::p_P_mm);
+      places.erase(shared == places.end() ? shared : shared + 1, places.end());
+    }
     for (CanalPlace& place : places) place.p_P_mm = frame_.local(place.p_P_mm);
     // Open at both ends: never a lid.
     const auto beyond = [](const CanalPlace& end, const CanalPlace& inner) {
@@ -122,7 +128,7 @@ PulpDistance::PulpDistance(const ToothCanals& canals) : frame_(canals.frame), ch
       return open;
     };
     places.insert(places.begin(), beyond(places[0], places[1]));
-    places.push_back(beyond(places.back(), places[places.size() - 2]));
+    if (!canal.joins) places.push_back(beyond(places.back(), places[places.size() - 2]));
 
     Line line;
     line.low_mm = line.high_mm = places.front().p_P_mm;

@@ -163,6 +163,18 @@ TEST(PulpDistance, OfARoundCanalIsThatOfASlowTwin) {
   }
 }
 
+TEST(PulpDistance, WhatTwoCanalsShareIsAsWideAsOne) {
+  for (const int position : {7, 8}) {
+    const ToothCanals all = assets::canalsOf(toothAt(position));
+    const assets::PulpDistance pulp(all);
+    for (std::size_t canal = 0; canal < 2; ++canal)
+      for (double mm = 0.2; mm < 1.6; mm += 0.1) {
+        const CanalPlace place = all.canals[canal].at(all.canals[canal].length_mm() - mm);
+        EXPECT_NEAR(pulp.at_mm(place.p_P_mm), -place.narrow_mm, 0.01) << position << " " << canal << " at " << mm;
+      }
+  }
+}
+
 TEST(PulpDistance, SchneidersAngleOfPlacesIsThatOfTheClosedForm) {
   for (int position = 4; position <= 7; ++position)
     for (const ToothCanal& canal : assets::canalsOf(toothAt(position)).canals)
