@@ -49,16 +49,16 @@ SolidPicture::Seen SolidPicture::along(const Rays& rays, const glm::dvec2& at_px
   const auto row = static_cast<std::size_t>(rays.size.x), layer = row * static_cast<std::size_t>(rays.size.y);
   Seen seen;
   std::uint8_t wanted = sees_bone ? LabelBricks::kBone | LabelBricks::kTooth : LabelBricks::kTooth;
-  const auto stepAt = [](float t) { return static_cast<int>(std::ceil(t / kStep)); };
-  for (int n = stepAt(begins); static_cast<float>(n) * kStep < ends;) {
+  const auto step_at = [](float t) { return static_cast<int>(std::ceil(t / kStep)); };
+  for (int n = step_at(begins); static_cast<float>(n) * kStep < ends;) {
     const glm::vec3 at = from + static_cast<float>(n) * kStep * rays.direction;
     const glm::ivec3 voxel = glm::clamp(glm::ivec3(at), glm::ivec3(0), rays.size - 1);
     if ((bricks_.coarseAt(voxel) & wanted) == 0) {
-      n = std::max(n + 1, stepAt(rays.exitOf(from, voxel, LabelBricks::kCoarse)));
+      n = std::max(n + 1, step_at(rays.exitOf(from, voxel, LabelBricks::kCoarse)));
       continue;
     }
     if ((bricks_.fineAt(voxel) & wanted) == 0) {
-      n = std::max(n + 1, stepAt(rays.exitOf(from, voxel, LabelBricks::kFine)));
+      n = std::max(n + 1, step_at(rays.exitOf(from, voxel, LabelBricks::kFine)));
       continue;
     }
     const std::uint8_t what = what_[static_cast<std::size_t>(voxel.x) + row * static_cast<std::size_t>(voxel.y) +

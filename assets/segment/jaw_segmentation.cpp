@@ -203,13 +203,13 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
     one.teeth = canalTeeth(scene, teeth_->teeth, is_right);
     one.is_known = known && known->teeth == one.teeth && known->clicks == one.clicks;
   }
-  const auto withCanals = [&](JawSegmentation jaw) {
+  const auto with_canals = [&](JawSegmentation jaw) {
     for (const std::optional<Canal::OfSide>& side : canals_->of_side)
       if (side && side->found) jaw.canals.push_back(*side->found);
     for (const CanalProposal& canal : jaw.canals) labelCanal(scan_, canal, jaw.label);
     return jaw;
   };
-  if (show && had_teeth && is_new && !(asked[0].is_known && asked[1].is_known)) show(withCanals(out));
+  if (show && had_teeth && is_new && !(asked[0].is_known && asked[1].is_known)) show(with_canals(out));
   for (const bool is_right : {true, false}) {
     Asked& one = asked[is_right ? 0 : 1];
     if (one.is_known) continue;
@@ -217,7 +217,7 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
     std::optional<CanalProposal> found = canalOn(scene, teeth_->teeth, one.clicks, is_right);
     canals_->of_side[is_right ? 0 : 1] = Canal::OfSide{one.teeth, std::move(one.clicks), std::move(found)};
   }
-  return withCanals(std::move(out));
+  return with_canals(std::move(out));
 }
 
 HalfJaw JawFinder::halfOf(bool is_right) const {
