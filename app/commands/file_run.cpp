@@ -44,7 +44,8 @@ haptics::WearSettings wearOf(const KFileOptions& options) {
 class PushedRun {
  public:
   PushedRun(const KFileOptions& options, const assets::KFile& file, const assets::CanalField& field)
-      : wear_(field.grid, field.solid, wearOf(options)),
+      : bone_(field.grid, field.solid, {}),
+        wear_(wearOf(options)),
         hand_(handAt(file.length_mm + kStartAbove_mm)),
         answer_{file, FileInCanal(chosenChain(options, file), {}, {true, 0.0}, hand_), {}} {
     answer_.rest.prebend(kPrebent_mm, options.prebend_deg * std::numbers::pi / 180.0, 0.0);
@@ -67,8 +68,9 @@ class PushedRun {
   void move(double down_mm, double turn_rad) {
     hand_.translation_mm.z -= down_mm;
     hand_.rotation = glm::normalize(hand_.rotation * glm::angleAxis(turn_rad, glm::dvec3(0.0, 0.0, -1.0)));
-    const haptics::SolidField wall = wear_.wall();
+    const haptics::SolidField wall = bone_.field();
     answer_.tick = answer_.rest.step(hand_, {&wall, stop_, nullptr});
+    ++ticks_;
   }
   void turn(double down_mm, double turn_rad) {
     move(down_mm, turn_rad);
@@ -77,7 +79,7 @@ class PushedRun {
   }
   void file(double down_mm) {
     move(down_mm, 0.0);
-    wear_.step(answer_.rest);
+    wear_.step(answer_.rest, bone_, nullptr, ticks_);
   }
   FiledAnswer atRest() {
     for (int n = 0; n < kRestTicks && goesOn(); ++n) {
@@ -91,10 +93,12 @@ class PushedRun {
   }
 
  private:
+  haptics::CarvedBone bone_;
   haptics::CanalWear wear_;
   haptics::FilePose hand_;
   FiledAnswer answer_;
   std::optional<haptics::RubberStop> stop_;
+  std::uint64_t ticks_ = 0;
 };
 
 }  // namespace

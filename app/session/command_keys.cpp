@@ -32,6 +32,9 @@ std::string_view keyOf(haptics::HandInstrument kind) {
   return haptics::kHandInstrumentKeys[static_cast<std::size_t>(kind) % haptics::kHandInstrumentKeys.size()];
 }
 
+constexpr std::array<std::string_view, 3> kWearLaws = {"wear", "counters", "counters-helical"};
+std::string_view keyOf(haptics::WearLaw kind) { return kWearLaws[static_cast<std::size_t>(kind) % kWearLaws.size()]; }
+
 /// Sets the kind of this key; unchanged if the key is unknown here.
 template <class Kind>
 void setByKey(Kind& kind, std::string_view key) {
@@ -39,6 +42,7 @@ void setByKey(Kind& kind, std::string_view key) {
                                  : std::same_as<Kind, haptics::ErosionKind>    ? haptics::kErosions.size()
                                  : std::same_as<Kind, haptics::ElevatorKind>   ? haptics::kElevatorKeys.size()
                                  : std::same_as<Kind, haptics::HandInstrument> ? haptics::kHandInstrumentKeys.size()
+                                 : std::same_as<Kind, haptics::WearLaw>        ? kWearLaws.size()
                                                                                : kShapes.size();
   for (std::size_t i = 0; i < kCount; ++i)
     if (keyOf(static_cast<Kind>(i)) == key) kind = static_cast<Kind>(i);
@@ -53,13 +57,18 @@ void visitByTissue(const std::string& key, auto& factors, Visit&& visit) {
 
 template <class Visit>
 void visitTool(auto& tool, Visit&& visit) {
-  auto& [head, shaft, handpiece, grips, elevator, hand_instrument] = tool;
+  auto& [head, shaft, handpiece, grips, elevator, hand_instrument, file] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("tool.head.kind", kind), visit("tool.head.radius_mm", radius_mm), visit("tool.head.length_mm", length_mm);
   visit("tool.shaft.radius_mm", shaft_radius_mm), visit("tool.shaft.length_mm", shaft_length_mm);
   visit("tool.handpiece", handpiece), visit("tool.grips", grips);
   visit("tool.elevator", elevator), visit("tool.hand_instrument", hand_instrument);
+  auto& [size, file_length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
+  visit("tool.file.size", size), visit("tool.file.length_mm", file_length_mm);
+  visit("tool.file.nickel_titanium", nickel_titanium), visit("tool.file.bent_deg", bent_deg);
+  visit("tool.file.bent_mm", bent_mm), visit("tool.file.bent_towards_deg", bent_towards_deg);
+  visit("tool.file.stop_mm", stop_mm);
 }
 
 /// The plan follows from the bodies.
@@ -160,6 +169,13 @@ void visitSpindle(auto& spindle, Visit&& visit) {
 }
 
 template <class Visit>
+void visitWear(auto& wear, Visit&& visit) {
+  auto& [law, alpha_mm3_per_Nmm, push_share, counter] = wear;
+  visit("wear.law", law), visit("wear.alpha_mm3_per_Nmm", alpha_mm3_per_Nmm);
+  visit("wear.push_share", push_share), visit("wear.counter", counter);
+}
+
+template <class Visit>
 void visitThresholds(auto& thresholds, Visit&& visit) {
   auto& [max_pause_s, arming_mm_per_s, release_s, soft_start_s, soft_start_N_per_s, brake_mm_per_s, cutoff_mm_per_s,
          cutoff_s, buzz_mm_per_s, stale_s, stale_fade_s, max_stale_s, warm_motor, share_at_hottest] = thresholds;
@@ -201,7 +217,7 @@ void visitSafety(auto& safety, Visit&& visit) {
 template <class Visit>
 void forEachKey(auto& command, Visit&& visit) {
   auto& [serial, tool, drill_enabled, hands_off, irrigating, assistant_holds, flap_aside, undo_serial, redo_serial,
-         split, bridge, site, chips, law, erosion, spindle, safety, rearm] = command;
+         split, bridge, site, chips, law, erosion, spindle, wear, file_reference, safety, rearm] = command;
   visit("serial", serial);
   visitTool(tool, visit);
   visit("drill_enabled", drill_enabled), visit("hands_off", hands_off), visit("irrigating", irrigating),
@@ -215,6 +231,11 @@ void forEachKey(auto& command, Visit&& visit) {
   visitLaw(law, visit);
   visitErosion(erosion, visit);
   visitSpindle(spindle, visit);
+  visitWear(wear, visit);
+  auto& [stop_at_mm, stop_out] = file_reference;
+  visit("file_reference.point_P_mm.x", stop_at_mm.x), visit("file_reference.point_P_mm.y", stop_at_mm.y);
+  visit("file_reference.point_P_mm.z", stop_at_mm.z), visit("file_reference.out_P.x", stop_out.x);
+  visit("file_reference.out_P.y", stop_out.y), visit("file_reference.out_P.z", stop_out.z);
   visitSafety(safety, visit);
   visit("rearm", rearm);
 }

@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, haptics::kMaxPieces> kPieceRotation{"piec
                                                                            "piece_2.rotation", "piece_3.rotation"};
 constexpr std::array<std::string_view, haptics::kMaxPieces> kPieceTranslation{
     "piece_0.translation_mm", "piece_1.translation_mm", "piece_2.translation_mm", "piece_3.translation_mm"};
+constexpr std::string_view kFileMeaning = "none 0, free 1, wall 2, through 3";
 constexpr std::string_view kSiteMeaning = "none 0, ready 1, refused 2";
 constexpr std::string_view kSplitMeaning = "none 0, waiting 1, running 2, done 3, refused 4";
 constexpr std::string_view kBridgeMeaning = "none 0, armed 1, refused 2, outdated 3, breaking 4";
@@ -68,6 +69,34 @@ void visitLevering(auto& lever, Visit&& visit) {
 }
 
 template <class Visit>
+void visitFile(auto& file, Visit&& visit) {
+  // Not a column: the nodes, which a replay makes again.
+  auto& [stay, tip_P_mm, tip_axis_P, normal_N, torque_Nmm, torque_share, strain, strain_from_tip_mm, damage, windup_rad,
+         roll_rad, axial_N_per_mm, stop_N, due_total_mm3, removed_total_mm3, broken_from_tip_mm, left_mm, keeps_bend,
+         unsettled, node_P_mm] = file;
+  static_cast<void>(node_P_mm);
+  visit(Text{"file.stay", "", "", "", kFileMeaning}, stay);
+  visitXyz(Text{"file.tip_P_mm", "", "mm", "P"}, tip_P_mm, visit);
+  visitXyz(Text{"file.tip_axis_P", "", "", "P"}, tip_axis_P, visit);
+  visit(Text{"file.normal_N", "", "N"}, normal_N);
+  visit(Text{"file.torque_Nmm", "", "N mm"}, torque_Nmm);
+  visit(Text{"file.torque_share"}, torque_share);
+  visit(Text{"file.strain"}, strain);
+  visit(Text{"file.strain_from_tip_mm", "", "mm"}, strain_from_tip_mm);
+  visit(Text{"file.damage"}, damage);
+  visit(Text{"file.windup_rad", "", "rad"}, windup_rad);
+  visit(Text{"file.roll_rad", "", "rad"}, roll_rad);
+  visit(Text{"file.axial_N_per_mm", "", "N/mm"}, axial_N_per_mm);
+  visit(Text{"file.stop_N", "", "N"}, stop_N);
+  visit(Text{"file.due_total_mm3", "", "mm3"}, due_total_mm3);
+  visit(Text{"file.removed_total_mm3", "", "mm3"}, removed_total_mm3);
+  visit(Text{"file.broken_from_tip_mm", "", "mm"}, broken_from_tip_mm);
+  visit(Text{"file.left_mm", "", "mm"}, left_mm);
+  visit(Text{"file.keeps_bend"}, keeps_bend);
+  visit(Text{"file.unsettled"}, unsettled);
+}
+
+template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
   auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, handle_velocity_P_mm_per_s, jacobian_P_mm, motor_heat, gap_s, drill_pedal,
          fresh, docked, held, calibrated, stop_requested, device_healthy] = hand;
@@ -98,7 +127,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
          bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
          split, bridge, broken, bridge_share, site, chips, gripped, set_aside, unsettled, X_PQ, grip_force_P_N,
-         grip_torque_P_Nmm, lever, torn_share, torn_total_Nmm, state, faults, work_us] = tick;
+         grip_torque_P_Nmm, lever, torn_share, torn_total_Nmm, file, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -147,6 +176,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visitLevering(lever, visit);
   visit(Text{"torn_share"}, torn_share);
   visit(Text{"torn_total_Nmm", "", "N mm"}, torn_total_Nmm);
+  visitFile(file, visit);
   visit(Text{"state", "", "", "", kStates}, state);
   visit(Text{"faults", "", "", "", kFaults}, faults);
   visit(Text{"work_us", "", "us"}, work_us);

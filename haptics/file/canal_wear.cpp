@@ -14,43 +14,83 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::ivec3;
 
-constexpr int kSweeps = 4;
-constexpr std::size_t kMostPressed = 4096;
-
-/// A voxel of a section: how much of it may go, and how deep the file presses there.
-struct Pressed {
-  std::size_t voxel;
-  double may, depth_mm;
-};
-
-struct PressedVoxels {
-  std::array<Pressed, kMostPressed> of;
-  std::size_t count = 0;
-};
+constexpr std::size_t kMostBlocks = 192;  ///< that a section's surface meets; the rest waits for the next turn
+constexpr double kHalfBlock = 1.5;        ///< from its middle to its outer voxels, along an axis
+constexpr double kLeastDue_mm3 = 1e-10;
 
 /// A section's frame and the depth of its rays.
 struct PressedSection {
   SectionPlace at;
   dvec3 e1, e2;
   std::array<double, kRays> depth_mm;
+  double deepest_mm;
 };
 
-void addPressed(const PressedSection& section, const assets::VolumeGrid& grid, ivec3 ijk, double left,
-                PressedVoxels& list) {
-  const SectionPlace& at = section.at;
-  const dvec3 away = grid.centre_P_mm(ijk) - at.centre_P_mm;
-  if (std::fabs(glm::dot(away, at.axis)) > 0.5 * (at.length_mm + grid.spacing_mm)) return;
-  const double x = glm::dot(away, section.e1), y = glm::dot(away, section.e2);
-  // As much of the voxel as the file covers may go, in a face as smooth as it is felt.
-  const double beyond_mm = std::sqrt(x * x + y * y) - at.radius_mm;
-  const double outside = std::clamp(0.5 + 0.5 * beyond_mm / grid.spacing_mm, 0.0, 1.0);
-  if (left <= outside || list.count == kMostPressed) return;
-  const double ray = (std::atan2(y, x) / (2.0 * std::numbers::pi) + 1.0) * kRays;
+struct PressedBlock {
+  ivec3 block;
+  std::array<std::uint16_t, kBlockVoxels> coverage;
+  std::array<std::uint32_t, kBlockVoxels> exposure;
+};
+
+/// How many rays from e1 a direction lies, counted round the axis; linear in between, so that no angle is needed.
+double rayOf(double x, double y) {
+  static_assert(kRays == 16);
+  constexpr std::array<double, 5> kFrom{0.0, 0.29289321881345254, 0.5, 0.70710678118654746, 1.0};
+  const double sum = std::fabs(x) + std::fabs(y);
+  if (!(sum > 0.0)) return 0.0;
+  const int quarter = y >= 0.0 ? (x > 0.0 ? 0 : 1) : (x < 0.0 ? 2 : 3);
+  const double part = (quarter % 2 == 0 ? std::fabs(y) : std::fabs(x)) / sum;
+  const std::size_t ray = part < kFrom[2] ? (part < kFrom[1] ? 0 : 1) : (part < kFrom[3] ? 2 : 3);
+  return 4.0 * quarter + static_cast<double>(ray) + (part - kFrom[ray]) / (kFrom[ray + 1] - kFrom[ray]);
+}
+
+double depthTowards_mm(const PressedSection& section, double x, double y) {
+  const double ray = rayOf(x, y);
   const auto before = static_cast<std::size_t>(ray);
   const double share = ray - static_cast<double>(before);
-  const double deep_mm =
-      (1.0 - share) * section.depth_mm[before % kRays] + share * section.depth_mm[(before + 1) % kRays];
-  if (deep_mm > 0.0) list.of[list.count++] = {grid.index(ijk), left - outside, deep_mm};
+  return (1.0 - share) * section.depth_mm[before % kRays] + share * section.depth_mm[(before + 1) % kRays];
+}
+
+/// Of a tissue, relative to dentine.
+double softness(std::uint8_t label) {
+  constexpr double kDentine = assets::kTissues[static_cast<std::size_t>(assets::Tissue::dentine)].removal_factor;
+  return assets::properties(label).removal_factor / kDentine;
+}
+
+/// Where the section may take something of a block: as much of each voxel as the file covers, in a face as smooth as it
+/// is felt, by the depth there. Returns the sum of what a loss of 1 takes, in voxels; 0: nothing.
+double pressedOn(const PressedSection& section, const SolidField& field, ivec3 block, PressedBlock& out) {
+  const SectionPlace& at = section.at;
+  const double s = field.grid.spacing_mm, half_mm = 0.5 * (at.length_mm + s);
+  const dvec3 middle = field.grid.centre_P_mm(kBlockEdge * block) + kHalfBlock * s - at.centre_P_mm;
+  const double beside = glm::dot(middle, at.axis), across2 = glm::dot(middle, middle) - beside * beside;
+  const double around_mm = std::numbers::sqrt3 * kHalfBlock * s, far_mm = at.radius_mm + s + around_mm;
+  if (std::fabs(beside) > half_mm + around_mm || across2 > far_mm * far_mm) return 0.0;
+
+  const std::size_t number = field.blockAt(block);
+  const std::uint8_t* const solid = field.solid + number * kBlockVoxels;
+  const std::uint8_t* const label = field.label == nullptr ? nullptr : field.label + number * kBlockVoxels;
+  double sum = 0.0;
+  for (int v = 0; v < kBlockVoxels; ++v) {
+    const auto n = static_cast<std::size_t>(v);
+    out.coverage[n] = 0;
+    out.exposure[n] = 0;
+    if (solid[n] == 0) continue;
+    const dvec3 away = middle + (dvec3(v & 3, v >> 2 & 3, v >> 4) - kHalfBlock) * s;
+    if (std::fabs(glm::dot(away, at.axis)) > half_mm) continue;
+    const double x = glm::dot(away, section.e1), y = glm::dot(away, section.e2);
+    const double beyond_mm = std::sqrt(x * x + y * y) - at.radius_mm;
+    const double outside = std::clamp(0.5 + 0.5 * beyond_mm / s, 0.0, 1.0);
+    if (static_cast<double>(solid[n]) <= 255.0 * outside) continue;
+    const double deep = std::min(1.0, depthTowards_mm(section, x, y) / section.deepest_mm);
+    if (!(deep > 0.0)) continue;
+    const double covered = 1.0 - outside;
+    out.coverage[n] = static_cast<std::uint16_t>(65535.0 * covered);
+    out.exposure[n] = static_cast<std::uint32_t>(65535.0 * covered * deep);
+    sum += covered * deep * softness(label == nullptr ? std::uint8_t{0} : label[n]);
+  }
+  out.block = block;
+  return sum;
 }
 
 }  // namespace
@@ -72,94 +112,94 @@ double wornVolume_mm3(const WearSettings& settings, double normal_N, double touc
   return 0.0;
 }
 
-CanalWear::CanalWear(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, const WearSettings& settings)
-    : grid_(grid), settings_(settings), left_(solid.size()), cubelets_(grid, solid, {}) {
-  std::transform(solid.begin(), solid.end(), left_.begin(),
-                 [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0F; });
+WearSettings sanitised(const WearSettings& settings) noexcept {
+  constexpr WearSettings kUsual;
+  const auto within = [](double value, double most, double usual) {
+    return value >= 0.0 && value <= most ? value : usual;
+  };
+  return {settings.law <= WearLaw::counters_helical ? settings.law : kUsual.law,
+          within(settings.alpha_mm3_per_Nmm, 1.0, kUsual.alpha_mm3_per_Nmm),
+          within(settings.push_share, 1.0, kUsual.push_share), within(settings.counter, 1.0, kUsual.counter)};
 }
 
-void CanalWear::step(const FileInCanal& file) noexcept {
+CarveResult CanalWear::step(const FileInCanal& file, CarvedBone& wall, StrokeHistory* strokes,
+                            std::uint64_t tick) noexcept {
   const FileChain& chain = file.chain();
   const FileState& state = file.state();
-  const SolidField field = wall();
+  CarveResult taken;
   for (std::size_t i = 1; i <= chain.links; ++i) {
-    const double normal_N = state.normal_N[i];
-    if (normal_N <= 0.0) continue;
+    Section& section = of_[i];
+    if (state.normal_N[i] > 0.0) {
+      const double worn_mm3 = wornVolume_mm3(settings_, state.normal_N[i], section.touched_mm2, state.slip_mm[i],
+                                             chain.radius_mm[i], chain.lead_mm);
+      section.due_mm3 += worn_mm3;
+      due_mm3_ += worn_mm3;
+    }
+    if ((i + tick) % kWearTurns != 0 || !(state.normal_N[i] > 0.0)) continue;
     const bool is_tip = i == chain.links;
     const dvec3& d = state.shape.direction[i];
     const SectionPlace at{state.shape.node_mm[i], is_tip ? d : unitOf(d + state.shape.direction[i + 1]),
                           chain.radius_mm[i], is_tip ? 0.5 * chain.link_mm : chain.link_mm};
-    std::array<double, kRays> depth_mm{};
-    if (!rayDepths(file.law(), field, at, depth_mm)) continue;
-    const auto touching = std::count_if(depth_mm.begin(), depth_mm.end(), [](double depth) { return depth > 0.0; });
-    const double touched_mm2 =
-        static_cast<double>(touching) / kRays * 2.0 * std::numbers::pi * at.radius_mm * at.length_mm;
-    const double worn_mm3 =
-        wornVolume_mm3(settings_, normal_N, touched_mm2, state.slip_mm[i], at.radius_mm, chain.lead_mm);
-    due_mm3_ += worn_mm3;
-    const double removed_mm3 = take(file.law(), at, worn_mm3 + carried_mm3_[i]);
-    carried_mm3_[i] += worn_mm3 - removed_mm3;
-    removed_mm3_ += removed_mm3;
+    taken += take(file.law(), at, section, wall, strokes, tick);
   }
+  removed_mm3_ += taken.removed_mm3;
+  return taken;
 }
 
-double CanalWear::take(const FileLaw& law, const SectionPlace& at, double volume_mm3) noexcept {
-  if (volume_mm3 <= 0.0) return 0.0;
+CarveResult CanalWear::take(const FileLaw& law, const SectionPlace& at, Section& section, CarvedBone& wall,
+                            StrokeHistory* strokes, std::uint64_t tick) noexcept {
+  CarveResult taken;
+  const SolidField field = wall.field();
   const std::array<dvec3, kRays> rays = raysAbout(at.axis);
-  PressedSection section{at, rays[0], rays[kRays / 4], {}};
-  if (!rayDepths(law, wall(), at, section.depth_mm)) return 0.0;
+  PressedSection pressed{at, rays[0], rays[kRays / 4], {}, 0.0};
+  section.touched_mm2 = 0.0;
+  if (!rayDepths(law, field, at, pressed.depth_mm)) return taken;
+  const auto touching =
+      std::count_if(pressed.depth_mm.begin(), pressed.depth_mm.end(), [](double depth) { return depth > 0.0; });
+  section.touched_mm2 = static_cast<double>(touching) / kRays * 2.0 * std::numbers::pi * at.radius_mm * at.length_mm;
+  pressed.deepest_mm = *std::max_element(pressed.depth_mm.begin(), pressed.depth_mm.end());
+  if (section.due_mm3 < kLeastDue_mm3 || !(pressed.deepest_mm > 0.0)) return taken;
+
+  // Where it presses.
+  const double s = field.grid.spacing_mm;
   const dvec3 aside = at.radius_mm * glm::sqrt(glm::max(dvec3(0.0), 1.0 - at.axis * at.axis));
-  const dvec3 reach = aside + 0.5 * at.length_mm * glm::abs(at.axis) + 2.0 * grid_.spacing_mm;
-  const dvec3 from = grid_.indexFromPoint(at.centre_P_mm - reach), to = grid_.indexFromPoint(at.centre_P_mm + reach);
-  const ivec3 low = glm::max(ivec3(glm::floor(from)), ivec3(0)), high = glm::min(ivec3(glm::ceil(to)) + 1, grid_.size);
-  if (glm::any(glm::lessThanEqual(high, low))) return 0.0;
-  PressedVoxels list;
-  assets::forVoxels(low, high, [&](ivec3 ijk) {
-    const double left = static_cast<double>(left_[grid_.index(ijk)]);
-    if (left > 0.0) addPressed(section, grid_, ijk, left, list);
+  const dvec3 reach = aside + 0.5 * at.length_mm * glm::abs(at.axis) + 2.0 * s;
+  const VoxelBox box(field.grid, field.grid.indexFromPoint(at.centre_P_mm - reach),
+                     field.grid.indexFromPoint(at.centre_P_mm + reach));
+  if (box.empty()) return taken;
+  std::array<PressedBlock, kMostBlocks> blocks;
+  std::size_t count = 0;
+  double yield = 0.0;
+  assets::forVoxels(box.first / kBlockEdge, box.last / kBlockEdge + 1, [&](ivec3 block) {
+    if (count == kMostBlocks || field.weight[field.blockAt(block)] == 0) return;
+    const double sum = pressedOn(pressed, field, block, blocks[count]);
+    if (!(sum > 0.0)) return;
+    yield += sum;
+    ++count;
   });
+  if (!(yield > 0.0)) return taken;
 
-  // By depth and by what may go; where that is less than its part, the others take more.
-  const double voxel_mm3 = grid_.voxelVolume_mm3();
-  double taken_mm3 = 0.0;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    const double open = (volume_mm3 - taken_mm3) / voxel_mm3;
-    double weights = 0.0;
-    for (std::size_t n = 0; n < list.count; ++n) weights += list.of[n].may * list.of[n].depth_mm;
-    if (weights <= 0.0 || open <= 1e-12) break;
-    for (std::size_t n = 0; n < list.count; ++n) {
-      Pressed& one = list.of[n];
-      float& left = left_[one.voxel];
-      const double share = std::min(one.may, open * one.may * one.depth_mm / weights);
-      const float after = std::max(0.0F, static_cast<float>(static_cast<double>(left) - share));
-      const double gone = static_cast<double>(left) - static_cast<double>(after);
-      one.may = std::max(0.0, one.may - gone);
-      taken_mm3 += gone * voxel_mm3;
-      left = after;
-    }
+  // By depth and by what may go.
+  const double voxel_mm3 = field.grid.voxelVolume_mm3(), loss = section.due_mm3 / (yield * voxel_mm3);
+  BlockCut cut;
+  for (std::size_t tissue = 0; tissue < cut.loss_q32.size(); ++tissue) {
+    const double of_tissue = std::min(1.0, loss * softness(static_cast<std::uint8_t>(tissue)));
+    cut.loss_q32[tissue] = static_cast<std::uint32_t>(of_tissue * 4294967295.0);
   }
-  if (taken_mm3 > 0.0) store(low, high);
-  return taken_mm3;
-}
-
-void CanalWear::store(ivec3 low, ivec3 high) noexcept {
-  const SolidField field = wall();
-  assets::forVoxels(low / kBlockEdge, (high + (kBlockEdge - 1)) / kBlockEdge, [&](ivec3 block) {
-    std::array<std::uint8_t, kBlockVoxels> bytes{};
-    const std::size_t at = field.blockAt(block);
-    bool is_changed = false;
-    std::size_t v = 0;
-    assets::forVoxels(ivec3(0), ivec3(kBlockEdge), [&](ivec3 within) {
-      const ivec3 ijk = kBlockEdge * block + within;
-      const std::uint8_t was = field.solid[at * kBlockVoxels + v];
-      bytes[v] = grid_.contains(ijk)
-                     ? static_cast<std::uint8_t>(std::lround(255.0 * static_cast<double>(left_[grid_.index(ijk)])))
-                     : was;
-      is_changed = is_changed || bytes[v] != was;
-      ++v;
-    });
-    if (is_changed) cubelets_.setBlock(at, bytes);
-  });
+  cut.tick = tick;
+  std::array<std::int64_t, assets::kTissueCount> steps{};
+  for (std::size_t n = 0; n < count; ++n) {
+    cut.coverage = blocks[n].coverage;
+    cut.exposure = blocks[n].exposure;
+    wall.cutBlock(blocks[n].block, cut, steps, strokes);
+  }
+  for (std::size_t tissue = 0; tissue < steps.size(); ++tissue) {
+    const double removed_mm3 = static_cast<double>(steps[tissue]) * voxel_mm3 / 255.0;
+    taken.removed_mm3_by_label[tissue] = removed_mm3;
+    taken.removed_mm3 += removed_mm3;
+  }
+  section.due_mm3 -= taken.removed_mm3;
+  return taken;
 }
 
 }  // namespace haptics

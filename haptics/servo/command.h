@@ -9,6 +9,7 @@
 #include "haptics/safety/safety_limits.h"
 #include "haptics/servo/chip_removal.h"
 #include "haptics/servo/piece_sites.h"
+#include "haptics/servo/root_canal_file.h"
 #include "haptics/servo/tooth_break.h"
 #include "haptics/servo/tooth_split.h"
 #include "haptics/tool/spindle.h"
@@ -33,6 +34,8 @@ struct Command {
   LawSettings law;
   ErosionSettings erosion;
   SpindleSettings spindle;
+  WearSettings wear;             ///< of a root canal by files
+  FileReference file_reference;  ///< of their rubber stops
   SafetyLimits safety;
   std::uint64_t rearm = 0;  ///< a change clears a latched fault
 };

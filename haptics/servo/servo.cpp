@@ -14,6 +14,8 @@ Command sanitised(const Command& command) {
   safe.law = sanitised(command.law);
   safe.erosion = sanitised(command.erosion);
   safe.spindle = sanitised(command.spindle);
+  safe.wear = sanitised(command.wear);
+  safe.file_reference = sanitised(command.file_reference);
   safe.safety = sanitised(command.safety);
   return safe;
 }
@@ -78,7 +80,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   // must be released.
   const Tool before = std::exchange(tool_before_, command.tool);
   const bool changed = before.grips != command.tool.grips || before.isElevator() != command.tool.isElevator() ||
-                       before.isHandInstrument() != command.tool.isHandInstrument();
+                       before.isHandInstrument() != command.tool.isHandInstrument() || before.file != command.tool.file;
   pedal_spent_ =
       valid.drill_pedal && (pedal_spent_ || changed || command.hands_off || (was_undone && command.tool.luxates()));
   const bool pedal = valid.drill_pedal && !pedal_spent_;
@@ -104,7 +106,21 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   const ToolMotion motion = cutting_.motion(valid.velocity_P_mm_per_s, tick.dt_s);
   const SolidBodies bodies = metBy(command.tool, bodies_);
   Proxy::State proxy;
-  if (!luxation_.leads()) {
+  RootCanalFile::Felt filed;
+  const bool holds_file = command.tool.isFile();
+  if (!holds_file) canal_file_.putDown();
+  if (holds_file) {
+    const bool without_force = command.safety.must_be_armed && admitted.state != SafetyState::active;
+    filed = canal_file_.update(bodies_, undo_.strokes(), command.tool, command.file_reference, command.wear,
+                               {soft.X_PT, pedal, admitted.relocated || without_force || undo_.hasChanged(),
+                                admitted.mayDrill() && !was_undone, command.safety.max_stiffness_N_per_mm},
+                               tick.dt_s, tick.index);
+    proxy.proxy_P = filed.handle_P;
+    at_proxy_X_PT_ = {soft.X_PT.rotation, filed.handle_P.mm};
+    proxy_.startAt(filed.handle_P);
+    tick.file = canal_file_.work();
+    tick.unsettled = tick.file.unsettled;
+  } else if (!luxation_.leads()) {
     proxy = embedded ? proxy_.passThrough(bodies, command.law, command.tool, soft.X_PT, motion)
                      : proxy_.update(bodies, command.law, command.tool, soft.X_PT, motion,
                                      command.safety.max_stiffness_N_per_mm);
@@ -116,7 +132,7 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     }
   }
   const LedTool& led = luxation_.led();
-  tick.unsettled = sites_.settle(bodies_, tick.dt_s) || led.unsettled;
+  tick.unsettled = sites_.settle(bodies_, tick.dt_s) || led.unsettled || tick.unsettled;
   if (!led.holds && !sites_.areSettling()) undo_.endLuxation(bodies_, sites_);
   if (led.leads) {
     at_proxy_X_PT_ = led.X_PT;
@@ -141,6 +157,10 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
     tick.grip_torque_P_Nmm = led.gripped.torque_Nmm;
     tick.gripped = command.tool.grips ? static_cast<std::uint8_t>(led.piece + 1) : std::uint8_t{0};
   }
+  if (holds_file) {
+    tick.law_force_P_N = filed.on_hand.force_N;
+    tick.law_torque_P_Nmm = filed.on_hand.torque_Nmm;
+  }
   tick.lever = led.lever;
   tick.set_aside = led.set_aside;
   tick.torn_share = led.torn_share;
@@ -152,13 +172,14 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   if (!(command.safety.peak_torque_Nmm > 0.0))
     vibration_P_N.xyz +=
         pulses_.update(torn_Nmm, broke_, at_proxy_X_PT_.rotation * glm::dvec3(0.0, 0.0, 1.0), tick.dt_s).xyz;
+  if (!(command.safety.peak_torque_Nmm > 0.0)) vibration_P_N.xyz += filed.vibration_P_N.xyz;
   broke_ = false;
   const SafetyLayer::Request law{
       {tick.law_force_P_N + tick.soft.force_P_N, tick.law_torque_P_Nmm + tick.soft.torque_P_Nmm},
       vibration_P_N,
       {},
-      proxy.maxStored_Nmm() + soft.max_stored_Nmm + led.max_stored_Nmm,
-      proxy.touches() || led.leads};
+      proxy.maxStored_Nmm() + soft.max_stored_Nmm + led.max_stored_Nmm + filed.max_stored_Nmm,
+      proxy.touches() || led.leads || filed.touches};
   const Delivery::Changes changes{
       command.serial != last_serial_ || embedded != was_embedded_ || led.leads != was_led_ || undo_.hasMovedPieces(),
       admitted.relocated};
@@ -181,7 +202,9 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
                                      tick.drilling, tick.dt_s, tick.index);
   removed += filing_.file(bodies_, undo_.strokes(), {at.X_PT, at.head, at.contact, at.force_P_N}, files, tick.dt_s,
                           tick.index);
-  undo_.update(cuts, proxy.proxy_P, removed.removed_mm3, !split_.isRunning() && !chips_.isRunning(), tick.dt_s);
+  removed += filed.removed;
+  undo_.update(cuts || filed.files, proxy.proxy_P, removed.removed_mm3, !split_.isRunning() && !chips_.isRunning(),
+               tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // The bridge of the piece that is twisted or wedged breaks: the tool leads alone until its parts are ready.

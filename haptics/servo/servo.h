@@ -16,6 +16,7 @@
 #include "haptics/servo/luxation.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/proxy.h"
+#include "haptics/servo/root_canal_file.h"
 #include "haptics/servo/soft_hold.h"
 #include "haptics/servo/stroke_undo.h"
 #include "haptics/servo/tear_pulses.h"
@@ -63,6 +64,7 @@ class Servo {
   Proxy proxy_;
   Cutting cutting_;
   Filing filing_;
+  RootCanalFile canal_file_;
   Delivery delivery_;
   StrokeUndo undo_;
   ToothSplit split_;

@@ -12,6 +12,7 @@
 #include "haptics/safety/safety_state.h"
 #include "haptics/servo/chip_removal.h"
 #include "haptics/servo/drill_inhibit.h"
+#include "haptics/servo/file_work.h"
 #include "haptics/servo/levering.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/tooth_break.h"
@@ -61,6 +62,7 @@ struct Tick {
   Levering lever;                                               ///< of an elevator
   double torn_share = 0.0;                                      ///< of the ligament of the piece held, or last held
   double torn_total_Nmm = 0.0;           ///< since the start, of all pieces, less what was undone
+  FileWork file;                         ///< of a root-canal file
   SafetyState state = SafetyState::off;  ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed

@@ -11,6 +11,22 @@ constexpr double kBetweenBeaks_mm = 2.0;                         // radius: a to
 constexpr double kBladeHalf_mm = 0.5, kBladeAndShank_mm = 40.0;  // thickness of a blade, its length with the shank
 constexpr double kThickestShaft_mm = 5.0, kLongestShaft_mm = 100.0;
 
+constexpr double kFileHandleRadius_mm = 1.8;
+
+double within(double value, double low, double high) {
+  return std::isfinite(value) ? std::clamp(value, low, high) : 0.0;
+}
+
+CanalFile sanitised(const CanalFile& file) noexcept {
+  if (!file.made()) return {};
+  CanalFile safe = file;
+  safe.bent_deg = within(file.bent_deg, -90.0, 90.0);
+  safe.bent_mm = within(file.bent_mm, 0.0, 10.0);
+  safe.bent_towards_deg = within(file.bent_towards_deg, -360.0, 360.0);
+  safe.stop_mm = within(file.stop_mm, 0.0, file.length_mm);
+  return safe;
+}
+
 }  // namespace
 
 Tool sanitised(const Tool& tool) noexcept {
@@ -20,6 +36,7 @@ Tool sanitised(const Tool& tool) noexcept {
             tool.grips,
             tool.grips || tool.elevator > ElevatorKind::cryer_right ? ElevatorKind::none : tool.elevator};
   if (!safe.luxates() && tool.hand_instrument <= HandInstrument::suction) safe.hand_instrument = tool.hand_instrument;
+  if (!safe.luxates() && !safe.isHandInstrument()) safe.file = sanitised(tool.file);
   const Shaft& shaft = tool.shaft;
   if (shaft.radius_mm > 0.0 && shaft.length_mm > 0.0 && std::isfinite(shaft.radius_mm) &&
       std::isfinite(shaft.length_mm))
@@ -41,6 +58,10 @@ Tool handInstrumentTool(HandInstrument kind) noexcept {
           .shaft = {size.shank_radius_mm, size.length_mm},
           .handpiece = false,
           .hand_instrument = kind};
+}
+
+Tool fileTool(const CanalFile& file) noexcept {
+  return {.head = {ShapeKind::sphere, kFileHandleRadius_mm, 0.0}, .shaft = {}, .handpiece = false, .file = file};
 }
 
 Shaft standardShaft(const BurShape& head) noexcept {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "haptics/tool/bur_shape.h"
+#include "haptics/tool/canal_file.h"
 #include "haptics/tool/elevator_kind.h"
 #include "haptics/tool/hand_instrument.h"
 
@@ -23,13 +24,15 @@ struct Tool {
   bool grips = false;     ///< forceps: the head is the place between the beaks, the pedal closes them, nothing turns
   ElevatorKind elevator = ElevatorKind::none;  ///< of this kind: T's origin is its blade's tip, nothing turns
   HandInstrument hand_instrument = HandInstrument::none;  ///< of this kind: nothing turns, the pedal does nothing
+  CanalFile file{};  ///< chosen: T's origin is its handle, nothing turns, the pedal opens the fingers
 
   bool isElevator() const { return elevator != ElevatorKind::none; }
   /// Moves pieces of tooth: forceps or an elevator.
   bool luxates() const { return grips || isElevator(); }
   bool isHandInstrument() const { return hand_instrument != HandInstrument::none; }
+  bool isFile() const { return file.isChosen(); }
   /// A bur: the pedal turns it and it cuts.
-  bool turns() const { return !luxates() && !isHandInstrument(); }
+  bool turns() const { return !luxates() && !isHandInstrument() && !isFile(); }
   bool operator==(const Tool&) const = default;
 };
 
@@ -45,6 +48,9 @@ Tool elevatorTool(ElevatorKind kind) noexcept;
 
 /// `kind` not none.
 Tool handInstrumentTool(HandInstrument kind) noexcept;
+
+/// A file made as ISO 3630-1 has it. Only what is stiff at its handle is held off by soft tissue.
+Tool fileTool(const CanalFile& file) noexcept;
 
 /// The usual shaft of a bur: a shank of 2.35 mm (ISO 1797, type 2), or a neck narrower than the head that lets chips
 /// out; 25 mm long, as far as it stands out of a handpiece.

@@ -3,6 +3,7 @@
 //   haptics_file_bench elastica   a cantilever under a large load
 //   haptics_file_bench push       files pushed to length: time per tick, force, by links and voxels
 //   haptics_file_bench hands      60 s of a wandering hand for each of 14 files: time per tick, ticks not at rest
+//   haptics_file_bench strokes    files drawn to and fro near the apex, with what they take: time per tick, books
 //   haptics_file_bench soak       ten minutes of one hand: 600,000 ticks
 // CPU time of this thread. MOLAR_INSTRUCTIONS=portable or avx2 selects the set.
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "assets/instruction_set.h"
+#include "haptics/file/canal_wear.h"
 #include "tests/bench/extraction_parts.h"
 #include "tests/haptics/file_scene.h"
 
@@ -117,6 +119,47 @@ void wander(const CanalWall& canal, const assets::KFile& of, unsigned seed, int 
       us.back(), static_cast<double>(steps) / ticks, unsettled, reverted, rose, strongest_N);
 }
 
+void strokes() {
+  std::printf("twenty strokes of 1.5 mm near the apex of the same canal, 30 mm/s\n");
+  for (const int size : {10, 15, 20, 25})
+    for (const auto metal : {assets::KFileMetal::steel, assets::KFileMetal::nickel_titanium}) {
+      const CanalWall canal(haptics::phantom::bentCanal(0.7));
+      haptics::CarvedBone bone(canal.field.grid, canal.field.solid, {});
+      haptics::CanalWear wear;
+      const FileChain chain = haptics::fileChain(*assets::kFile(size, 21, metal), haptics::kUsualLinks);
+      FilePose hand = haptics::phantom::above(chain, 0.05);
+      FileInCanal file(chain, {}, {}, hand);
+      std::vector<double> us, wear_us;
+      std::uint64_t ticks = 0;
+      int unsettled = 0;
+      const auto move = [&](double way_mm) {
+        hand.translation_mm.z -= way_mm;
+        const haptics::SolidField wall = bone.field();
+        haptics::FileScene scene;
+        scene.wall = &wall;
+        const double began_us = threadTime_us();
+        const FileTick tick = file.step(hand, scene);
+        const double lay_us = threadTime_us();
+        wear.step(file, bone, nullptr, ticks++);
+        us.push_back(threadTime_us() - began_us);
+        wear_us.push_back(threadTime_us() - lay_us);
+        unsettled += tick.unsettled ? 1 : 0;
+      };
+      for (int n = 0; n < 1460; ++n) move(0.01);
+      us.clear(), wear_us.clear();
+      for (int stroke = 0; stroke < 20; ++stroke)
+        for (const double way_mm : {-0.03, 0.03})
+          for (int n = 0; n < 50; ++n) move(way_mm);
+      for (std::uint64_t n = 0; n < 2 * haptics::kWearTurns; ++n) move(0.0);
+      std::sort(us.begin(), us.end());
+      std::sort(wear_us.begin(), wear_us.end());
+      std::printf(
+          "  #%-3d %s  us: median %4.0f, 99 %% %4.0f; of wear %4.0f, %4.0f; due %.4f mm3, taken %.4f; not at rest %d\n",
+          size, metal == assets::KFileMetal::steel ? "steel" : "niti ", share(us, 50), share(us, 99),
+          share(wear_us, 50), share(wear_us, 99), wear.due_mm3(), wear.removed_mm3(), unsettled);
+    }
+}
+
 void hands() {
   const CanalWall canal(haptics::phantom::bentCanal(0.7));
   std::printf("wandering hands in the same canal, its orifice round\n");
@@ -146,6 +189,7 @@ int main(int argc, char** argv) {
   };
   part("elastica", bench::elastica);
   part("push", bench::push);
+  part("strokes", bench::strokes);
   part("hands", bench::hands);
   part("soak", bench::soak);
   if (!found) std::fprintf(stderr, "haptics_file_bench: no part of this name\n");

@@ -31,10 +31,12 @@ TEST(CanalWear, HasTheVolumesOfItsLaws) {
 struct Filed {
   assets::RootCanal canal;
   assets::CanalField field;
+  CarvedBone bone;
   CanalWear wear;
+  std::uint64_t ticks = 0;
 
   Filed(const assets::RootCanal& of, const WearSettings& settings)
-      : canal(of), field(assets::canalField(of, 0.04)), wear(field.grid, field.solid, settings) {}
+      : canal(of), field(assets::canalField(of, 0.04)), bone(field.grid, field.solid, {}), wear(settings) {}
 
   /// Drawn to and fro near the apex.
   void strokes(const assets::KFile& of, int count) {
@@ -42,20 +44,22 @@ struct Filed {
     FilePose hand = phantom::above(chain, 0.05);
     FileInCanal file(chain, {}, {true, 0.0}, hand);
     const auto move = [&](double way_mm) {
-      const SolidField wall = wear.wall();
+      const SolidField wall = bone.field();
       FileScene scene;
       scene.wall = &wall;
       hand.translation_mm.z -= way_mm;
       file.step(hand, scene);
-      wear.step(file);
+      wear.step(file, bone, nullptr, ticks++);
     };
     for (int n = 0; n < 730; ++n) move(0.02);
     for (int stroke = 0; stroke < count; ++stroke)
       for (const double way_mm : {-0.03, 0.03})
         for (int n = 0; n < 50; ++n) move(way_mm);
+    // What is due waits for its section's turn.
+    for (std::uint64_t n = 0; n < 2 * kWearTurns; ++n) move(0.0);
   }
   double volume_mm3() const {
-    const SolidField now = wear.wall();
+    const SolidField now = bone.field();
     double sum = 0.0;
     assets::forVoxels(field.grid, [&](glm::ivec3 ijk, std::size_t v) {
       EXPECT_LE(now.solidAt(ijk), field.solid[v]);
@@ -80,7 +84,7 @@ TEST(CanalWear, SteelMovesTheCanalOutwardsAndMoreThanNickelTitanium) {
     settings.alpha_mm3_per_Nmm = 2e-3;
     Filed filed(phantom::bentCanal(), settings);
     filed.strokes(*assets::kFile(20, 21, metal), 6);
-    const SolidField now = filed.wear.wall();
+    const SolidField now = filed.bone.field();
     // By the side of the centre line, in the last 3 mm of the arc's end.
     double outer_mm3 = 0.0, inner_mm3 = 0.0;
     assets::forVoxels(filed.field.grid, [&](glm::ivec3 ijk, std::size_t v) {
