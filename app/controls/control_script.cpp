@@ -30,7 +30,7 @@ int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
   const haptics::Tool wanted = toolFrom(text, {});
   const auto found = std::ranges::find_if(tray, [&](const haptics::Tool& tool) {
     return tool.head == wanted.head && tool.grips == wanted.grips && tool.elevator == wanted.elevator &&
-           tool.hand_instrument == wanted.hand_instrument;
+           tool.hand_instrument == wanted.hand_instrument && tool.file == wanted.file;
   });
   if (found == tray.end()) throw UsageError("tool " + text + ": it is not on the tray, name it with --tool");
   return static_cast<int>(found - tray.begin());

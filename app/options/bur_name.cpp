@@ -29,6 +29,10 @@ std::string burName(const haptics::BurShape& head) {
 }
 
 std::string toolName(const haptics::Tool& tool) {
+  if (const auto file = tool.file.made())
+    return fmt::format("K-file {} {}, {:g} mm{}{}", file->size, file->colour(), file->length_mm,
+                       tool.file.nickel_titanium ? ", NiTi" : "",
+                       tool.file.bent_deg != 0.0 ? fmt::format(", bent {:g}°", tool.file.bent_deg) : "");
   if (tool.grips) return "extraction forceps";
   if (tool.isHandInstrument()) return std::string(kHandInstruments[static_cast<std::size_t>(tool.hand_instrument)]);
   return tool.isElevator() ? std::string(kElevators[static_cast<std::size_t>(tool.elevator)]) : burName(tool.head);

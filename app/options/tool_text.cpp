@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,7 +35,8 @@ struct Form {
   bool isOrdered() const { return measures.front().factor != 1.0; }
 };
 
-constexpr std::string_view kElevator = "elevator";
+constexpr std::string_view kElevator = "elevator", kFile = "k-file";
+constexpr const char* kFilePattern = "k-file:SIZE,LENGTH with ,niti or ,bent:DEGREES behind it";
 
 const Measure kRadius{"radius", 0.1, 20.0}, kDiameter{"diameter", 0.2, 40.0, 0.5};
 
@@ -99,7 +101,45 @@ haptics::Tool elevatorFrom(const std::string& text) {
   throw UsageError("--tool " + text + ": no such elevator, give " + elevatorForms());
 }
 
+/// "k-file:25,25", "k-file:15,25,bent:30", "k-file:25,21,niti".
+haptics::Tool canalFileFrom(const std::string& text) {
+  haptics::CanalFile file;
+  const std::string_view whole = text;
+  const std::string_view numbers = whole.substr(std::min(whole.size(), kFile.size() + 1));
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError("--tool " + text + ": " + why + ", give " + kFilePattern);
+  };
+  std::size_t place = 0;
+  for (const std::string_view part : split(numbers)) {
+    constexpr std::string_view kBent = "bent:";
+    const auto number = parseNumber<double>(part);
+    if (place == 0 && number && *number > 0.0) {
+      file.size = static_cast<std::uint64_t>(*number);
+    } else if (place == 1 && number) {
+      file.length_mm = *number;
+    } else if (part == "niti") {
+      file.nickel_titanium = true;
+    } else if (part == "steel") {
+      file.nickel_titanium = false;
+    } else if (part.starts_with(kBent)) {
+      const auto bent_deg = parseNumber<double>(part.substr(kBent.size()));
+      if (!bent_deg || std::abs(*bent_deg) > 90.0) refuse("a file is bent by 0 to 90 degrees");
+      file.bent_deg = *bent_deg;
+    } else {
+      refuse("'" + std::string(part) + "' is not understood");
+    }
+    ++place;
+  }
+  if (!file.made())
+    refuse(fmt::format("no such file is made: sizes {}; lengths {} mm",
+                       joined(assets::kKFileSizes, [](int n) { return std::to_string(n); }),
+                       joined(assets::kKFileLengths_mm, [](int n) { return std::to_string(n); })));
+  return haptics::fileTool(file);
+}
+
 }  // namespace
+
+std::string fileForm() { return std::string(kFilePattern); }
 
 std::string headForms() {
   std::vector<std::string> patterns;
@@ -143,9 +183,10 @@ haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
   const std::string_view key = std::string_view(text).substr(0, text.find(':'));
   if (key == "forceps") throw UsageError("--tool " + text + ": forceps have no size, write forceps alone");
   if (key == kElevator) return elevatorFrom(text);
+  if (key == kFile) return canalFileFrom(text);
   if (std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
     throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps, or " +
-                     elevatorForms() + ", or " + handInstrumentForms());
+                     elevatorForms() + ", or " + handInstrumentForms() + ", or " + fileForm());
   const BurShape head = headFrom(text);
   return {head, shaft.empty() ? haptics::standardShaft(head) : shaftFrom(shaft)};
 }

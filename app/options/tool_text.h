@@ -32,6 +32,8 @@ std::string elevatorForms();
 
 /// "scalpel:15, periosteal, curette, bone-file or suction"
 std::string handInstrumentForms();
+/// "k-file:SIZE,LENGTH …"
+std::string fileForm();
 
 /// `forceps`, an elevator, a hand instrument, or a head with this shaft; empty: what is usual for it.
 haptics::Tool toolFrom(const std::string& text, const std::string& shaft);

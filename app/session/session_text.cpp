@@ -73,11 +73,34 @@ void forEachParameter(auto& jaw, auto&& visit) {
 
 /// Whether there is a handpiece is the device's, not the tray's.
 void forEachNumber(auto& tool, auto&& visit) {
-  auto& [head, shaft, handpiece, grips, elevator, hand_instrument] = tool;
+  auto& [head, shaft, handpiece, grips, elevator, hand_instrument, file] = tool;
   auto& [kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("radius_mm", radius_mm), visit("length_mm", length_mm);
   visit("shaft_radius_mm", shaft_radius_mm), visit("shaft_length_mm", shaft_length_mm);
+}
+
+json fileJson(const haptics::CanalFile& file) {
+  const auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
+  return {{"size", size},         {"length_mm", length_mm},
+          {"bent_deg", bent_deg}, {"nickel_titanium", nickel_titanium},
+          {"bent_mm", bent_mm},   {"bent_towards_deg", bent_towards_deg},
+          {"stop_mm", stop_mm}};
+}
+
+haptics::CanalFile fileFrom(const json& object) {
+  haptics::CanalFile file;
+  auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
+  const int hundredths = valueOf(object, "size", 0);
+  if (hundredths < 0) throw damagedSession("it has no valid tray");
+  size = static_cast<std::uint64_t>(hundredths);
+  length_mm = valueOf(object, "length_mm", length_mm);
+  nickel_titanium = valueOf(object, "nickel_titanium", nickel_titanium);
+  bent_deg = valueOf(object, "bent_deg", bent_deg);
+  bent_mm = valueOf(object, "bent_mm", bent_mm);
+  bent_towards_deg = valueOf(object, "bent_towards_deg", bent_towards_deg);
+  stop_mm = valueOf(object, "stop_mm", stop_mm);
+  return file;
 }
 
 json setupJson(const SessionSetup& setup) {
@@ -90,6 +113,7 @@ json setupJson(const SessionSetup& setup) {
                 {"grips", tool.grips},
                 {"elevator", static_cast<int>(tool.elevator)},
                 {"hand_instrument", static_cast<int>(tool.hand_instrument)}};
+    if (tool.isFile()) one["file"] = fileJson(tool.file);
     forEachNumber(tool, [&](const char* key, double value) { one[key] = value; });
     object["tray"].push_back(std::move(one));
   }
@@ -168,6 +192,7 @@ SessionSetup setupFrom(const json& object) {
       tool.hand_instrument = static_cast<haptics::HandInstrument>(by_hand);
       if (kind < 0 || kind > static_cast<int>(haptics::ShapeKind::cone)) throw damagedSession("it has no valid tray");
       tool.head.kind = static_cast<haptics::ShapeKind>(kind);
+      if (const auto file = one.find("file"); file != one.end() && file->is_object()) tool.file = fileFrom(*file);
       forEachNumber(tool, [&](const char* key, double& value) { value = valueOf(one, key, value); });
       setup.tray.push_back(haptics::sanitised(tool));
     }
