@@ -205,6 +205,12 @@ void chooseCoach(RehearseOptions& options) {
 void chooseTools(RehearseOptions& options) {
   static const RehearseOptions kAsked;
   if (options.tools != kAsked.tools) return;
+  if (isRootCanal(options)) {
+    options.tools = {"round:1.2", "fissure:1.0,4.0"};
+    for (const char* const size : {"10", "15", "20", "25", "30", "35", "40"})
+      options.tools.push_back(std::string("k-file:") + size + ",25");
+    return;
+  }
   if (const auto task = practiceOf(options))
     options.tools = *task == assets::PracticeTask::plate ? std::vector<std::string>{"round:3.0", "round:2.0"}
                                                          : std::vector<std::string>{"round:2.0", "round:3.0"};
@@ -212,6 +218,16 @@ void chooseTools(RehearseOptions& options) {
   if (isShown(options))
     options.tools = {
         options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps", "suction", "curette", "bone-file"};
+}
+
+/// A turbine and the forces of machining, where nothing else was asked for by name.
+void chooseHighSpeed(RehearseOptions& options) {
+  static const RehearseOptions kAsked;
+  haptics::Command& command = options.plan.command;
+  if (options.law == kAsked.law) command.law.kind = haptics::LawKind::machining;
+  if (options.erosion == kAsked.erosion) command.erosion.kind = haptics::ErosionKind::machining;
+  // 20 W at 200,000 rpm, stalls at 2 N mm: a high-speed handpiece (data sheets, unverified).
+  command.spindle = {200'000.0, 2.0, 300'000.0, 0.1, 0.02, 0.05};
 }
 
 /// Tools, law and erosion of the first command.
@@ -230,6 +246,7 @@ void chooseCommand(RehearseOptions& options) {
   }
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
+  if (isRootCanal(options)) chooseHighSpeed(options);
   applyTo(plan.command, options.settings);
   refuseBeyondServoLimits(plan.command);
   refuseUnlessAdmitted(plan.command);
@@ -296,6 +313,11 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.jaw.spacing_mm = former->grid.spacing_mm;
       plan.instruction = assets::textOf(*practiceOf(options)).instruction;
     }
+    if (former->setup.canals) {
+      options.task = "root-canal";
+      options.tooth = former->setup.canals->fdi;
+      refuseUnlessForRootCanal(options);
+    }
     plan.drawn = former->drawn;
     if (former->setup.isImported() && options.patient.empty())
       throw UsageError("--continue " + former->path +
@@ -342,6 +364,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   static const RehearseOptions kUntouched;
   const bool are_tools_named = options.tools != kUntouched.tools;
   const std::optional<assets::PracticeTask> block = practiceOf(options);
+  if (isRootCanal(options)) refuseUnlessForRootCanal(options);
   if (block) {
     refuseUnlessForBlock(options);
     plan.instruction = assets::textOf(*block).instruction;
@@ -379,6 +402,9 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   }
   if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
+  if (plan.patient.canals)
+    plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
+                                   plan.patient.canals->frame.axes_P[2]};
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);

@@ -5,6 +5,7 @@
 #include "app/session/session_reader.h"
 #include "app/text/usage_error.h"
 #include "assets/scan/tooth_division.h"
+#include "assets/synthetic/practice_block.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
 
@@ -42,6 +43,23 @@ void refuseUnlessForBlock(const RehearseOptions& options) {
   if (options.flap == "closed") throw UsageError("--flap closed:" + on);
   if (!options.face.empty()) throw UsageError("--face " + options.face + ":" + on);
   if (options.opening_mm) throw UsageError("--opening:" + on);
+}
+
+void refuseUnlessForRootCanal(const RehearseOptions& options) {
+  const std::string with = " is of an extraction, leave it or --task root-canal out";
+  if (!options.tooth)
+    throw UsageError("--task root-canal: which tooth? give its FDI number with --tooth, molar teeth lists them");
+  if (!options.patient.empty())
+    throw UsageError("--task root-canal: canals are known of the built-in patient's teeth alone, leave " +
+                     options.patient + " out");
+  if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + with);
+  if (options.flap == "closed") throw UsageError("--flap closed:" + with);
+  if (!options.drawn.empty()) throw UsageError("--drawn " + options.drawn + ":" + with);
+  if (!options.case_name.empty() && assets::practiceTaskOf(options.case_name))
+    throw UsageError("--case " + options.case_name +
+                     ": a practice block has no tooth, leave it or --task root-canal out");
+  if (options.plan.device == "scripted" && options.access == "closed")
+    throw UsageError("--device scripted: its hand works with files alone, add --access open");
 }
 
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {

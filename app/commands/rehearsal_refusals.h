@@ -15,6 +15,8 @@ void refuseUnlessThirdMolar(const RehearsalPlan& plan, const std::string& proced
 void refuseUnlessSteppable(const RehearseOptions& options);
 /// What a block has none of.
 void refuseUnlessForBlock(const RehearseOptions& options);
+/// Of what an extraction alone has, and without a tooth.
+void refuseUnlessForRootCanal(const RehearseOptions& options);
 /// Lines of another case lie anywhere.
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct);
 /// Whatever would help, or leave something unrecorded.

@@ -43,6 +43,16 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .excludes(named);
   built_in("--voxel", options.jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
   built_in("--seed", options.jaw.seed, "number that varies its shape");
+  Option task = command.option("--task", options.task,
+                               "extraction; or root-canal: one tooth, its canals, burs for the access and K-files");
+  task.oneOf({"extraction", "root-canal"}).showsDefault();
+  command.option("--tooth", options.tooth, "The tooth of a root-canal treatment, FDI number, see molar teeth")
+      .wholeFrom(11, 48)
+      .needs(task);
+  command.option("--access", options.access, "closed: the crown is whole; open: the access cavity is cut, files go in")
+      .oneOf({"closed", "open"})
+      .showsDefault()
+      .needs(task);
   Option face = command.option("--face", options.face, "Face model, glTF; teeth.json beside it places the jaw")
                     .valueNamed("FILE");
   command.option("--opening", options.opening_mm, kOpeningHelp)
@@ -60,7 +70,7 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .option(
           "--tool", options.tools,
           headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() + "; or " +
-              handInstrumentForms() +
+              handInstrumentForms() + "; or " + fileForm() +
               ". Give several to change between them by key T or pedal; without any, an elevator, forceps, suction, "
               "curette and bone file lie beside the bur where a tooth is to be removed")
       .repeated()

@@ -24,6 +24,8 @@ struct RehearseOptions {
   std::string pace = "real";
   std::string side = "right", second_tool = "mirror", case_name, procedure, guidance, predict, drawn, coach,
               flap = "raised";
+  std::string task = "extraction", access = "closed";
+  std::optional<int> tooth;  ///< of a root-canal treatment
   bool list_cases = false, assess = false;
   PictureOption picture;
   std::vector<std::string> settings;

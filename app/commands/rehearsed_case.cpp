@@ -11,6 +11,7 @@
 #include "app/case/impaction_class.h"
 #include "app/case/patient_source.h"
 #include "app/case/soft_tissue_source.h"
+#include "app/case/treated_tooth.h"
 #include "app/case/trough_plan.h"
 #include "app/controls/prediction_question.h"
 #include "app/device/pose_source_table.h"
@@ -65,6 +66,11 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
   one.X_PF = one.patient.X_PF.value_or(assets::kFaceAxes_PF);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
+  // The dam keeps lip, cheek and tongue away.
+  if (isRootCanal(options)) {
+    one.patient = treatedBuiltInTooth(one.patient, jaw, *options.tooth, options.access == "open", "--tooth");
+    return one;
+  }
   if (options.flap == "closed") {
     auto gum = closedGum(one.patient);
     if (!gum)
@@ -95,9 +101,12 @@ std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options) {
   return assets::practiceTaskOf(options.case_name);
 }
 
+bool isRootCanal(const RehearseOptions& options) { return options.task == "root-canal"; }
+
 assets::JawParameters jawOf(const RehearseOptions& options) {
   assets::JawParameters jaw = options.jaw;
-  jaw.right_side = options.side == "right";
+  // The jaw has the teeth of one side: that of the tooth that is asked for.
+  jaw.right_side = isRootCanal(options) && options.tooth ? assets::isRight(*options.tooth) : options.side == "right";
   if (options.case_name.empty() || practiceOf(options)) return jaw;
   jaw = caseNamed(options.case_name)->jaw;
   jaw.spacing_mm = options.jaw.spacing_mm;

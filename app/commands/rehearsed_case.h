@@ -14,6 +14,8 @@ namespace app {
 
 /// The block to practise on; none: a patient.
 std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options);
+/// Of one tooth; else of the third molar's extraction.
+bool isRootCanal(const RehearseOptions& options);
 /// A named case, or the built-in patient's single options; the voxels and the seed are asked for by themselves.
 assets::JawParameters jawOf(const RehearseOptions& options);
 /// Prepared while the surgeon's windows show the progress. False: cancelled.

@@ -47,6 +47,7 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
     showInstrument(*renderer_, command.tool);
   }
   frame_ = nextFrame(frame_, tick, command);
+  if (command.tool.isFile()) showFile(*renderer_, command.tool.file, tick.file, frame_.X_PT);
   frame_.rig = rig;
   frame_.display = choice.display;
   frame_.face_window_mm = face_window_mm;

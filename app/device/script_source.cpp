@@ -1,3 +1,4 @@
+#include "app/device/file_script.h"
 #include "app/device/phantom_work_cycle.h"
 #include "app/device/pose_sources.h"
 #include "app/device/practice_device.h"
@@ -31,6 +32,15 @@ PoseSource openScript(const std::string& rest, const PoseSourceContext& at) {
     hand.led = led.get();
     hand.device = std::move(led);
     hand.name = rest == kFlapScript ? "scripted hand, flap" : "scripted hand, third molar";
+    return hand;
+  }
+  if (at.patient.canals) {
+    FileScript script = fileScript(*at.patient.canals);
+    auto posed = std::make_unique<haptics::PoseListDevice>(std::move(script.poses));
+    hand.duration_s = posed->duration_s() + 1e-6;
+    hand.device = std::move(posed);
+    hand.requests = std::move(script.requests);
+    hand.name = "scripted hand, root canals";
     return hand;
   }
   auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), cuttingMotion(cutFor(at), at.rig));

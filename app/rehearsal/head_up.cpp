@@ -52,6 +52,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
   content.drive = command.tool.luxates()            ? luxationText(tick, command.tool, values.pieces_ready)
                   : command.tool.isHandInstrument() ? meetsText(tick)
+                  : command.tool.isFile()           ? values.file
                                                     : driveText(rpm, command.drill_enabled && !command.hands_off);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
@@ -63,6 +64,12 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   }
   content.gap_mm = values.gap_mm;
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;
+  // Of a file what counts is in the canal.
+  if (command.tool.isFile()) {
+    content.gap_mm.reset();
+    content.torque_Nmm = std::abs(tick.file.torque_Nmm);
+    content.torque_share = tick.file.torque_share;
+  }
   content.time_s = tick.t_s + tick.dt_s;
   content.task = values.task;
   content.ruler = values.ruler;
@@ -80,7 +87,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.said = said_.line;
   // Until it has turned once: who works with a mouse looks for the drill when the bur lies on the bone.
   has_drilled_ = has_drilled_ || content.turning;
-  const bool is_bur = !command.tool.isHandInstrument() && !command.tool.luxates();
+  const bool is_bur = command.tool.turns();
   if (values.hints && content.said.empty() && !has_drilled_ && is_bur && tick.depth_mm > 0.0 && command.drill_enabled &&
       !values.situation.has_motors)
     content.said = "hold Space to drill";

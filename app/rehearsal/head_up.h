@@ -43,7 +43,8 @@ class HeadUp {
     std::string way = {};       ///< WayFollower::line()
     HeadUpRing ring = {};
     std::vector<HeadUpClearance> clearances = {};
-    bool hints = false;  ///< says how to begin: to who works, not to who looks at it later
+    bool hints = false;     ///< says how to begin: to who works, not to who looks at it later
+    std::string file = {};  ///< CanalLog::line()
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -59,6 +59,7 @@ SurgeonDisplay& LiveView::display() {
 std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(const render::RenderOptions& options,
                                                              std::span<const std::uint8_t> solid) const {
   auto renderer = patientRenderer(plan_.patient, in_force_.tool, plan_.cut, solid, options);
+  if (in_force_.tool.isFile()) app::showFile(*renderer, in_force_.tool.file, file_, file_X_PT_);
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
   return renderer;
 }
@@ -135,6 +136,13 @@ std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {
 void LiveView::showInstrument() {
   if (display_) app::showInstrument(display_->renderer(), in_force_.tool);
   still_.forget();
+}
+
+void LiveView::showFile(const haptics::Tick& tick, const render::Frame& frame) {
+  if (!in_force_.tool.isFile()) return;
+  file_ = tick.file;
+  file_X_PT_ = frame.X_PT;
+  if (display_) app::showFile(display_->renderer(), in_force_.tool.file, file_, file_X_PT_);
 }
 
 void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {

@@ -56,6 +56,8 @@ class LiveView {
   std::optional<render::BoneGap> gapOf(const render::Frame& frame);
   /// After a change of tool.
   void showInstrument();
+  /// A root-canal file as it lies in a tick, for the frame to show next; nothing for another tool.
+  void showFile(const haptics::Tick& tick, const render::Frame& frame);
   /// True if the quality changed. Never during a stroke.
   bool adaptQuality(bool in_stroke) {
     return quality_ && still_.newest() == FrameDrawing::live && quality_->update(in_stroke);
@@ -102,6 +104,8 @@ class LiveView {
   std::optional<Clock::time_point> pose_read_;
   std::uint64_t frames_ = 0;
   StillPicture still_;
+  haptics::FileWork file_;  ///< as drawn last
+  calibration::Pose<calibration::Patient, calibration::Tool> file_X_PT_;
   bool bone_changed_ = false;                    ///< since the newest frame
   std::vector<HeadUpWarning> shown_warnings_;    ///< in the newest frame
   std::optional<Clock::time_point> still_seen_;  ///< the newest frame in which nothing moved

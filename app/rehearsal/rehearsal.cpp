@@ -12,6 +12,7 @@
 #include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
 #include "app/procedure/third_molar/demonstration.h"
+#include "app/rehearsal/canal_log.h"
 #include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
@@ -72,6 +73,7 @@ class Rehearsal {
     site_.emplace(OperatedSite::Links{plan_, station(), active_command_, head_up_, event_log_, !pace_.isRealTime()});
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
+    if (plan_.patient.canals) canal_log_.emplace(*plan_.patient.canals);
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
     if (plan_.evaluation) plan_.evaluation->open(plan_.risks, station().recordingFile().value_or(""));
     if (equipment_.led() != nullptr) beginOperation();
@@ -234,6 +236,8 @@ class Rehearsal {
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
+    if (canal_log_)
+      for (const std::string& told : canal_log_->follow(ticks, command.tool)) tellCanal(told);
     clearance_.follow(ticks, command, station().commandSerial());
     if (steps_) steps_->follow(ticks, command, site_->bridge_mm(), site_->socket(), site_->flapFacts());
     if (coach_)
@@ -296,6 +300,7 @@ class Rehearsal {
     frame_.marks = soft_marks_.marks();
     sight_.followHand(equipment_.secondHand(), frame_);
     frame_.pieces = movedPieces(newest_);
+    view_.showFile(newest_, frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
     frame_.gap = view_.gapOf(frame_);
@@ -309,6 +314,12 @@ class Rehearsal {
     const bool may_loosen = !demonstration_ || demonstration_->isToothOut();
     site_->follow({changed, newest_, drawn, router_.takeWay(), demonstration_.has_value(), may_loosen}, frame_);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
+  }
+
+  void tellCanal(const std::string& line) {
+    head_up_.say(line);
+    event_log_.note(kFileEvent, line);
+    if (plan_.headless) printMessage(fmt::format("at {:.1f} s {}", newest_.t_s, line));
   }
 
   void tellStep(const std::string& line) {
@@ -359,7 +370,8 @@ class Rehearsal {
             site_->wayLine(),
             ringShown(),
             plan_.shows_clearance ? clearance_.ruler() : std::vector<HeadUpClearance>(),
-            true};
+            true,
+            canal_log_ && newest_.file.stay != haptics::FileStay::none ? canal_log_->line(newest_) : std::string()};
   }
 
   HeadUpRing ringShown() const {
@@ -427,6 +439,7 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     site_->describe(figures);
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
+    if (canal_log_) figures.canals = canal_log_->summary();
     figures.touched = touches_.counts();
     figures.clearance = clearancesInWords(clearance_.measures());
     figures.warnings = head_up_.warnings().counts();
@@ -458,6 +471,7 @@ class Rehearsal {
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;
   std::optional<CoachFollower> coach_;
+  std::optional<CanalLog> canal_log_;  ///< of a root-canal treatment
   std::optional<LiveMeasures> measures_;
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};

@@ -75,6 +75,7 @@ std::string surgeonsText(const RehearsalFigures& f) {
   if (f.exposed_share) line("crown exposed", fmt::format("{:.0f} % of what is planned", 100.0 * *f.exposed_share));
   line("tooth", f.tooth);
   line("luxation", f.luxation);
+  line("root canals", f.canals);
   if (!f.way.empty()) line("way out", f.way);
   if (!f.drawn.empty()) line("own plan", f.drawn);
   if (f.flap) line("flap", flapInWords(*f.flap));

@@ -29,6 +29,7 @@ struct RehearsalFigures {
   WorkTimes times;
   std::string tooth;                      ///< what it has come apart into, tooth_follower.h; empty: whole
   std::string luxation;                   ///< LuxationLog::summary()
+  std::string canals;                     ///< CanalLog::summary()
   std::string way;                        ///< what keeps it in, as looked at last; empty: nobody looked, or it is out
   std::string drawn;                      ///< the cut against the surgeon's own lines; empty: nothing was drawn
   std::optional<FlapRecord> flap;         ///< none: it was raised from the beginning

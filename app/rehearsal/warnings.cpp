@@ -139,6 +139,18 @@ Words neckTouches(const Situation& s) {
   return force_without_head && s.command.tool.turns() && !s.tick.soft.touches() ? "The bur's neck touches" : "";
 }
 
+constexpr double kNearBreaking = 0.7;
+
+Words fileNearBreaking(const Situation& s) {
+  if (s.tick.file.torque_share < kNearBreaking) return {};
+  return fmt::format("The file bears {:.0f} % of what breaks it: turn back", 100.0 * s.tick.file.torque_share);
+}
+
+Words fileThrough(const Situation& s) {
+  return s.tick.file.stay == haptics::FileStay::through ? "Draw the file out: no force until it is out of the tooth"
+                                                        : "";
+}
+
 struct Row {
   const char* name;  ///< in the summary
   bool danger;
@@ -147,7 +159,7 @@ struct Row {
 };
 
 // The most important first.
-constexpr std::array<Row, 17> kTable = {{
+constexpr std::array<Row, 19> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
     {"bur on soft tissue", true, burOnSoftTissue, true},
@@ -155,6 +167,7 @@ constexpr std::array<Row, 17> kTable = {{
     {"jaw at risk", true, jawAtRisk},
     {"root or crown would break", true, rootAtRisk},
     {"elevator on a neighbouring tooth", true, leveredOnTeeth},
+    {"file near breaking", true, fileNearBreaking},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},
@@ -163,6 +176,7 @@ constexpr std::array<Row, 17> kTable = {{
     {"cutting dry", false, dry},
     {"soft tissue touched", false, softTissuePressed, true},
     {"drill held back", false, drillHeldBack},
+    {"file held back", false, fileThrough},
     {"force limited", false, forceLimited},
     {"neck of the bur touched", false, neckTouches},
 }};
@@ -181,7 +195,8 @@ Situation situationOf(const haptics::Tick& tick, const haptics::Command& command
                       bool has_motors, bool recording_ended) {
   const haptics::BurShape& head = command.tool.head;
   // A hand instrument that touches a tooth harms nothing.
-  const auto neighbour = command.tool.isHandInstrument() ? std::nullopt : neighbourAt(tick, head, patient);
+  const auto neighbour =
+      !command.tool.turns() && !command.tool.luxates() ? std::nullopt : neighbourAt(tick, head, patient);
   return {tick, command, has_motors, recording_ended, neighbour};
 }
 

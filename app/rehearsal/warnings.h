@@ -55,7 +55,7 @@ class Warnings {
   std::vector<Count> counts() const;
 
  private:
-  static constexpr std::size_t kRows = 17;
+  static constexpr std::size_t kRows = 19;
   struct State {
     double last_s = -1e9;
     std::string words;

@@ -1,6 +1,7 @@
 #include "app/station/session_patient.h"
 
 #include "app/case/patient_source.h"
+#include "app/case/treated_tooth.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/practice_block.h"
@@ -12,6 +13,12 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
     return assets::practiceBlock(*task, start.grid.spacing_mm);
   if (folder.empty() && !start.setup.built_in) return {};
   assets::Patient patient = folder.empty() ? builtInPatient(*start.setup.built_in) : assets::loadPatient(folder);
+  if (start.setup.canals) {
+    if (!start.setup.built_in) return {};
+    // Labels are the same, whatever was cut of the crown before.
+    patient = treatedBuiltInTooth(patient, *start.setup.built_in, start.setup.canals->fdi, false, "--tooth");
+    patient.ct.solid = start.solid;
+  }
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;
   if (!folder.empty()) throw UsageError(folder + ": is not the patient of this session, name another folder");
   return {};
@@ -25,6 +32,7 @@ assets::Patient patientWithinSession(const StoredStart& start) {
   patient.ct.label = start.label;
   patient.ct.tooth = start.teeth;
   patient.site = start.setup.site;
+  patient.canals = start.setup.canals;
   patient.jaw_P_mm = start.grid.centre_P_mm(start.grid.size / 2);
   patient.mandibular_canal_P_mm = start.setup.canal_P_mm;
   if (!start.setup.canal_P_mm.empty()) patient.mandibular_canal_radius_mm = start.setup.canal_radius_mm;

@@ -1,5 +1,9 @@
 #include "app/view/patient_renderer.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "assets/instrument/canal_file.h"
 #include "assets/instrument/elevator.h"
 #include "assets/instrument/forceps.h"
 #include "assets/instrument/hand_instrument.h"
@@ -56,9 +60,31 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
   if (tool.grips) return showForceps(renderer, kOpenBeaks_mm);
+  if (const auto file = tool.file.made())
+    return renderer.setInstrument(assets::canalFile({.file = *file, .node_T_mm = {}, .stop_mm = tool.file.stop_mm}));
   if (tool.isElevator()) return renderer.setInstrument(assets::elevator(formOf(tool.elevator)));
   if (tool.isHandInstrument()) return renderer.setInstrument(assets::handInstrument(formOf(tool.hand_instrument)));
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
+}
+
+void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, const haptics::FileWork& work,
+              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) {
+  const auto made = file.made();
+  if (!made) return;
+  if (work.stay == haptics::FileStay::none)
+    return renderer.setInstrument(assets::canalFile({.file = *made, .node_T_mm = {}, .stop_mm = file.stop_mm}));
+  const auto X_TP = X_PT.inverse();
+  std::vector<glm::vec3> node_T_mm(work.node_P_mm.size());
+  std::ranges::transform(work.node_P_mm, node_T_mm.begin(), [&](const glm::vec3& node_P) {
+    return glm::vec3((X_TP * calibration::Point<calibration::Patient>{glm::dvec3(node_P)}).mm);
+  });
+  // The handle turns with the hand; what the tip lags behind is seen along the flutes.
+  renderer.setInstrument(assets::canalFile({.file = *made,
+                                            .node_T_mm = node_T_mm,
+                                            .whole_mm = made->length_mm,
+                                            .torque_share = work.torque_share,
+                                            .stop_mm = file.stop_mm,
+                                            .roll_rad = work.windup_rad}));
 }
 
 void showForceps(render::FrameRenderer& renderer, double opening_mm) {

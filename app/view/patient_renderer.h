@@ -9,6 +9,7 @@
 
 #include "assets/patient.h"
 #include "assets/planned_cut.h"
+#include "haptics/servo/file_work.h"
 #include "haptics/tool/tool.h"
 #include "render/frame_renderer.h"
 #include "render/volume/guide_field.h"
@@ -26,6 +27,10 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 
 /// The drawn instrument has the shape of the tool that is felt and cuts.
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool);
+
+/// A root-canal file as it lies bent in a tick, tinted by its torque; for a tool that is a file, drawn at `X_PT`.
+void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, const haptics::FileWork& work,
+              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT);
 
 /// Instead of a bur: forceps, open by `opening_mm` between the tips; for a tool whose beaks grip.
 void showForceps(render::FrameRenderer& renderer, double opening_mm);

@@ -1,0 +1,27 @@
+// The patient of a root-canal treatment: one tooth with its canals and the bone around it on a fine grid, isolated by a
+// rubber dam, in the head it belongs to. Frame P, mm. Start-up only; about a second at 0.05 mm, 5 bytes a voxel.
+#pragma once
+
+#include "assets/patient.h"
+#include "assets/synthetic/jaw.h"
+#include "assets/tooth_sampler.h"
+
+namespace app {
+
+/// Of voxels, for the live tooth: the narrowest built-in canal is three wide.
+inline constexpr double kTreatedVoxel_mm = 0.05;
+
+/// `whole`: head and title. `is_open`: the access cavity is cut, straight over the chamber; else the crown is whole.
+assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCanals& canals,
+                             const assets::ToothSampler& fine, bool is_open);
+
+/// Of the built-in patient, whose jaw this is. Throws UsageError, beginning with `option`, where it has no such tooth
+/// or its canals cannot be treated.
+assets::Patient treatedBuiltInTooth(const assets::Patient& whole, const assets::JawParameters& jaw, int fdi,
+                                    bool is_open, const std::string& option);
+
+/// Signed distance to the access cavity of a tooth, negative inside, in the tooth's frame: the chamber's outline, drawn
+/// out towards the bite and a little wider there.
+double access_mm(const assets::PulpChamber& chamber, const glm::dvec3& p_mm);
+
+}  // namespace app

@@ -1,0 +1,106 @@
+#include "app/device/file_script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/core.h>
+
+namespace app {
+namespace {
+
+constexpr int kSizes[] = {10, 15, 20, 25};
+constexpr double kAbove_mm = 3.0;  ///< the tip over the orifice, between two files
+constexpr double kIn_mm_per_s = 4.0, kOut_mm_per_s = 12.0, kStroke_mm_per_s = 8.0;
+constexpr double kStroke_mm = 1.5, kStrokes = 6;
+constexpr double kLeadsBy_mm = 0.6;  ///< the hand ahead of the file at length: what presses it in
+constexpr double kChange_s = 0.8;    ///< for another file
+constexpr double kTurn_rad = 0.6, kTurns_Hz = 1.5;
+constexpr double kStep_s = 0.02;
+
+/// Along the canal's first millimetres, from its orifice towards the foramen.
+glm::dvec3 wayIn(const assets::ToothCanal& canal) {
+  constexpr double kFirst_mm = 2.0;
+  return glm::normalize(canal.at(std::min(kFirst_mm, canal.length_mm())).p_P_mm - canal.orifice_P_mm());
+}
+
+/// +z of the tool away from the tip.
+glm::dquat heldAlong(const glm::dvec3& in) {
+  const glm::dvec3 z = -in, helper = std::fabs(z.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const glm::dvec3 x = glm::normalize(glm::cross(helper, z));
+  return glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
+}
+
+class Hand {
+ public:
+  explicit Hand(FileScript& script) : script_(script) {}
+
+  void take(const assets::ToothCanal& canal, double length_mm) {
+    in_ = wayIn(canal);
+    rotation_ = heldAlong(in_);
+    orifice_P_mm_ = canal.orifice_P_mm();
+    length_mm_ = length_mm;
+    deep_mm_ = -kAbove_mm;
+    put();
+  }
+  void wait(double s) {
+    t_s_ += s;
+    put();
+  }
+  void ask(int size) {
+    script_.requests.push_back({t_s_, fmt::format("k-file:{},{:g}", size, length_mm_), "", "scripted hand"});
+  }
+  /// The tip's way beyond the orifice, along the file.
+  void move(double to_mm, double mm_per_s, bool turns) {
+    const double from_mm = deep_mm_, began_s = t_s_, s = std::fabs(to_mm - from_mm) / mm_per_s;
+    const int steps = std::max(1, static_cast<int>(std::ceil(s / kStep_s)));
+    for (int n = 1; n <= steps; ++n) {
+      const double share = static_cast<double>(n) / steps;
+      deep_mm_ = glm::mix(from_mm, to_mm, share);
+      t_s_ = began_s + share * s;
+      // Fades out towards the end, so that nothing stays wound up.
+      turned_rad_ = turns ? kTurn_rad * (1.0 - share * share) * std::sin(2.0 * std::numbers::pi * kTurns_Hz * share * s)
+                          : turned_rad_ * (1.0 - share);
+      put();
+    }
+  }
+
+ private:
+  void put() {
+    const glm::dvec3 handle_P = orifice_P_mm_ + (deep_mm_ - length_mm_) * in_;
+    const glm::dquat turned = rotation_ * glm::angleAxis(turned_rad_, glm::dvec3(0.0, 0.0, -1.0));
+    if (!script_.poses.empty() && !(t_s_ > script_.poses.back().t_s)) t_s_ = script_.poses.back().t_s + 1e-3;
+    script_.poses.push_back({t_s_, {glm::normalize(turned), handle_P}, false, 0u});
+  }
+
+  FileScript& script_;
+  glm::dvec3 in_{0.0, 0.0, -1.0}, orifice_P_mm_{0.0};
+  glm::dquat rotation_{1.0, 0.0, 0.0, 0.0};
+  double length_mm_ = 25.0, deep_mm_ = 0.0, turned_rad_ = 0.0, t_s_ = 0.0;
+};
+
+}  // namespace
+
+FileScript fileScript(const assets::ToothCanals& tooth, double length_mm) {
+  constexpr double kShortOfForamen_mm = 0.5;
+  FileScript script;
+  Hand hand(script);
+  for (const assets::ToothCanal& canal : tooth.canals) {
+    if (canal.joins) continue;
+    const double deep_mm = canal.length_mm() - kShortOfForamen_mm;
+    for (const int size : kSizes) {
+      hand.take(canal, length_mm);
+      hand.ask(size);
+      hand.wait(kChange_s);
+      hand.move(deep_mm + kLeadsBy_mm, kIn_mm_per_s, true);
+      for (int stroke = 0; stroke < kStrokes; ++stroke) {
+        hand.move(deep_mm - kStroke_mm, kStroke_mm_per_s, false);
+        hand.move(deep_mm + kLeadsBy_mm, kStroke_mm_per_s, false);
+      }
+      hand.move(-kAbove_mm, kOut_mm_per_s, false);
+    }
+  }
+  return script;
+}
+
+}  // namespace app

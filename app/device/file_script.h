@@ -1,0 +1,22 @@
+// What a scripted hand does with root-canal files: size after size into every canal that has a foramen of its own, to
+// its working length with small turns to and fro, filed there with strokes, and out again. Frame P; mm, s. Start-up
+// only. The hand plans from the canals as they are known, and feels nothing: a demonstration and a test, no master.
+#pragma once
+
+#include <vector>
+
+#include "app/device/pose_source.h"
+#include "assets/tooth_canals.h"
+#include "haptics/device/simulated/pose_list_device.h"
+
+namespace app {
+
+struct FileScript {
+  std::vector<haptics::TimedHandlePose> poses;  ///< frame D is P, the handle is the tool
+  std::vector<TimedRequest> requests;           ///< of the tools
+};
+
+/// `length_mm`: of the files.
+FileScript fileScript(const assets::ToothCanals& tooth, double length_mm = 25.0);
+
+}  // namespace app

@@ -1,0 +1,54 @@
+// What a root-canal file does, from every tick: how deep it is and in which canal, in words for the surgeon's line;
+// what breaks, bends or passes the foramen, told as it happens and recorded; and the summary. Lengths as the rubber
+// stop shows them: from the canal's reference on the crown along the handle. Main thread, once a frame; microseconds a
+// tick.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assets/tooth_canals.h"
+#include "haptics/servo/tick.h"
+#include "haptics/tool/tool.h"
+
+namespace app {
+
+inline constexpr const char* kFileEvent = "canal file";
+
+class CanalLog {
+ public:
+  explicit CanalLog(const assets::ToothCanals& tooth);
+
+  /// What happened, in order.
+  std::vector<std::string> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
+
+  /// "17.2 of 20.4 mm in the distal canal, torque 34 %"; "free" outside.
+  std::string line(const haptics::Tick& tick) const;
+  /// "distal canal: to size 25 at 20.3 of 20.4 mm; 0.42 mm³ filed"; empty: nothing was filed.
+  std::string summary() const;
+
+ private:
+  struct Place {
+    std::size_t canal;
+    double along_mm, aside_mm;
+  };
+  /// Of the tip; none: in no canal.
+  std::optional<Place> placeOf(const glm::dvec3& tip_P_mm) const;
+  double depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const;
+
+  struct Work {
+    double deepest_mm = 0.0;  ///< as the stop shows it, of the last size
+    int size = 0;             ///< the thickest that came within 1 mm of the working length
+    bool is_beyond = false;
+  };
+  const assets::ToothCanals tooth_;
+  std::map<std::size_t, Work> works_;
+  double filed_mm3_ = 0.0, strongest_share_ = 0.0;
+  int broken_ = 0;
+  bool was_bent_ = false;
+};
+
+}  // namespace app

@@ -1,0 +1,25 @@
+// A root-canal file as drawn, bent as it lies, in frame T: origin where it leaves its handle, +z along the handle away
+// from the tip. Parts "Wire" (twisted along its cutting part, tinted where it bears torque), "Handle" in the colour of
+// ISO 3630-1 and "Stop", the rubber ring, where there is one. mm. Any thread; about 0.2 ms, so once a frame. Drawn
+// only.
+#pragma once
+
+#include <span>
+
+#include "assets/instrument/k_file.h"
+#include "assets/mesh.h"
+
+namespace assets {
+
+struct DrawnFile {
+  KFile file;
+  std::span<const glm::vec3> node_T_mm;  ///< from the handle to the tip, evenly spaced; fewer than two: straight
+  double whole_mm = 0.0;                 ///< length before it broke; 0: as made
+  double torque_share = 0.0;             ///< of what breaks it
+  double stop_mm = 0.0;                  ///< of the ring, from the tip; 0: none
+  double roll_rad = 0.0;                 ///< of the flutes
+};
+
+MeshModel canalFile(const DrawnFile& drawn);
+
+}  // namespace assets
