@@ -36,6 +36,7 @@ namespace app {
 namespace {
 
 constexpr double kForeignFaceWindow_mm = 24.0;
+constexpr double kUsualLoupes = 4.0, kMicroscope = 10.0;  ///< magnification on a desk
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
@@ -46,8 +47,9 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
     if (!options.size.empty()) rig.screen.px = imageSize(options.size);
   } else {
     const glm::ivec2 default_px = options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800);
-    rig = calibration::desktopRig(options.size.empty() ? default_px : imageSize(options.size),
-                                  calibration::kDeskMonitorWidth_mm / options.loupes);
+    rig = calibration::desktopRig(
+        options.size.empty() ? default_px : imageSize(options.size),
+        calibration::kDeskMonitorWidth_mm / options.loupes.value_or(isRootCanal(options) ? kMicroscope : kUsualLoupes));
   }
   if (options.position && !hasNoPatientPose(rig))
     throw UsageError("--position " + *options.position + ": the rig states the pose of the head (X_WP), leave it out");
@@ -224,7 +226,11 @@ void chooseTools(RehearseOptions& options) {
 void chooseHighSpeed(RehearseOptions& options) {
   static const RehearseOptions kAsked;
   haptics::Command& command = options.plan.command;
-  if (options.law == kAsked.law) command.law.kind = haptics::LawKind::machining;
+  if (options.law == kAsked.law) {
+    command.law.kind = haptics::LawKind::machining;
+    // As stiff as a small bur may be at 1 kHz.
+    command.law.machining.edge_radial_N_per_mm = 0.3;
+  }
   if (options.erosion == kAsked.erosion) command.erosion.kind = haptics::ErosionKind::machining;
   // 20 W at 200,000 rpm, stalls at 2 N mm: a high-speed handpiece (data sheets, unverified).
   command.spindle = {200'000.0, 2.0, 300'000.0, 0.1, 0.02, 0.05};

@@ -69,7 +69,7 @@ DebriefPlan debriefPlanOf(const RehearseOptions& main, const RehearsalPlan& plan
   debrief.choice.layers = plan.first_frame.layers;
   if (std::ranges::find(kWithinWindow, plan.display) != kWithinWindow.end()) debrief.choice.display = plan.display;
   debrief.choice.has_line = !main.no_line;
-  debrief.loupes = main.loupes;
+  debrief.loupes = main.loupes.value_or(debrief.loupes);
   debrief.full_screen = plan.full_screen;
   debrief.monitor = plan.monitor;
   if (plan.headless) debrief.size_px = kUnseen_px;

@@ -125,9 +125,10 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .showsDefault();
   command.optionGroup("Workplace and picture");
   Option rig = options.rig.addTo(command, true);
-  command.option("--loupes", options.loupes, "Magnification on a desk (without --rig)")
-      .from(1.0, 8.0)
-      .showsDefault()
+  command
+      .option("--loupes", options.loupes,
+              "Magnification on a desk (without --rig) [4; of a root canal's microscope: 10]")
+      .from(1.0, 20.0)
       .excludes(rig);
   options.display.addTo(command);
   command.option("--monitor", options.monitor, "Monitor, from 1; two windows use the next one as well")

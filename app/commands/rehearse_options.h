@@ -34,7 +34,7 @@ struct RehearseOptions {
   std::optional<double> face_window_mm, opening_mm;
   std::optional<std::string> position;
   std::optional<int> monitor;
-  double loupes = 4.0;
+  std::optional<double> loupes;
   bool no_line = false, no_sound = false;
   std::string clearance;
 };

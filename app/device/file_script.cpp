@@ -10,19 +10,14 @@ namespace app {
 namespace {
 
 constexpr int kSizes[] = {10, 15, 20, 25};
-constexpr double kAbove_mm = 3.0;  ///< the tip over the orifice, between two files
+constexpr double kAbove_mm = 9.0;  ///< the tip over the orifice, out of the crown, between two files
 constexpr double kIn_mm_per_s = 4.0, kOut_mm_per_s = 12.0, kStroke_mm_per_s = 8.0;
 constexpr double kStroke_mm = 1.5, kStrokes = 6;
-constexpr double kLeadsBy_mm = 0.6;  ///< the hand ahead of the file at length: what presses it in
+constexpr double kLeadsBy_mm = 0.3;  ///< the hand ahead of the file at length: what presses it in
+constexpr double kOver_s = 1.0;      ///< to the next orifice
 constexpr double kChange_s = 0.8;    ///< for another file
 constexpr double kTurn_rad = 0.6, kTurns_Hz = 1.5;
 constexpr double kStep_s = 0.02;
-
-/// Along the canal's first millimetres, from its orifice towards the foramen.
-glm::dvec3 wayIn(const assets::ToothCanal& canal) {
-  constexpr double kFirst_mm = 2.0;
-  return glm::normalize(canal.at(std::min(kFirst_mm, canal.length_mm())).p_P_mm - canal.orifice_P_mm());
-}
 
 /// +z of the tool away from the tip.
 glm::dquat heldAlong(const glm::dvec3& in) {
@@ -35,8 +30,10 @@ class Hand {
  public:
   explicit Hand(FileScript& script) : script_(script) {}
 
-  void take(const assets::ToothCanal& canal, double length_mm) {
-    in_ = wayIn(canal);
+  /// Along the tooth: so the handle clears the crown, and the file bends into its canal.
+  void take(const assets::ToothCanal& canal, const assets::ToothFrame& tooth, double length_mm) {
+    if (!script_.poses.empty()) t_s_ += kOver_s;
+    in_ = -tooth.axes_P[2];
     rotation_ = heldAlong(in_);
     orifice_P_mm_ = canal.orifice_P_mm();
     length_mm_ = length_mm;
@@ -89,7 +86,7 @@ FileScript fileScript(const assets::ToothCanals& tooth, double length_mm) {
     if (canal.joins) continue;
     const double deep_mm = canal.length_mm() - kShortOfForamen_mm;
     for (const int size : kSizes) {
-      hand.take(canal, length_mm);
+      hand.take(canal, tooth.frame, length_mm);
       hand.ask(size);
       hand.wait(kChange_s);
       hand.move(deep_mm + kLeadsBy_mm, kIn_mm_per_s, true);

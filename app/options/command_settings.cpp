@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "app/options/bur_name.h"
 #include "app/options/law_text.h"
 #include "app/options/tool_text.h"
 #include "app/text/list.h"
@@ -165,6 +166,9 @@ std::vector<std::string> changesBetween(const haptics::Command& before, const ha
     lines.push_back("[tool] head " + textOf(a.tool.head) + " -> " + textOf(b.tool.head) + " mm");
   if (shaftText(a.tool.shaft) != shaftText(b.tool.shaft))
     lines.push_back("[tool] shaft " + shaftText(a.tool.shaft) + " -> " + shaftText(b.tool.shaft) + " mm");
+  // What only differs in kind.
+  a.tool.head = b.tool.head, a.tool.shaft = b.tool.shaft;
+  if (!(a.tool == b.tool)) lines.push_back("[tool] " + toolName(before.tool) + " -> " + toolName(after.tool));
   return lines;
 }
 

@@ -54,7 +54,8 @@ render::MovedPieces movedPieces(const haptics::Tick& tick) {
 
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person) {
   render::Frame frame = last;
-  frame.tool_visible = frame.tool_visible && (is_moved_by_a_person || tick.depth_mm > 0.0);
+  frame.tool_visible =
+      frame.tool_visible && (is_moved_by_a_person || tick.depth_mm > 0.0 || tick.file.stay == haptics::FileStay::wall);
   return frame;
 }
 

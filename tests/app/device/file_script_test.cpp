@@ -1,0 +1,53 @@
+// A scripted hand with root-canal files.
+#include "app/device/file_script.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "assets/synthetic/built_in_teeth.h"
+
+namespace app {
+namespace {
+
+assets::ToothCanals firstMolar() { return assets::canalsOf(assets::builtInTooth({}, 46)); }
+
+TEST(FileScript, TakesEverySizeIntoEveryForamen) {
+  const assets::ToothCanals tooth = firstMolar();
+  const FileScript script = fileScript(tooth);
+  const auto foramina = static_cast<std::size_t>(
+      std::ranges::count_if(tooth.canals, [](const assets::ToothCanal& canal) { return !canal.joins; }));
+  ASSERT_GE(foramina, 2u);
+  ASSERT_EQ(script.requests.size(), 4 * foramina);
+  EXPECT_EQ(script.requests[0].tool, "k-file:10,25");
+  EXPECT_EQ(script.requests[3].tool, "k-file:25,25");
+  for (std::size_t n = 1; n < script.requests.size(); ++n)
+    EXPECT_GT(script.requests[n].t_s, script.requests[n - 1].t_s) << n;
+}
+
+TEST(FileScript, MovesNoFasterThanAHandAndToTheWorkingLength) {
+  const assets::ToothCanals tooth = firstMolar();
+  const FileScript script = fileScript(tooth);
+  for (std::size_t n = 1; n < script.poses.size(); ++n) {
+    const double s = script.poses[n].t_s - script.poses[n - 1].t_s;
+    ASSERT_GT(s, 0.0) << n;
+    const double way_mm =
+        glm::distance(script.poses[n].X_DH.translation_mm, script.poses[n - 1].X_DH.translation_mm);
+    ASSERT_LT(way_mm / s, 30.0) << n;
+  }
+  // The straight file's tip comes as far from each orifice as its canal is long, less 0.5 mm, and a little more.
+  for (const assets::ToothCanal& canal : tooth.canals) {
+    if (canal.joins) continue;
+    double deepest_mm = 0.0;
+    for (const haptics::TimedHandlePose& pose : script.poses) {
+      const glm::dvec3 in = pose.X_DH.rotation * glm::dvec3(0.0, 0.0, -1.0);
+      const glm::dvec3 tip_P = pose.X_DH.translation_mm + 25.0 * in, beyond = tip_P - canal.orifice_P_mm();
+      if (glm::length(beyond - glm::dot(beyond, in) * in) < 1e-6)
+        deepest_mm = std::max(deepest_mm, glm::dot(beyond, in));
+    }
+    EXPECT_NEAR(deepest_mm, canal.length_mm() - 0.5, 0.5) << canal.name;
+  }
+}
+
+}  // namespace
+}  // namespace app
