@@ -41,9 +41,9 @@ std::vector<CanalTooth> canalTeeth(const assets::CtVolume& ct) {
 
 std::unique_ptr<assets::ToothSampler> fineTooth(const assets::CtVolume& ct,
                                                 const std::optional<assets::JawParameters>& jaw,
-                                                const assets::ToothCanals& canals) {
-  if (jaw) return assets::fineBuiltInTooth(assets::builtInTooth(*jaw, canals.fdi), ct);
-  return assets::fineScannedTooth(ct, canals);
+                                                const assets::ToothCanals& canals, double spacing_mm) {
+  if (jaw) return assets::fineBuiltInTooth(assets::builtInTooth(*jaw, canals.fdi), ct, spacing_mm);
+  return assets::fineScannedTooth(ct, canals, spacing_mm);
 }
 
 std::string canalTable(const std::vector<CanalTooth>& teeth) {

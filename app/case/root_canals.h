@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/ct_volume.h"
+#include "assets/scan/fine_tooth.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/tooth_canals.h"
 #include "assets/tooth_sampler.h"
@@ -29,7 +30,8 @@ std::vector<CanalTooth> canalTeeth(const assets::CtVolume& ct);
 /// On a fine grid, in its scan. `jaw`: of a built-in patient.
 std::unique_ptr<assets::ToothSampler> fineTooth(const assets::CtVolume& ct,
                                                 const std::optional<assets::JawParameters>& jaw,
-                                                const assets::ToothCanals& canals);
+                                                const assets::ToothCanals& canals,
+                                                double spacing_mm = assets::kFineSpacing_mm);
 
 /// For people: a line a canal.
 std::string canalTable(const std::vector<CanalTooth>& teeth);

@@ -8,11 +8,11 @@
 
 #include <fmt/core.h>
 
+#include "app/case/root_canals.h"
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
 #include "assets/scenery/rubber_dam.h"
-#include "assets/synthetic/built_in_teeth.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -136,18 +136,19 @@ assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCa
   return patient;
 }
 
-assets::Patient treatedBuiltInTooth(const assets::Patient& whole, const assets::JawParameters& jaw, int fdi,
-                                    bool is_open, const std::string& option) {
-  const std::vector<int> teeth = assets::builtInTeeth(jaw);
-  if (std::ranges::find(teeth, fdi) == teeth.end())
-    throw UsageError(fmt::format("{} {}: this patient's jaw has no such tooth, give {}", option, fdi,
-                                 joined(teeth, [](int n) { return std::to_string(n); })));
-  if (assets::isThirdMolar(fdi) && jaw.depth_mm > 0.0)
-    throw UsageError(fmt::format("{} {}: the tooth is impacted, choose another, see molar teeth", option, fdi));
+assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
+                             bool is_open, const std::string& option) {
+  const std::vector<CanalTooth> teeth = jaw ? canalTeeth(*jaw) : canalTeeth(whole.ct);
+  const auto found = std::ranges::find(teeth, fdi, &CanalTooth::fdi);
+  if (found == teeth.end())
+    throw UsageError(fmt::format("{} {}: this patient has no such tooth, give {}", option, fdi,
+                                 joined(teeth, [](const CanalTooth& tooth) { return std::to_string(tooth.fdi); })));
+  // What a scan's tooth lacks is said by its remark, an impacted one of the built-in jaw has canals and lies too deep.
+  if (!found->canals || (jaw && !found->remark.empty()))
+    throw UsageError(fmt::format("{} {}: {}, choose another, see molar teeth", option, fdi, found->remark));
   try {
-    const assets::BuiltInTooth tooth = assets::builtInTooth(jaw, fdi);
-    const auto fine = assets::fineBuiltInTooth(tooth, withoutNeighbours(whole.ct, fdi), kTreatedVoxel_mm);
-    return treatedTooth(whole, assets::canalsOf(tooth), *fine, is_open);
+    const auto fine = fineTooth(withoutNeighbours(whole.ct, fdi), jaw, *found->canals, kTreatedVoxel_mm);
+    return treatedTooth(whole, *found->canals, *fine, is_open);
   } catch (const assets::LoadError& error) {
     throw UsageError(fmt::format("{} {}: {}", option, fdi, error.what()));
   }

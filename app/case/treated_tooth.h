@@ -2,6 +2,9 @@
 // rubber dam, in the head it belongs to. Frame P, mm. Start-up only; about a second at 0.05 mm, 5 bytes a voxel.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "assets/patient.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/tooth_sampler.h"
@@ -15,10 +18,10 @@ inline constexpr double kTreatedVoxel_mm = 0.05;
 assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCanals& canals,
                              const assets::ToothSampler& fine, bool is_open);
 
-/// Of the built-in patient, whose jaw this is. Throws UsageError, beginning with `option`, where it has no such tooth
-/// or its canals cannot be treated.
-assets::Patient treatedBuiltInTooth(const assets::Patient& whole, const assets::JawParameters& jaw, int fdi,
-                                    bool is_open, const std::string& option);
+/// `jaw`: of the built-in patient; none: a scan, whose canals are modelled. Throws UsageError, beginning with `option`,
+/// where it has no such tooth or its canals cannot be treated.
+assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
+                             bool is_open, const std::string& option);
 
 /// Signed distance to the access cavity of a tooth, negative inside, in the tooth's frame: the chamber's outline, drawn
 /// out towards the bite and a little wider there.

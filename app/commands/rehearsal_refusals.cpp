@@ -49,9 +49,6 @@ void refuseUnlessForRootCanal(const RehearseOptions& options) {
   const std::string with = " is of an extraction, leave it or --task root-canal out";
   if (!options.tooth)
     throw UsageError("--task root-canal: which tooth? give its FDI number with --tooth, molar teeth lists them");
-  if (!options.patient.empty())
-    throw UsageError("--task root-canal: canals are known of the built-in patient's teeth alone, leave " +
-                     options.patient + " out");
   if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + with);
   if (options.flap == "closed") throw UsageError("--flap closed:" + with);
   if (!options.drawn.empty()) throw UsageError("--drawn " + options.drawn + ":" + with);

@@ -68,7 +68,8 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
   // The dam keeps lip, cheek and tongue away.
   if (isRootCanal(options)) {
-    one.patient = treatedBuiltInTooth(one.patient, jaw, *options.tooth, options.access == "open", "--tooth");
+    const auto built_in = options.patient.empty() ? std::optional(jaw) : std::nullopt;
+    one.patient = treatedTooth(one.patient, built_in, *options.tooth, options.access == "open", "--tooth");
     return one;
   }
   if (options.flap == "closed") {

@@ -6,8 +6,10 @@
 #include <optional>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/treatment_metrics.h"
 #include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
 #include "app/session/metrics.h"
@@ -20,6 +22,7 @@
 #include "app/text/usage_error.h"
 #include "assets/scan/image_file.h"
 #include "calibration/output_file.h"
+#include "calibration/png_file.h"
 
 namespace app {
 namespace {
@@ -113,6 +116,15 @@ void addReplay(CommandLine& molar) {
   });
 }
 
+/// Throws UsageError: no canals in it.
+static void drawTreated(const std::string& session, const std::optional<TreatmentOfSession>& treated,
+                        calibration::OutputFile& out) {
+  if (!treated) throw UsageError("--sections: " + session + " is no finished root-canal treatment, leave it out");
+  const render::Image picture = treatmentSections(*treated);
+  calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  out.commit();
+}
+
 void addMetrics(CommandLine& molar) {
   auto session = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
@@ -121,17 +133,36 @@ void addMetrics(CommandLine& molar) {
   auto reference = std::make_shared<std::string>();
   command.flag("--json", *as_json, "All measures as JSON");
   command.option("--reference", *reference, kReferenceHelp).valueNamed("SET");
+  auto sections = std::make_shared<std::string>();
+  auto force = std::make_shared<bool>(false);
+  command
+      .option("--sections", *sections,
+              "Of root canals: a picture of their sections at 1, 3, 5 and 7 mm, before and after")
+      .valueNamed("FILE.png");
+  command.flag("--force", *force, "Replace the picture if it exists");
   command.footer(measuresHelp());
-  command.does([session, as_json, reference] {
+  command.does([session, as_json, reference, sections, force] {
     std::optional<ReferenceSet> set;
     if (!reference->empty()) set = loadReference(*reference);
+    std::optional<calibration::OutputFile> picture;
+    if (!sections->empty()) picture.emplace(*sections, *force);
+    const std::optional<TreatmentOfSession> treated = treatmentOfSession(sessionNamed(*session));
+    if (picture) drawTreated(*session, treated, *picture);
     SessionMetrics metrics = metricsOf(sessionNamed(*session), caseOfSession);
     if (set) {
       tellAgainst(metrics, *set);
       std::fputs((*as_json ? scoresJson(metrics, *set) : scoresText(metrics, *set)).c_str(), stdout);
       return 0;
     }
-    std::fputs((*as_json ? metricsJson(metrics) + "\n" : metricsText(metrics)).c_str(), stdout);
+    std::string text = *as_json ? metricsJson(metrics) + "\n" : metricsText(metrics);
+    if (treated && *as_json) {
+      nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+      json["root_canals"] = treatmentJson(*treated);
+      text = json.dump(2) + "\n";
+    } else if (treated) {
+      text += treatmentTable(*treated);
+    }
+    std::fputs(text.c_str(), stdout);
     return 0;
   });
 }

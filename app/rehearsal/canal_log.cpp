@@ -5,36 +5,16 @@
 
 #include <fmt/core.h>
 
+#include "app/procedure/root_canal/canal_tip.h"
+
 namespace app {
 namespace {
 
-constexpr double kInCanal_mm = 0.5;  ///< of its centre line, beyond its own radius
 constexpr double kAtLength_mm = 1.0;
 
 }  // namespace
 
 CanalLog::CanalLog(const assets::ToothCanals& tooth) : tooth_(tooth) {}
-
-std::optional<CanalLog::Place> CanalLog::placeOf(const glm::dvec3& tip_P_mm) const {
-  std::optional<Place> nearest;
-  for (std::size_t n = 0; n < tooth_.canals.size(); ++n) {
-    const std::vector<assets::CanalPlace>& places = tooth_.canals[n].places;
-    for (std::size_t k = 1; k < places.size(); ++k) {
-      const glm::dvec3 &a = places[k - 1].p_P_mm, &b = places[k].p_P_mm, way = b - a;
-      const double length2 = std::max(glm::dot(way, way), 1e-12);
-      const double raw = glm::dot(tip_P_mm - a, way) / length2, t = std::clamp(raw, 0.0, 1.0);
-      const double aside = glm::distance(tip_P_mm, a + t * way);
-      if (nearest && aside >= nearest->aside_mm) continue;
-      // Beyond the foramen it goes on as it came out.
-      const double beyond = k + 1 == places.size() ? std::max(0.0, raw - 1.0) * std::sqrt(length2) : 0.0;
-      nearest = Place{n, glm::mix(places[k - 1].along_mm, places[k].along_mm, t) + beyond, aside};
-      if (beyond > 0.0) nearest->aside_mm = std::max(0.0, aside - beyond);
-    }
-  }
-  if (!nearest || nearest->along_mm <= 0.0) return {};
-  const double wide_mm = tooth_.canals[nearest->canal].at(nearest->along_mm).wide_mm;
-  return nearest->aside_mm <= wide_mm + kInCanal_mm ? nearest : std::nullopt;
-}
 
 double CanalLog::depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const {
   const glm::dvec3& up = tooth_.frame.axes_P[2];
@@ -58,7 +38,7 @@ std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, 
       told.push_back(
           fmt::format("the file keeps a bend {:.0f} mm from its tip: take a new one", file.strain_from_tip_mm));
     was_bent_ = was_bent_ || file.keeps_bend;
-    const auto place = placeOf(file.tip_P_mm);
+    const auto place = canalTip(tooth_, file.tip_P_mm);
     if (!place || file.stay == haptics::FileStay::through) continue;
     const assets::ToothCanal& canal = tooth_.canals[place->canal];
     Work& work = works_[place->canal];
@@ -76,7 +56,7 @@ std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, 
 std::string CanalLog::line(const haptics::Tick& tick) const {
   using haptics::FileStay;
   if (tick.file.stay == FileStay::through) return "in the tooth without force: draw it out";
-  const auto place = placeOf(tick.file.tip_P_mm);
+  const auto place = canalTip(tooth_, tick.file.tip_P_mm);
   if (!place) return tick.file.stay == FileStay::wall ? "on the tooth" : "free";
   const assets::ToothCanal& canal = tooth_.canals[place->canal];
   std::string text =

@@ -31,12 +31,6 @@ class CanalLog {
   std::string summary() const;
 
  private:
-  struct Place {
-    std::size_t canal;
-    double along_mm, aside_mm;
-  };
-  /// Of the tip; none: in no canal.
-  std::optional<Place> placeOf(const glm::dvec3& tip_P_mm) const;
   double depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const;
 
   struct Work {

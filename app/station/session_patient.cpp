@@ -14,9 +14,9 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
   if (folder.empty() && !start.setup.built_in) return {};
   assets::Patient patient = folder.empty() ? builtInPatient(*start.setup.built_in) : assets::loadPatient(folder);
   if (start.setup.canals) {
-    if (!start.setup.built_in) return {};
     // Labels are the same, whatever was cut of the crown before.
-    patient = treatedBuiltInTooth(patient, *start.setup.built_in, start.setup.canals->fdi, false, "--tooth");
+    const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
+    patient = treatedTooth(patient, built_in, start.setup.canals->fdi, false, "--tooth");
     patient.ct.solid = start.solid;
   }
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;

@@ -27,5 +27,10 @@ TEST(BurName, NamesInstrumentsThatAreNoBurs) {
 
 TEST(BurName, HasNoIsoSizeBetweenTenths) { EXPECT_EQ(burName({ShapeKind::sphere, 0.925, 0.0}), "round 1.85 mm"); }
 
+TEST(BurName, NamesAFileBySizeColourAndLength) {
+  EXPECT_EQ(toolName(haptics::fileTool({25, 25.0})), "K-file 25 red, 25 mm");
+  EXPECT_EQ(toolName(haptics::fileTool({10, 21.0, true, 30.0})), "K-file 10 purple, 21 mm, NiTi, bent 30°");
+}
+
 }  // namespace
 }  // namespace app

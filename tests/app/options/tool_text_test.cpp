@@ -101,5 +101,22 @@ TEST(ToolText, ReadsAShaft) {
     EXPECT_THROW(shaftFrom(bad), UsageError) << bad;
 }
 
+TEST(ToolText, ReadsRootCanalFiles) {
+  const haptics::Tool plain = toolFrom("k-file:25,25", "");
+  ASSERT_TRUE(plain.isFile());
+  EXPECT_FALSE(plain.turns());
+  EXPECT_EQ(plain.file.size, 25u);
+  EXPECT_EQ(plain.file.length_mm, 25.0);
+  EXPECT_FALSE(plain.file.nickel_titanium);
+  const haptics::Tool bent = toolFrom("k-file:15,31,niti,bent:30", "");
+  EXPECT_TRUE(bent.file.nickel_titanium);
+  EXPECT_EQ(bent.file.bent_deg, 30.0);
+  EXPECT_EQ(haptics::sanitised(bent), bent);
+  EXPECT_FALSE(plain == bent);
+  for (const char* const wrong : {"k-file", "k-file:", "k-file:7,25", "k-file:25,24", "k-file:25,25,gold",
+                                  "k-file:25,25,bent:91", "k-file:-25,25", "k-file:25,25,bent:x"})
+    EXPECT_THROW(toolFrom(wrong, ""), UsageError) << wrong;
+}
+
 }  // namespace
 }  // namespace app

@@ -1,0 +1,154 @@
+#include "app/commands/treatment_metrics.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "app/procedure/root_canal/dense_tooth.h"
+#include "app/procedure/root_canal/section_picture.h"
+#include "app/session/session_reader.h"
+
+namespace app {
+namespace {
+
+double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+
+nlohmann::ordered_json numberOrNull(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
+  FileUse files(tooth);
+  const std::vector<SessionCommand> commands = session.commands();
+  std::size_t next = 0;
+  int size = 0;
+  for (;;) {
+    const TickBlock block = session.nextBlock();
+    if (block.ticks.empty()) break;
+    for (const haptics::Tick& tick : block.ticks) {
+      for (; next < commands.size() && commands[next].first_tick <= tick.index; ++next)
+        size = static_cast<int>(commands[next].command.tool.file.size);
+      files.add(tick, size);
+    }
+  }
+  return files;
+}
+
+nlohmann::ordered_json sectionJson(const CanalSection& section) {
+  return {{"from_foramen_mm", section.from_foramen_mm},
+          {"transportation_mm", numberOrNull(transportation_mm(section))},
+          {"centring", numberOrNull(centring(section))}};
+}
+
+nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
+  const CanalOutcomes& of = canal.outcomes;
+  nlohmann::ordered_json sections = nlohmann::ordered_json::array();
+  for (const CanalSection& section : of.sections) sections.push_back(sectionJson(section));
+  return {{"name", canal.name},
+          {"size", canal.size},
+          {"E1_removed_mm3", of.removed_mm3},
+          {"E2_E3_sections", sections},
+          {"E4_untouched_share", of.untouched},
+          {"E5_schneider_before_deg", degrees(of.schneider_before_rad)},
+          {"E5_schneider_after_deg", degrees(of.schneider_after_rad)},
+          {"E6_least_wall_mm", numberOrNull(of.least_wall_mm)},
+          {"E6_thin_share", of.thin_share},
+          {"E7_at_rest_mm", canal.length.at_rest_mm},
+          {"E7_most_over_mm", canal.length.most_over_mm},
+          {"E7_over_s", canal.length.over_s},
+          {"E9_apical_long_mm", numberOrNull(of.apical_long_mm)},
+          {"E9_apical_short_mm", numberOrNull(of.apical_short_mm)},
+          {"E9_taper", numberOrNull(of.taper)},
+          {"foramen_moved_mm", of.foramen_moved_mm},
+          {"straight_line_deg", degrees(canal.straight_line.least_angle_rad)},
+          {"straight_line_blocked_mm3", canal.straight_line.blocked_mm3}};
+}
+
+}  // namespace
+
+std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path) {
+  SessionReader session(path);
+  if (!session.about().setup.canals) return {};
+  const StoredStart start = session.start();
+  const auto end = session.finalBone(start);
+  if (!end) return {};
+  TreatmentOfSession of{*start.setup.canals, {}};
+  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
+  const DenseSolid after(start.grid, end->solid);
+  of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth));
+  return of;
+}
+
+nlohmann::ordered_json treatmentJson(const TreatmentOfSession& of) {
+  const Treatment& all = of.treatment;
+  nlohmann::ordered_json canals = nlohmann::ordered_json::array(), holes = nlohmann::ordered_json::array();
+  for (const TreatedCanal& canal : all.canals) canals.push_back(canalJson(canal));
+  for (const Perforation& hole : all.perforations)
+    holes.push_back({{"kind", nameOf(hole.kind)}, {"area_mm2", hole.area_mm2}});
+  return {{"fdi", of.tooth.fdi},
+          {"canals_are", of.tooth.is_modelled ? "modelled" : "built-in"},
+          {"gates",
+           {{"perforation", !all.perforations.empty()},
+            {"separated_file", all.broken_files > 0},
+            {"foramen_moved", all.isForamenMoved()}}},
+          {"access",
+           {{"roof_removed_share", all.roof.removed},
+            {"overhang_mm2", all.roof.overhang_mm2},
+            {"ideal_mm2", all.outline.ideal_mm2},
+            {"opened_mm2", all.outline.opened_mm2},
+            {"too_wide_mm2", all.outline.too_wide_mm2},
+            {"missing_mm2", all.outline.missing_mm2},
+            {"enamel_lost_mm3", all.lost.enamel_mm3},
+            {"dentine_lost_mm3", all.lost.dentine_mm3},
+            {"floor_gouged_mm3", all.lost.floor_mm3},
+            {"deepest_below_cusp_mm", all.lost.deepest_mm}}},
+          {"files",
+           {{"filed_mm3", all.filed_mm3},
+            {"filing_s", all.filing_s},
+            {"largest_torque_share", all.torque_share},
+            {"broken", all.broken_files},
+            {"bent", all.bent_files}}},
+          {"perforations", holes},
+          {"canals", canals}};
+}
+
+std::string treatmentTable(const TreatmentOfSession& of) {
+  const Treatment& all = of.treatment;
+  std::string text = fmt::format("\nRoot canals of tooth {}{}\n", of.tooth.fdi,
+                                 of.tooth.is_modelled ? ", modelled into the scan" : "");
+  text += fmt::format("{:<16} {:>5} {:>9} {:>10} {:>11} {:>11} {:>10} {:>9} {:>10}\n", "canal", "size", "filed mm3",
+                      "untouched", "Schneider °", "wall mm", "length mm", "moved mm", "straight °");
+  for (const TreatedCanal& canal : all.canals) {
+    const CanalOutcomes& one = canal.outcomes;
+    text += fmt::format(
+        "{:<16} {:>5} {:>9.3f} {:>8.0f} % {:>5.0f} > {:>3.0f} {:>11.2f} {:>+10.1f} {:>+9.2f} {:>10.0f}\n", canal.name,
+        canal.size == 0 ? "-" : std::to_string(canal.size), one.removed_mm3, 100.0 * one.untouched,
+        degrees(one.schneider_before_rad), degrees(one.schneider_after_rad), one.least_wall_mm, canal.length.at_rest_mm,
+        transportation_mm(one.sections.front()), degrees(canal.straight_line.least_angle_rad));
+  }
+  text +=
+      "length: of the file's last rest, from the working length; moved: at 1 mm from the foramen, towards the "
+      "furcation\n";
+  text += fmt::format(
+      "access: {:.0f} % of the roof removed, {:.1f} mm3 of enamel and {:.1f} mm3 of dentine cut, {:.2f} "
+      "mm3 of the floor\n",
+      100.0 * all.roof.removed, all.lost.enamel_mm3, all.lost.dentine_mm3, all.lost.floor_mm3);
+  text += fmt::format("files: {:.3f} mm3 in {:.0f} s, at most {:.0f} % of the torque that breaks one, {} broken\n",
+                      all.filed_mm3, all.filing_s, 100.0 * all.torque_share, all.broken_files);
+  for (const Perforation& hole : all.perforations)
+    text += fmt::format("perforation: {}, {:.2f} mm2\n", nameOf(hole.kind), hole.area_mm2);
+  if (all.isForamenMoved()) text += "a foramen was moved by more than 0.1 mm\n";
+  return text;
+}
+
+render::Image treatmentSections(const TreatmentOfSession& of) {
+  std::vector<CanalRow> rows;
+  for (const TreatedCanal& canal : of.treatment.canals)
+    rows.push_back({fmt::format("{} {}, from the foramen", of.tooth.fdi, canal.name), canal.outcomes.sections});
+  return sectionPicture(rows);
+}
+
+}  // namespace app

@@ -1,0 +1,73 @@
+// What a whole root-canal treatment has come to: access, every canal, what broke and where the files went; with its
+// gates: perforation, a separated file, a foramen that was moved. From the tooth before and after and the files' ticks.
+// Frame P, mm. Pure; any thread; some 0.5 s a molar.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/procedure/root_canal/access_outcomes.h"
+#include "app/procedure/root_canal/canal_outcomes.h"
+#include "app/procedure/root_canal/perforation.h"
+#include "haptics/servo/tick.h"
+
+namespace app {
+
+/// A foramen whose wall moved farther was transported (reference/sisters 2.3, our default).
+inline constexpr double kForamenMoved_mm = 0.1;
+
+/// What files did, from every tick in order.
+class FileUse {
+ public:
+  explicit FileUse(const assets::ToothCanals& tooth) : tooth_(&tooth), tips_(tooth.canals.size()) {}
+  /// `size`: of the file in the hand; 0: none.
+  void add(const haptics::Tick& tick, int size);
+
+  const std::vector<TipSample>& tips(std::size_t canal) const { return tips_[canal].samples; }
+  /// The thickest that came within a millimetre of the working length.
+  int size(std::size_t canal) const { return tips_[canal].size; }
+  double torque_share() const { return torque_share_; }
+  double filed_mm3() const { return filed_mm3_; }
+  int broken() const { return broken_; }
+  int bent() const { return bent_; }
+  double filing_s() const { return filing_s_; }
+
+ private:
+  struct Tips {
+    std::vector<TipSample> samples;
+    int size = 0;
+  };
+  const assets::ToothCanals* tooth_;
+  std::vector<Tips> tips_;
+  double torque_share_ = 0.0, filed_mm3_ = 0.0, filing_s_ = 0.0;
+  int broken_ = 0, bent_ = 0;
+  bool was_bent_ = false;
+};
+
+struct TreatedCanal {
+  std::string name;
+  CanalOutcomes outcomes;
+  LengthError length;
+  StraightLine straight_line;
+  int size = 0;
+};
+
+struct Treatment {
+  std::vector<TreatedCanal> canals;
+  LostTissue lost;
+  RoofOutcome roof;
+  OutlineOutcome outline;
+  std::vector<Perforation> perforations;
+  int broken_files = 0, bent_files = 0;
+  double torque_share = 0.0, filed_mm3 = 0.0, filing_s = 0.0;
+
+  bool isForamenMoved() const;
+};
+
+Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& before, const FineSolid& after,
+                      const FileUse& files);
+
+}  // namespace app
