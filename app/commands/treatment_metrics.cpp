@@ -56,6 +56,7 @@ nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
           {"E5_schneider_after_deg", degrees(of.schneider_after_rad)},
           {"E6_least_wall_mm", numberOrNull(of.least_wall_mm)},
           {"E6_thin_share", of.thin_share},
+          {"E7_deepest_mm", canal.deepest_mm ? nlohmann::ordered_json(*canal.deepest_mm) : nlohmann::ordered_json()},
           {"E7_at_rest_mm", canal.length.at_rest_mm},
           {"E7_most_over_mm", canal.length.most_over_mm},
           {"E7_over_s", canal.length.over_s},
@@ -123,14 +124,15 @@ std::string treatmentTable(const TreatmentOfSession& of) {
                       "untouched", "Schneider °", "wall mm", "length mm", "moved mm", "straight °");
   for (const TreatedCanal& canal : all.canals) {
     const CanalOutcomes& one = canal.outcomes;
-    text += fmt::format(
-        "{:<16} {:>5} {:>9.3f} {:>8.0f} % {:>5.0f} > {:>3.0f} {:>11.2f} {:>+10.1f} {:>+9.2f} {:>10.0f}\n", canal.name,
-        canal.size == 0 ? "-" : std::to_string(canal.size), one.removed_mm3, 100.0 * one.untouched,
-        degrees(one.schneider_before_rad), degrees(one.schneider_after_rad), one.least_wall_mm, canal.length.at_rest_mm,
-        transportation_mm(one.sections.front()), degrees(canal.straight_line.least_angle_rad));
+    text +=
+        fmt::format("{:<16} {:>5} {:>9.3f} {:>8.0f} % {:>5.0f} > {:>3.0f} {:>11.2f} {:>+10.1f} {:>+9.2f} {:>10.0f}\n",
+                    canal.name, canal.size == 0 ? "-" : std::to_string(canal.size), one.removed_mm3,
+                    100.0 * one.untouched, degrees(one.schneider_before_rad), degrees(one.schneider_after_rad),
+                    one.least_wall_mm, canal.deepest_mm.value_or(0.0), transportation_mm(one.sections.front()),
+                    degrees(canal.straight_line.least_angle_rad));
   }
   text +=
-      "length: of the file's last rest, from the working length; moved: at 1 mm from the foramen, towards the "
+      "length: of the deepest file, from the working length; moved: at 1 mm from the foramen, towards the "
       "furcation\n";
   text += fmt::format(
       "access: {:.0f} % of the roof removed, {:.1f} mm3 of enamel and {:.1f} mm3 of dentine cut, {:.2f} "

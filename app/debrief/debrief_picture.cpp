@@ -67,7 +67,7 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
   if (run_.flap() != nullptr) run_.flap()->show(tick.t_s + tick.dt_s, frame_);
   uploader_.tell(run_.takeChangedBricks());
   uploader_.upload(moments.bodies(), frame_.pieces, *renderer_);
-  frame_.gap = frame_.tool_visible ? renderer_->gap(frame_) : std::nullopt;
+  frame_.gap = frame_.tool_visible && !command.tool.isFile() ? renderer_->gap(frame_) : std::nullopt;
 
   std::vector<render::OverlayPanel> panels;
   if (choice.has_line) {

@@ -129,7 +129,8 @@ void LiveView::uploadBone(const render::Frame& frame) {
 }
 
 std::optional<render::BoneGap> LiveView::gapOf(const render::Frame& frame) {
-  if (!display_ || !frame.tool_visible) return {};
+  // Of a file its canal counts.
+  if (!display_ || !frame.tool_visible || in_force_.tool.isFile()) return {};
   return display_->renderer().gap(frame);
 }
 
@@ -154,7 +155,7 @@ void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::
   if (any_moved) BrickUploader().uploadEverything(*bodies_, frame.pieces, *renderer);
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
-  frame.gap = frame.tool_visible ? renderer->gap(frame) : std::nullopt;
+  frame.gap = frame.tool_visible && !in_force_.tool.isFile() ? renderer->gap(frame) : std::nullopt;
   snapshot.take(*renderer, frame);
 }
 

@@ -25,6 +25,12 @@ void FileUse::add(const haptics::Tick& tick, int size) {
     tips.size = std::max(tips.size, size);
 }
 
+std::optional<double> FileUse::deepest_mm(std::size_t canal) const {
+  const std::vector<TipSample>& samples = tips_[canal].samples;
+  if (samples.empty()) return {};
+  return std::ranges::max(samples, {}, &TipSample::along_mm).along_mm;
+}
+
 bool Treatment::isForamenMoved() const {
   return std::ranges::any_of(canals,
                              [](const TreatedCanal& one) { return one.outcomes.foramen_moved_mm > kForamenMoved_mm; });
@@ -35,8 +41,15 @@ Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& befor
   Treatment all;
   for (std::size_t n = 0; n < tooth.canals.size(); ++n) {
     const assets::ToothCanal& canal = tooth.canals[n];
-    all.canals.push_back({canal.name, canalOutcomes(before, after, tooth.canals, n, furcationSide_P(tooth, n)),
-                          lengthError(files.tips(n), canal.length_mm()), straightLine(after, canal), files.size(n)});
+    all.canals.push_back({canal.name,
+                          canalOutcomes(before, after, tooth.canals, n, furcationSide_P(tooth, n)),
+                          lengthError(files.tips(n), canal.length_mm()),
+                          straightLine(after, canal),
+                          files.size(n),
+                          {}});
+    constexpr double kShort_mm = 0.5;
+    if (const auto deepest_mm = files.deepest_mm(n))
+      all.canals.back().deepest_mm = *deepest_mm - (canal.length_mm() - kShort_mm);
   }
   all.lost = lostTissue(before, after, tooth);
   all.roof = roofOutcome(after, tooth);

@@ -27,6 +27,8 @@ class FileUse {
   void add(const haptics::Tick& tick, int size);
 
   const std::vector<TipSample>& tips(std::size_t canal) const { return tips_[canal].samples; }
+  /// Along the canal; none: no file was in it.
+  std::optional<double> deepest_mm(std::size_t canal) const;
   /// The thickest that came within a millimetre of the working length.
   int size(std::size_t canal) const { return tips_[canal].size; }
   double torque_share() const { return torque_share_; }
@@ -53,6 +55,7 @@ struct TreatedCanal {
   LengthError length;
   StraightLine straight_line;
   int size = 0;
+  std::optional<double> deepest_mm;  ///< of any file, from the working length; positive: too long
 };
 
 struct Treatment {

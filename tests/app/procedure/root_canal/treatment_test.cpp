@@ -58,6 +58,8 @@ TEST(FileUse, CountsWhatFilesDid) {
   EXPECT_NEAR(use.filing_s(), 0.097, 1e-9);
   EXPECT_EQ(use.tips(0).size(), 97u);
   EXPECT_TRUE(use.tips(1).empty());
+  EXPECT_NEAR(use.deepest_mm(0).value(), 9.5, 1e-9);
+  EXPECT_FALSE(use.deepest_mm(1));
   EXPECT_EQ(use.size(0), 30) << "within a millimetre of 9.5 mm";
   EXPECT_EQ(use.size(1), 0);
   EXPECT_EQ(use.torque_share(), 0.6);
