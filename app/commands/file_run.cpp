@@ -182,7 +182,7 @@ FiledAnswer pushedFile(const KFileOptions& options, const assets::KFile& file, c
     for (const double way_mm : {-kStrokeStep_mm, kStrokeStep_mm})
       for (int n = 0; n < kStrokeTicks && run.goesOn(); ++n) run.file(way_mm);
   // What is due waits for its section's turn.
-  for (std::uint64_t n = 0; options.strokes > 0 && n < 2 * haptics::kWearTurns && run.goesOn(); ++n) run.file(0.0);
+  for (int n = 0; options.strokes > 0 && n < 20 && run.goesOn(); ++n) run.file(0.0);
   FiledAnswer answer = run.atRest();
   const glm::dvec3 tip_mm = answer.rest.state().shape.node_mm[answer.rest.chain().links];
   const double along_mm = canal.nearest_mm(tip_mm);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "haptics/file/material_frame.h"
 
@@ -122,28 +123,52 @@ WearSettings sanitised(const WearSettings& settings) noexcept {
           within(settings.push_share, 1.0, kUsual.push_share), within(settings.counter, 1.0, kUsual.counter)};
 }
 
+SectionPlace CanalWear::placeOf(const FileInCanal& file, std::size_t section) noexcept {
+  const FileChain& chain = file.chain();
+  const ChainShape& shape = file.state().shape;
+  const bool is_tip = section == chain.links;
+  const dvec3& d = shape.direction[section];
+  return {shape.node_mm[section], is_tip ? d : unitOf(d + shape.direction[section + 1]), chain.radius_mm[section],
+          is_tip ? 0.5 * chain.link_mm : chain.link_mm};
+}
+
 CarveResult CanalWear::step(const FileInCanal& file, CarvedBone& wall, StrokeHistory* strokes,
                             std::uint64_t tick) noexcept {
   const FileChain& chain = file.chain();
   const FileState& state = file.state();
-  CarveResult taken;
+  std::array<std::size_t, kWornAtOnce> most{};
   for (std::size_t i = 1; i <= chain.links; ++i) {
     Section& section = of_[i];
-    if (state.normal_N[i] > 0.0) {
-      const double worn_mm3 = wornVolume_mm3(settings_, state.normal_N[i], section.touched_mm2, state.slip_mm[i],
-                                             chain.radius_mm[i], chain.lead_mm);
-      section.due_mm3 += worn_mm3;
-      due_mm3_ += worn_mm3;
+    if (!(state.normal_N[i] > 0.0)) {
+      section.touched_mm2 = 0.0;
+      continue;
     }
-    if ((i + tick) % kWearTurns != 0 || !(state.normal_N[i] > 0.0)) continue;
-    const bool is_tip = i == chain.links;
-    const dvec3& d = state.shape.direction[i];
-    const SectionPlace at{state.shape.node_mm[i], is_tip ? d : unitOf(d + state.shape.direction[i + 1]),
-                          chain.radius_mm[i], is_tip ? 0.5 * chain.link_mm : chain.link_mm};
-    taken += take(file.law(), at, section, wall, strokes, tick);
+    if (section.touched_mm2 == 0.0) lookAt(file.law(), wall.field(), placeOf(file, i), section);
+    const double worn_mm3 = wornVolume_mm3(settings_, state.normal_N[i], section.touched_mm2, state.slip_mm[i],
+                                           chain.radius_mm[i], chain.lead_mm);
+    section.due_mm3 += worn_mm3;
+    due_mm3_ += worn_mm3;
+    // Node 0 is none of them: nothing is due there.
+    std::size_t candidate = i;
+    for (std::size_t& one : most)
+      if (of_[candidate].due_mm3 > of_[one].due_mm3) std::swap(candidate, one);
   }
+  CarveResult taken;
+  for (const std::size_t i : most)
+    if (i != 0) taken += take(file.law(), placeOf(file, i), of_[i], wall, strokes, tick);
   removed_mm3_ += taken.removed_mm3;
   return taken;
+}
+
+bool CanalWear::lookAt(const FileLaw& law, const SolidField& field, const SectionPlace& at, Section& section,
+                       std::array<double, kRays>* depth_mm) noexcept {
+  std::array<double, kRays> own{};
+  std::array<double, kRays>& depths = depth_mm == nullptr ? own : *depth_mm;
+  section.touched_mm2 = 0.0;
+  if (!rayDepths(law, field, at, depths)) return false;
+  const auto touching = std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0.0; });
+  section.touched_mm2 = static_cast<double>(touching) / kRays * 2.0 * std::numbers::pi * at.radius_mm * at.length_mm;
+  return true;
 }
 
 CarveResult CanalWear::take(const FileLaw& law, const SectionPlace& at, Section& section, CarvedBone& wall,
@@ -152,11 +177,7 @@ CarveResult CanalWear::take(const FileLaw& law, const SectionPlace& at, Section&
   const SolidField field = wall.field();
   const std::array<dvec3, kRays> rays = raysAbout(at.axis);
   PressedSection pressed{at, rays[0], rays[kRays / 4], {}, 0.0};
-  section.touched_mm2 = 0.0;
-  if (!rayDepths(law, field, at, pressed.depth_mm)) return taken;
-  const auto touching =
-      std::count_if(pressed.depth_mm.begin(), pressed.depth_mm.end(), [](double depth) { return depth > 0.0; });
-  section.touched_mm2 = static_cast<double>(touching) / kRays * 2.0 * std::numbers::pi * at.radius_mm * at.length_mm;
+  if (!lookAt(law, field, at, section, &pressed.depth_mm)) return taken;
   pressed.deepest_mm = *std::max_element(pressed.depth_mm.begin(), pressed.depth_mm.end());
   if (section.due_mm3 < kLeastDue_mm3 || !(pressed.deepest_mm > 0.0)) return taken;
 

@@ -150,7 +150,7 @@ void strokes() {
       for (int stroke = 0; stroke < 20; ++stroke)
         for (const double way_mm : {-0.03, 0.03})
           for (int n = 0; n < 50; ++n) move(way_mm);
-      for (std::uint64_t n = 0; n < 2 * haptics::kWearTurns; ++n) move(0.0);
+      for (int n = 0; n < 20; ++n) move(0.0);
       std::sort(us.begin(), us.end());
       std::sort(wear_us.begin(), wear_us.end());
       std::printf(

@@ -56,7 +56,7 @@ struct Filed {
       for (const double way_mm : {-0.03, 0.03})
         for (int n = 0; n < 50; ++n) move(way_mm);
     // What is due waits for its section's turn.
-    for (std::uint64_t n = 0; n < 2 * kWearTurns; ++n) move(0.0);
+    for (int n = 0; n < 20; ++n) move(0.0);
   }
   double volume_mm3() const {
     const SolidField now = bone.field();
