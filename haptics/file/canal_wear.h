@@ -4,8 +4,8 @@
 //                      Archard's law at the pressure delta / alpha.   counters_helical: dV = delta A |m|
 // eta 1 drawn out, 0.5 pushed in (unverified); alpha 3e-4 mm3/(N mm) of dentine, a guess until it is fitted to grooves
 // filed at a constant force; other tissues by their removal factor. Taken where the section presses deepest, never more
-// than the file has swept; what cannot be taken now is carried on, so the books close. In a tick the two sections with
-// the most due take it. Frame P; mm, N, mm3. Servo thread: no allocation; 20 to 40 µs. Source: reference/sisters 2.1,
+// than the file has swept; what cannot be taken now is carried on, so the books close. In a tick the section with the
+// most due takes it. Frame P; mm, N, mm3. Servo thread: no allocation; 10 to 40 µs. Source: reference/sisters 2.1,
 // 2.2.
 #pragma once
 
@@ -31,7 +31,7 @@ struct WearSettings {
 /// Every number in its range, defaults for what is none.
 WearSettings sanitised(const WearSettings& settings) noexcept;
 
-inline constexpr std::size_t kWornAtOnce = 2;  ///< sections
+inline constexpr std::size_t kWornAtOnce = 1;  ///< sections
 
 /// mm3 of a section in a tick.
 double wornVolume_mm3(const WearSettings& settings, double normal_N, double touched_mm2, const glm::dvec2& slip_mm,
