@@ -157,7 +157,7 @@ void addMetrics(CommandLine& molar) {
     std::string text = *as_json ? metricsJson(metrics) + "\n" : metricsText(metrics);
     if (treated && *as_json) {
       nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
-      json["root_canals"] = treatmentJson(*treated);
+      json["root_canals"] = nlohmann::ordered_json::parse(treatmentJson(*treated));
       text = json.dump(2) + "\n";
     } else if (treated) {
       text += treatmentTable(*treated);

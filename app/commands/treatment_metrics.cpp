@@ -83,37 +83,38 @@ std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path) {
   return of;
 }
 
-nlohmann::ordered_json treatmentJson(const TreatmentOfSession& of) {
+std::string treatmentJson(const TreatmentOfSession& of) {
   const Treatment& all = of.treatment;
   nlohmann::ordered_json canals = nlohmann::ordered_json::array(), holes = nlohmann::ordered_json::array();
   for (const TreatedCanal& canal : all.canals) canals.push_back(canalJson(canal));
   for (const Perforation& hole : all.perforations)
     holes.push_back({{"kind", nameOf(hole.kind)}, {"area_mm2", hole.area_mm2}});
-  return {{"fdi", of.tooth.fdi},
-          {"canals_are", of.tooth.is_modelled ? "modelled" : "built-in"},
-          {"gates",
-           {{"perforation", !all.perforations.empty()},
-            {"separated_file", all.broken_files > 0},
-            {"foramen_moved", all.isForamenMoved()}}},
-          {"access",
-           {{"roof_removed_share", all.roof.removed},
-            {"overhang_mm2", all.roof.overhang_mm2},
-            {"ideal_mm2", all.outline.ideal_mm2},
-            {"opened_mm2", all.outline.opened_mm2},
-            {"too_wide_mm2", all.outline.too_wide_mm2},
-            {"missing_mm2", all.outline.missing_mm2},
-            {"enamel_lost_mm3", all.lost.enamel_mm3},
-            {"dentine_lost_mm3", all.lost.dentine_mm3},
-            {"floor_gouged_mm3", all.lost.floor_mm3},
-            {"deepest_below_cusp_mm", all.lost.deepest_mm}}},
-          {"files",
-           {{"filed_mm3", all.filed_mm3},
-            {"filing_s", all.filing_s},
-            {"largest_torque_share", all.torque_share},
-            {"broken", all.broken_files},
-            {"bent", all.bent_files}}},
-          {"perforations", holes},
-          {"canals", canals}};
+  const nlohmann::ordered_json json = {{"fdi", of.tooth.fdi},
+                                       {"canals_are", of.tooth.is_modelled ? "modelled" : "built-in"},
+                                       {"gates",
+                                        {{"perforation", !all.perforations.empty()},
+                                         {"separated_file", all.broken_files > 0},
+                                         {"foramen_moved", all.isForamenMoved()}}},
+                                       {"access",
+                                        {{"roof_removed_share", all.roof.removed},
+                                         {"overhang_mm2", all.roof.overhang_mm2},
+                                         {"ideal_mm2", all.outline.ideal_mm2},
+                                         {"opened_mm2", all.outline.opened_mm2},
+                                         {"too_wide_mm2", all.outline.too_wide_mm2},
+                                         {"missing_mm2", all.outline.missing_mm2},
+                                         {"enamel_lost_mm3", all.lost.enamel_mm3},
+                                         {"dentine_lost_mm3", all.lost.dentine_mm3},
+                                         {"floor_gouged_mm3", all.lost.floor_mm3},
+                                         {"deepest_below_cusp_mm", all.lost.deepest_mm}}},
+                                       {"files",
+                                        {{"filed_mm3", all.filed_mm3},
+                                         {"filing_s", all.filing_s},
+                                         {"largest_torque_share", all.torque_share},
+                                         {"broken", all.broken_files},
+                                         {"bent", all.bent_files}}},
+                                       {"perforations", holes},
+                                       {"canals", canals}};
+  return json.dump();
 }
 
 std::string treatmentTable(const TreatmentOfSession& of) {

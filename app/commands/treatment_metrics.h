@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "app/procedure/root_canal/treatment.h"
 #include "assets/tooth_canals.h"
 #include "render/image.h"
@@ -21,7 +19,7 @@ struct TreatmentOfSession {
 /// None: the session is of another operation, or its bone at the end is not known.
 std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path);
 
-nlohmann::ordered_json treatmentJson(const TreatmentOfSession& of);
+std::string treatmentJson(const TreatmentOfSession& of);
 /// For people, with its first line.
 std::string treatmentTable(const TreatmentOfSession& of);
 /// Sections of every canal at 1, 3, 5 and 7 mm, before and after.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/session_error.h"
+#include "assets/json_depth.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -113,19 +114,22 @@ assets::PulpChamber chamberFrom(const CanalJson& object) {
 
 }  // namespace
 
-CanalJson canalsJson(const assets::ToothCanals& tooth) {
+std::string canalsText(const assets::ToothCanals& tooth) {
   CanalJson canals = CanalJson::array(), axes = CanalJson::array();
   for (const assets::ToothCanal& canal : tooth.canals) canals.push_back(canalJson(canal));
   for (int axis = 0; axis < 3; ++axis) axes.push_back(three(tooth.frame.axes_P[axis]));
-  return {{"fdi", tooth.fdi},
-          {"is_modelled", tooth.is_modelled},
-          {"cervix_P_mm", three(tooth.frame.cervix_P_mm)},
-          {"axes_P", std::move(axes)},
-          {"chamber", chamberJson(tooth.chamber)},
-          {"canals", std::move(canals)}};
+  const CanalJson object = {{"fdi", tooth.fdi},
+                            {"is_modelled", tooth.is_modelled},
+                            {"cervix_P_mm", three(tooth.frame.cervix_P_mm)},
+                            {"axes_P", std::move(axes)},
+                            {"chamber", chamberJson(tooth.chamber)},
+                            {"canals", std::move(canals)}};
+  return object.dump();
 }
 
-assets::ToothCanals canalsFrom(const CanalJson& object) {
+assets::ToothCanals canalsFrom(std::string_view text) {
+  const CanalJson object = assets::isNestedTooDeep(text) ? CanalJson() : CanalJson::parse(text, nullptr, false);
+  if (!object.is_object()) refuseCanals();
   assets::ToothCanals tooth;
   const CanalJson& fdi = memberOf(object, "fdi");
   if (!fdi.is_number_integer() || !assets::isToothNumber(fdi.get<int>())) refuseCanals();

@@ -3,13 +3,14 @@
 // throw SessionError.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 
 #include "assets/tooth_canals.h"
 
 namespace app {
 
-nlohmann::json canalsJson(const assets::ToothCanals& tooth);
-assets::ToothCanals canalsFrom(const nlohmann::json& object);
+std::string canalsText(const assets::ToothCanals& tooth);
+assets::ToothCanals canalsFrom(std::string_view text);
 
 }  // namespace app

@@ -129,7 +129,7 @@ json setupJson(const SessionSetup& setup) {
                       {"axis_P", three(setup.site->axis_P)}};
   for (const glm::dvec3& p : setup.canal_P_mm) object["canal"]["line_P_mm"].push_back(three(p));
   if (!setup.canal_P_mm.empty()) object["canal"]["radius_mm"] = setup.canal_radius_mm;
-  if (setup.canals) object["root_canals"] = canalsJson(*setup.canals);
+  if (setup.canals) object["root_canals"] = json::parse(canalsText(*setup.canals));
   if (setup.down_P) object["down_P"] = three(*setup.down_P);
   return object;
 }
@@ -159,7 +159,7 @@ void readSite(const json& object, SessionSetup& setup) {
     setup.down_P = vectorFrom(*down);
     if (!(std::abs(glm::length(*setup.down_P) - 1.0) < 1e-3)) throw damagedSession("it has no valid site");
   }
-  if (const auto canals = object.find("root_canals"); canals != object.end()) setup.canals = canalsFrom(*canals);
+  if (const auto canals = object.find("root_canals"); canals != object.end()) setup.canals = canalsFrom(canals->dump());
   const auto canal = object.find("canal");
   if (canal == object.end() || !canal->is_object()) return;
   setup.canal_radius_mm = valueOf(*canal, "radius_mm", 0.0);

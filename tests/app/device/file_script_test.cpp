@@ -31,8 +31,7 @@ TEST(FileScript, MovesNoFasterThanAHandAndToTheWorkingLength) {
   for (std::size_t n = 1; n < script.poses.size(); ++n) {
     const double s = script.poses[n].t_s - script.poses[n - 1].t_s;
     ASSERT_GT(s, 0.0) << n;
-    const double way_mm =
-        glm::distance(script.poses[n].X_DH.translation_mm, script.poses[n - 1].X_DH.translation_mm);
+    const double way_mm = glm::distance(script.poses[n].X_DH.translation_mm, script.poses[n - 1].X_DH.translation_mm);
     ASSERT_LT(way_mm / s, 30.0) << n;
   }
   // The straight file's tip comes as far from each orifice as its canal is long, less 0.5 mm, and a little more.

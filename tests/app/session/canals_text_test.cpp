@@ -32,7 +32,7 @@ assets::ToothCanals twoCanals() {
 
 TEST(CanalsText, ComesBackAsItWas) {
   const assets::ToothCanals tooth = twoCanals();
-  const assets::ToothCanals again = canalsFrom(nlohmann::json::parse(canalsJson(tooth).dump()));
+  const assets::ToothCanals again = canalsFrom(canalsText(tooth));
   EXPECT_EQ(again.fdi, 46);
   EXPECT_EQ(again.frame.cervix_P_mm, tooth.frame.cervix_P_mm);
   EXPECT_EQ(again.frame.axes_P, tooth.frame.axes_P);
@@ -49,11 +49,11 @@ TEST(CanalsText, ComesBackAsItWas) {
 }
 
 TEST(CanalsText, RefusesWhatCannotBe) {
-  const nlohmann::json good = canalsJson(twoCanals());
+  const nlohmann::json good = nlohmann::json::parse(canalsText(twoCanals()));
   const auto refused = [&](const auto& damage) {
     nlohmann::json bad = good;
     damage(bad);
-    EXPECT_THROW(canalsFrom(bad), SessionError) << bad.dump().substr(0, 200);
+    EXPECT_THROW(canalsFrom(bad.dump()), SessionError) << bad.dump().substr(0, 200);
   };
   refused([](auto& j) { j = nlohmann::json::array(); });
   refused([](auto& j) { j.erase("canals"); });
@@ -71,16 +71,14 @@ TEST(CanalsText, RefusesWhatCannotBe) {
 
 /// Any byte changed: it is read as it stands, or refused in one line.
 TEST(CanalsText, ReadsNoDamageAsSomethingElse) {
-  const std::string good = canalsJson(twoCanals()).dump();
+  const std::string good = canalsText(twoCanals());
   std::mt19937 random(5);
   int read = 0, refused = 0;
   for (int n = 0; n < 5000; ++n) {
     std::string text = good;
     for (int k = 0; k <= n % 3; ++k) text[random() % text.size()] = static_cast<char>(32 + random() % 95);
-    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-    if (json.is_discarded()) continue;
     try {
-      const assets::ToothCanals tooth = canalsFrom(json);
+      const assets::ToothCanals tooth = canalsFrom(text);
       for (const assets::ToothCanal& canal : tooth.canals) EXPECT_TRUE(std::isfinite(canal.length_mm()));
       ++read;
     } catch (const SessionError&) {
