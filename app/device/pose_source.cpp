@@ -7,13 +7,15 @@
 namespace app {
 namespace {
 
-PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut) {
+PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig, const assets::Patient& patient,
+                      const std::optional<assets::PlannedCut>& cut) {
   PoseSource source;
   source.library = std::move(opened.library);
   source.device = std::move(opened.device);
   source.X_PD = rig.X_WP.inverse() * rig.X_WD;
   if (source.library) standAsMeasured(source, rig);
-  if (!source.device->capabilities().has_orientation) fixOrientation(source, rig, restingTool(rig, cut).rotation);
+  if (!source.device->capabilities().has_orientation)
+    fixOrientation(source, rig, restingTool(rig, patient, cut).rotation);
   return source;
 }
 
@@ -26,10 +28,11 @@ calibration::Pose<calibration::World, calibration::Tool> restingTool() {
 }
 
 calibration::Pose<calibration::World, calibration::Tool> restingTool(const calibration::Rig& rig,
+                                                                     const assets::Patient& patient,
                                                                      const std::optional<assets::PlannedCut>& cut) {
   auto X_WT = restingTool();
-  if (cut && cut->shaft_P != glm::dvec3(0.0))
-    X_WT.rotation = glm::dquat(glm::dvec3(0, 0, 1), rig.X_WP.rotation * cut->shaft_P);
+  const glm::dvec3 shaft_P = patient.canals ? patient.canals->frame.axes_P[2] : cut ? cut->shaft_P : glm::dvec3(0.0);
+  if (shaft_P != glm::dvec3(0.0)) X_WT.rotation = glm::dquat(glm::dvec3(0, 0, 1), rig.X_WP.rotation * shaft_P);
   return X_WT;
 }
 
@@ -46,7 +49,7 @@ void fixOrientation(PoseSource& source, const calibration::Rig& rig, const glm::
 
 PoseSource openMouse(const std::string&, const PoseSourceContext& at) {
   PoseSource source;
-  const auto X_WT = restingTool(at.rig, at.cut);
+  const auto X_WT = restingTool(at.rig, at.patient, at.cut);
   auto mouse =
       std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{X_WT.rotation, X_WT.translation_mm}, false});
   source.mouse = mouse.get();
@@ -64,8 +67,8 @@ PoseSource openPoseSource(const std::string& address, const DeviceOptions& optio
   refuseUnlessPoseSource(address);
   const PoseSourceKind* const kind = poseSourceKindOf(address);
   PoseSource source = kind     ? kind->open(haptics::addressRest(address), {patient, rig, cut})
-                      : opened ? realDevice(std::move(*opened), rig, cut)
-                               : realDevice(haptics::openDevice(address, options), rig, cut);
+                      : opened ? realDevice(std::move(*opened), rig, patient, cut)
+                               : realDevice(haptics::openDevice(address, options), rig, patient, cut);
   if (source.name.empty()) source.name = source.device->capabilities().model;
   return source;
 }

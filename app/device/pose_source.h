@@ -41,10 +41,11 @@ struct PoseSource {
   std::vector<TimedRequest> requests;           ///< in the order of their times
 };
 
-/// Where the mouse's tool begins: in front of the site; the handpiece as planned for the cut, else towards the viewer
-/// and down.
+/// Where the mouse's tool begins: in front of the site; the handpiece as planned for the cut or along the tooth of a
+/// root-canal treatment, else towards the viewer and down.
 calibration::Pose<calibration::World, calibration::Tool> restingTool();
 calibration::Pose<calibration::World, calibration::Tool> restingTool(const calibration::Rig& rig,
+                                                                     const assets::Patient& patient,
                                                                      const std::optional<assets::PlannedCut>& cut);
 
 /// For a device that measures no orientation: its tool keeps the rotation R_WT.

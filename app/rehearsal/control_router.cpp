@@ -28,7 +28,7 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
       view_(view),
       head_up_(head_up),
       event_log_(event_log),
-      input_(restingTool(plan.rig, plan.cut)),
+      input_(restingTool(plan.rig, plan.patient, plan.cut)),
       desk_view_(plan.rig, plan.rig.X_WP * calibration::Point<calibration::Patient>{plan.patient.focus_P_mm()}),
       script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {
   if (plan.procedure_steps && plan.procedure_steps->asks) prediction_.open();
@@ -36,7 +36,8 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
   input_.setGap(frame.gap ? std::optional(frame.gap->mm) : std::nullopt);
-  input_.setTwisting(active_command_.inForce().tool.isElevator());
+  const haptics::Tool& in_hand = active_command_.inForce().tool;
+  input_.setTwisting(in_hand.isElevator() || in_hand.isFile());
   readWindow(frame);
   executeScript(newest, frame);
   for (const ControlRequest& request : equipment_.takeRequests()) execute(request, frame);

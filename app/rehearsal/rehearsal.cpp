@@ -157,7 +157,7 @@ class Rehearsal {
   void placeMouse() {
     if (equipment_.mouse() == nullptr) return;
     render::Frame held = frame_;
-    held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool(plan_.rig, plan_.cut).rotation;
+    held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool(plan_.rig, plan_.patient, plan_.cut).rotation;
     held.tool_visible = true;
     const GapOf gap_of = [this](const render::Frame& frame) { return view_.gapOf(frame); };
     const auto start_W_mm = plan_.cut ? startBeforePlan(held, *plan_.cut, gap_of)
