@@ -17,9 +17,11 @@ std::string_view KFile::colour() const {
 }
 
 std::optional<KFile> kFile(int size, int length_mm, KFileMetal metal) {
-  if (std::find(kKFileSizes.begin(), kKFileSizes.end(), size) == kKFileSizes.end()) return std::nullopt;
-  if (std::find(kKFileLengths_mm.begin(), kKFileLengths_mm.end(), length_mm) == kKFileLengths_mm.end())
-    return std::nullopt;
+  // Tables of its own: the servo's thread comes here, and reads no symbol of another object.
+  static constexpr auto kSizes = kKFileSizes;
+  static constexpr auto kLengths_mm = kKFileLengths_mm;
+  if (std::find(kSizes.begin(), kSizes.end(), size) == kSizes.end()) return std::nullopt;
+  if (std::find(kLengths_mm.begin(), kLengths_mm.end(), length_mm) == kLengths_mm.end()) return std::nullopt;
   return KFile{size, static_cast<double>(length_mm), metal};
 }
 

@@ -52,11 +52,15 @@ double depthTowards_mm(const PressedSection& section, double x, double y) {
   return (1.0 - share) * section.depth_mm[before % kRays] + share * section.depth_mm[(before + 1) % kRays];
 }
 
-/// Of a tissue, relative to dentine.
-double softness(std::uint8_t label) {
-  constexpr double kDentine = assets::kTissues[static_cast<std::size_t>(assets::Tissue::dentine)].removal_factor;
-  return assets::properties(label).removal_factor / kDentine;
-}
+/// Of the tissues, relative to dentine.
+constexpr auto kSoftness = [] {
+  std::array<double, assets::kTissueCount> softness{};
+  for (std::size_t tissue = 0; tissue < softness.size(); ++tissue)
+    softness[tissue] = assets::kTissues[tissue].removal_factor /
+                       assets::kTissues[static_cast<std::size_t>(assets::Tissue::dentine)].removal_factor;
+  return softness;
+}();
+double softness(std::uint8_t label) { return kSoftness[label < kSoftness.size() ? label : 0]; }
 
 /// Where the section may take something of a block: as much of each voxel as the file covers, in a face as smooth as it
 /// is felt, by the depth there. Returns the sum of what a loss of 1 takes, in voxels; 0: nothing.
