@@ -65,11 +65,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.gap_mm = values.gap_mm;
   if (tick.depth_mm > 0.0) content.gap_mm = 0.0;
   // Of a file what counts is in the canal.
-  if (command.tool.isFile()) {
-    content.gap_mm.reset();
-    content.torque_Nmm = std::abs(tick.file.torque_Nmm);
-    content.torque_share = tick.file.torque_share;
-  }
+  if (command.tool.isFile()) content.gap_mm.reset();
   content.time_s = tick.t_s + tick.dt_s;
   content.task = values.task;
   content.ruler = values.ruler;

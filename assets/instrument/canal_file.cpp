@@ -97,7 +97,7 @@ MeshModel canalFile(const DrawnFile& drawn) {
                    0.3f,
                    1.0f - strained};
 
-  const std::pair<double, double> kGrip[] = {
+  constexpr std::pair<double, double> kGrip[] = {
       {0.0, 0.9}, {0.0, 1.5}, {0.1, kHandleRadius_mm}, {0.3, 1.55}, {0.5, 1.75}, {0.8, 1.6}, {0.95, 1.8}, {1.0, 1.2}};
   MeshPart handle = rod(0.0, kHandle_mm, kGrip, "Handle");
   handle.material = {colourOf(drawn.file.colour()), 0.45f, 0.0f};
