@@ -369,7 +369,7 @@ class Rehearsal {
             site_->socketLine(),
             site_->wayLine(),
             ringShown(),
-            plan_.shows_clearance ? clearance_.ruler() : std::vector<HeadUpClearance>(),
+            plan_.shows_clearance ? clearance_.ruler(!plan_.patient.isProposed()) : std::vector<HeadUpClearance>(),
             true,
             canal_log_ && newest_.file.stay != haptics::FileStay::none ? canal_log_->line(newest_) : std::string()};
   }

@@ -91,14 +91,16 @@ void drop(const Drawing& drawing, const glm::dvec2& centre, double radius, const
 
 /// A row of the ruler: name and number over a scale with a mark each millimetre.
 void drawClearance(const Drawing& to, const HeadUpClearance& near, double top, double width, double text) {
-  const Ink ink = near.level == assets::RiskLevel::red     ? kRedBar
+  const Ink ink = !near.is_confirmed                       ? kDim
+                  : near.level == assets::RiskLevel::red   ? kRedBar
                   : near.level == assets::RiskLevel::amber ? kAmberBar
                                                            : kCalm;
   const std::string number = near.mm <= 0.0 ? "touched" : fmt::format("{:.1f} mm", near.mm);
+  const std::string name = near.is_confirmed ? near.name : near.name + ", not confirmed";
   const double inset = 0.5 * text, letters = 0.9 * text, middle = top + 0.85 * text;
   const double number_width = to.textWidth(number, letters, true);
-  const double room = width - 2.4 * inset - number_width, name_width = to.textWidth(near.name, letters, true);
-  to.text(near.name, {inset, middle}, letters * std::min(1.0, room / name_width), kWhite, Align::left, true);
+  const double room = width - 2.4 * inset - number_width, name_width = to.textWidth(name, letters, true);
+  to.text(name, {inset, middle}, letters * std::min(1.0, room / name_width), kWhite, Align::left, true);
   to.text(number, {width - inset, middle}, letters, ink, Align::right, true);
   const glm::dvec2 corner{inset, top + 1.55 * text};
   const double length = width - 2.0 * inset, thick = 0.45 * text;
@@ -253,7 +255,7 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
     std::string content = "clearance";
     for (std::size_t n = 0; n < rows; ++n) {
       const HeadUpClearance& near = c.clearances[n];
-      content += fmt::format("\n{} {:.1f} {}", near.name, near.mm, static_cast<int>(near.level));
+      content += fmt::format("\n{} {:.1f} {} {}", near.name, near.mm, static_cast<int>(near.level), near.is_confirmed);
     }
     const double row_px = kRulerRow * text;
     const glm::ivec2 size(glm::ceil(glm::dvec2(kRulerWidth * text, row_px * static_cast<double>(rows) + 0.5 * text)));

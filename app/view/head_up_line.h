@@ -38,6 +38,7 @@ struct HeadUpClearance {
   std::string name;  ///< "canal"
   double mm = 0.0;   ///< below 0 inside
   assets::RiskLevel level = assets::RiskLevel::none;
+  bool is_confirmed = true;  ///< false: of a tooth or canal that the program proposed; grey, without a band
 };
 
 struct HeadUpContent {

@@ -218,6 +218,30 @@ TEST(HeadUpLine, ShowsTheGapBelowTenMillimetres) {
   EXPECT_NE(gap_cell(0.0), gap_cell(0.1)) << "contact";
 }
 
+TEST(HeadUpLine, AClearanceThatNobodyConfirmedIsGrey) {
+  const render::Frame frame = frameOf({1280, 800}, 0.0);
+  HeadUpContent content = atWork();
+  content.clearances = {{"canal", 0.4, assets::RiskLevel::red}};
+  const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
+  HeadUpLine line;
+  const auto reddish = [&] {
+    int count = 0;
+    for (const render::OverlayPanel& panel : line.panels())
+      for (std::size_t v = 0; v + 3 < panel.image.rgba.size(); v += 4)
+        count += panel.image.rgba[v] > 150 && panel.image.rgba[v + 1] < 110 && panel.image.rgba[v + 3] > 200 ? 1 : 0;
+    return count;
+  };
+  line.update(content, place);
+  const int with_band = reddish();
+  content.clearances.front().is_confirmed = false;
+  ASSERT_TRUE(line.update(content, place));
+  const int grey = reddish();
+  EXPECT_GT(with_band, grey + 50);
+  content.clearances.clear();
+  ASSERT_TRUE(line.update(content, place));
+  EXPECT_EQ(grey, reddish()) << "the rest is as it was";
+}
+
 TEST(HeadUpLine, HasACellForTheRulerWhileThereIsOne) {
   const render::Frame frame = frameOf({1280, 800});
   const HeadUpPlace place = headUpPlace(frame.rig, render::DisplayMode::mono, frame);
