@@ -322,6 +322,7 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
     if (former->setup.canals) {
       options.task = "root-canal";
       options.tooth = former->setup.canals->fdi;
+      options.access = "open";  // its cavity is as it was left
       refuseUnlessForRootCanal(options);
     }
     plan.drawn = former->drawn;

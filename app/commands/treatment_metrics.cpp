@@ -43,6 +43,10 @@ nlohmann::ordered_json sectionJson(const CanalSection& section) {
           {"centring", numberOrNull(centring(section))}};
 }
 
+nlohmann::ordered_json lengthOrNull(const TreatedCanal& canal, double LengthError::*value) {
+  return canal.length ? nlohmann::ordered_json((*canal.length).*value) : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
   const CanalOutcomes& of = canal.outcomes;
   nlohmann::ordered_json sections = nlohmann::ordered_json::array();
@@ -56,10 +60,10 @@ nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
           {"E5_schneider_after_deg", degrees(of.schneider_after_rad)},
           {"E6_least_wall_mm", numberOrNull(of.least_wall_mm)},
           {"E6_thin_share", of.thin_share},
-          {"E7_deepest_mm", canal.deepest_mm ? nlohmann::ordered_json(*canal.deepest_mm) : nlohmann::ordered_json()},
-          {"E7_at_rest_mm", canal.length.at_rest_mm},
-          {"E7_most_over_mm", canal.length.most_over_mm},
-          {"E7_over_s", canal.length.over_s},
+          {"E7_deepest_mm", lengthOrNull(canal, &LengthError::deepest_mm)},
+          {"E7_at_rest_mm", lengthOrNull(canal, &LengthError::at_rest_mm)},
+          {"E7_most_over_mm", lengthOrNull(canal, &LengthError::most_over_mm)},
+          {"E7_over_s", lengthOrNull(canal, &LengthError::over_s)},
           {"E9_apical_long_mm", numberOrNull(of.apical_long_mm)},
           {"E9_apical_short_mm", numberOrNull(of.apical_short_mm)},
           {"E9_taper", numberOrNull(of.taper)},
@@ -129,8 +133,8 @@ std::string treatmentTable(const TreatmentOfSession& of) {
         fmt::format("{:<16} {:>5} {:>9.3f} {:>8.0f} % {:>5.0f} > {:>3.0f} {:>11.2f} {:>+10.1f} {:>+9.2f} {:>10.0f}\n",
                     canal.name, canal.size == 0 ? "-" : std::to_string(canal.size), one.removed_mm3,
                     100.0 * one.untouched, degrees(one.schneider_before_rad), degrees(one.schneider_after_rad),
-                    one.least_wall_mm, canal.deepest_mm.value_or(0.0), transportation_mm(one.sections.front()),
-                    degrees(canal.straight_line.least_angle_rad));
+                    one.least_wall_mm, canal.length ? canal.length->deepest_mm : 0.0,
+                    transportation_mm(one.sections.front()), degrees(canal.straight_line.least_angle_rad));
   }
   text +=
       "length: of the deepest file, from the working length; moved: at 1 mm from the foramen, towards the "

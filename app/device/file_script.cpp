@@ -12,7 +12,8 @@ namespace {
 constexpr int kSizes[] = {10, 15, 20, 25};
 constexpr double kAbove_mm = 9.0;  ///< the tip over the orifice, out of the crown, between two files
 constexpr double kIn_mm_per_s = 4.0, kOut_mm_per_s = 12.0, kStroke_mm_per_s = 8.0;
-constexpr double kStroke_mm = 1.5, kStrokes = 6;
+constexpr double kStroke_mm = 1.5;
+constexpr int kStrokes = 6;
 constexpr double kLeadsBy_mm = 0.3;  ///< the hand ahead of the file at length: what presses it in
 constexpr double kOver_s = 1.0;      ///< to the next orifice
 constexpr double kChange_s = 0.8;    ///< for another file

@@ -4,12 +4,11 @@
 // tick.
 #pragma once
 
-#include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/procedure/root_canal/treatment.h"
 #include "assets/tooth_canals.h"
 #include "haptics/servo/tick.h"
 #include "haptics/tool/tool.h"
@@ -20,7 +19,7 @@ inline constexpr const char* kFileEvent = "canal file";
 
 class CanalLog {
  public:
-  explicit CanalLog(const assets::ToothCanals& tooth);
+  explicit CanalLog(const assets::ToothCanals& tooth) : use_(tooth) {}
 
   /// What happened, in order.
   std::vector<std::string> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
@@ -33,16 +32,7 @@ class CanalLog {
  private:
   double depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const;
 
-  struct Work {
-    double deepest_mm = 0.0;  ///< as the stop shows it, of the last size
-    int size = 0;             ///< the thickest that came within 1 mm of the working length
-    bool is_beyond = false;
-  };
-  const assets::ToothCanals tooth_;
-  std::map<std::size_t, Work> works_;
-  double filed_mm3_ = 0.0, strongest_share_ = 0.0;
-  int broken_ = 0;
-  bool was_bent_ = false;
+  FileUse use_;
 };
 
 }  // namespace app

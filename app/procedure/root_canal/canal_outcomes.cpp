@@ -174,15 +174,14 @@ double removed_mm3(const FineSolid& before, const FineSolid& after) {
   return removed * before.grid().voxelVolume_mm3();
 }
 
-LengthError lengthError(std::span<const TipSample> tip, double canal_length_mm) {
-  LengthError error;
-  for (std::size_t n = 0; n < tip.size(); ++n) {
-    const double over_mm = tip[n].along_mm - canal_length_mm;
-    error.at_rest_mm = over_mm + kWorkingLength_mm;
-    error.most_over_mm = std::max(error.most_over_mm, over_mm);
-    if (over_mm > 0.0 && n + 1 < tip.size()) error.over_s += tip[n + 1].t_s - tip[n].t_s;
-  }
-  return error;
+void TipTrack::add(double t_s, double along_mm) {
+  const double over_mm = along_mm - length_mm_;
+  if (last_s_ && was_over_) error_.over_s += t_s - *last_s_;
+  error_.at_rest_mm = over_mm + kWorkingLength_mm;
+  error_.deepest_mm = last_s_ ? std::max(error_.deepest_mm, error_.at_rest_mm) : error_.at_rest_mm;
+  error_.most_over_mm = std::max(error_.most_over_mm, over_mm);
+  was_over_ = over_mm > 0.0;
+  last_s_ = t_s;
 }
 
 }  // namespace app

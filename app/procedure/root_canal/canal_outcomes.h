@@ -3,7 +3,7 @@
 // after, the canal's axis and the side of the furcation. Frame P, mm, rad. Pure; any thread; some 0.1 s a canal.
 #pragma once
 
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "app/procedure/root_canal/canal_section.h"
@@ -40,15 +40,28 @@ glm::dvec3 furcationSide_P(const assets::ToothCanals& tooth, std::size_t canal);
 /// What was cut of the whole field.
 double removed_mm3(const FineSolid& before, const FineSolid& after);
 
-/// The tip of a file over time.
-struct TipSample {
-  double t_s, along_mm;  ///< of the canal, beyond its end where the tip is outside
-};
+/// Of a file's tip from the working length, 0.5 mm short of the foramen; positive: too long.
 struct LengthError {
-  double at_rest_mm = 0.0;  ///< of the last sample, from 0.5 mm short of the foramen; positive: too long
-  double most_over_mm = 0.0;
-  double over_s = 0.0;  ///< beyond the foramen
+  double at_rest_mm = 0.0;    ///< last
+  double deepest_mm = 0.0;    ///< so far
+  double most_over_mm = 0.0;  ///< beyond the foramen
+  double over_s = 0.0;        ///< the same
 };
-LengthError lengthError(std::span<const TipSample> tip, double canal_length_mm);
+
+/// E7, place by place: no memory of the way. O(1) a place.
+class TipTrack {
+ public:
+  explicit TipTrack(double canal_length_mm) : length_mm_(canal_length_mm) {}
+  /// In the order of time; `along_mm` of the canal, beyond its end where the tip is outside.
+  void add(double t_s, double along_mm);
+  bool isEmpty() const { return !last_s_; }
+  const LengthError& error() const { return error_; }
+
+ private:
+  double length_mm_;
+  std::optional<double> last_s_;
+  bool was_over_ = false;
+  LengthError error_;
+};
 
 }  // namespace app

@@ -6,29 +6,28 @@
 
 namespace app {
 
-void FileUse::add(const haptics::Tick& tick, int size) {
-  const haptics::FileWork& file = tick.file;
-  if (file.stay == haptics::FileStay::none) return;
-  torque_share_ = std::max(torque_share_, file.torque_share);
-  filed_mm3_ = file.removed_total_mm3;
-  if (file.broken_from_tip_mm > 0.0) ++broken_;
-  if (file.keeps_bend && !was_bent_) ++bent_;
-  was_bent_ = file.keeps_bend;
-  if (file.stay != haptics::FileStay::wall) return;
-  filing_s_ += tick.dt_s;
-  const auto place = canalTip(*tooth_, file.tip_P_mm);
-  if (!place) return;
-  Tips& tips = tips_[place->canal];
-  tips.samples.push_back({tick.t_s, place->along_mm});
-  constexpr double kShort_mm = 0.5, kAtLength_mm = 1.0;
-  if (place->along_mm > tooth_->canals[place->canal].length_mm() - kShort_mm - kAtLength_mm)
-    tips.size = std::max(tips.size, size);
+FileUse::FileUse(const assets::ToothCanals& tooth) : tooth_(tooth) {
+  for (const assets::ToothCanal& canal : tooth_.canals) canals_.push_back({TipTrack(canal.length_mm())});
 }
 
-std::optional<double> FileUse::deepest_mm(std::size_t canal) const {
-  const std::vector<TipSample>& samples = tips_[canal].samples;
-  if (samples.empty()) return {};
-  return std::ranges::max(samples, {}, &TipSample::along_mm).along_mm;
+void FileUse::add(const haptics::Tick& tick, int size) {
+  using haptics::FileStay;
+  const haptics::FileWork& file = tick.file;
+  if (file.stay == FileStay::none || file.stay == FileStay::through) return;
+  torque_share_ = std::max(torque_share_, file.torque_share);
+  filed_mm3_ = file.removed_total_mm3;
+  if (file.stay == FileStay::wall) filing_s_ += tick.dt_s;
+  if (file.broken_from_tip_mm > 0.0) ++broken_;
+  if (size != in_hand_) is_bent_ = false;
+  in_hand_ = size;
+  if (file.keeps_bend && !is_bent_) ++bent_;
+  is_bent_ = is_bent_ || file.keeps_bend;
+  const auto place = canalTip(tooth_, file.tip_P_mm);
+  if (!place) return;
+  Canal& canal = canals_[place->canal];
+  canal.tip.add(tick.t_s, place->along_mm);
+  constexpr double kAtLength_mm = 1.0;
+  if (canal.tip.error().at_rest_mm > -kAtLength_mm) canal.size = std::max(canal.size, size);
 }
 
 bool Treatment::isForamenMoved() const {
@@ -43,13 +42,10 @@ Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& befor
     const assets::ToothCanal& canal = tooth.canals[n];
     all.canals.push_back({canal.name,
                           canalOutcomes(before, after, tooth.canals, n, furcationSide_P(tooth, n)),
-                          lengthError(files.tips(n), canal.length_mm()),
+                          {},
                           straightLine(after, canal),
-                          files.size(n),
-                          {}});
-    constexpr double kShort_mm = 0.5;
-    if (const auto deepest_mm = files.deepest_mm(n))
-      all.canals.back().deepest_mm = *deepest_mm - (canal.length_mm() - kShort_mm);
+                          files.size(n)});
+    if (!files.tip(n).isEmpty()) all.canals.back().length = files.tip(n).error();
   }
   all.lost = lostTissue(before, after, tooth);
   all.roof = roofOutcome(after, tooth);

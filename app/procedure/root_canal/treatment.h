@@ -5,7 +5,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,15 +21,14 @@ inline constexpr double kForamenMoved_mm = 0.1;
 /// What files did, from every tick in order.
 class FileUse {
  public:
-  explicit FileUse(const assets::ToothCanals& tooth) : tooth_(&tooth), tips_(tooth.canals.size()) {}
+  explicit FileUse(const assets::ToothCanals& tooth);
   /// `size`: of the file in the hand; 0: none.
   void add(const haptics::Tick& tick, int size);
 
-  const std::vector<TipSample>& tips(std::size_t canal) const { return tips_[canal].samples; }
-  /// Along the canal; none: no file was in it.
-  std::optional<double> deepest_mm(std::size_t canal) const;
+  const assets::ToothCanals& tooth() const { return tooth_; }
+  const TipTrack& tip(std::size_t canal) const { return canals_[canal].tip; }
   /// The thickest that came within a millimetre of the working length.
-  int size(std::size_t canal) const { return tips_[canal].size; }
+  int size(std::size_t canal) const { return canals_[canal].size; }
   double torque_share() const { return torque_share_; }
   double filed_mm3() const { return filed_mm3_; }
   int broken() const { return broken_; }
@@ -38,24 +36,24 @@ class FileUse {
   double filing_s() const { return filing_s_; }
 
  private:
-  struct Tips {
-    std::vector<TipSample> samples;
+  struct Canal {
+    TipTrack tip;
     int size = 0;
   };
-  const assets::ToothCanals* tooth_;
-  std::vector<Tips> tips_;
+  assets::ToothCanals tooth_;
+  std::vector<Canal> canals_;
   double torque_share_ = 0.0, filed_mm3_ = 0.0, filing_s_ = 0.0;
   int broken_ = 0, bent_ = 0;
-  bool was_bent_ = false;
+  int in_hand_ = 0;
+  bool is_bent_ = false;  ///< the one in the hand: told once
 };
 
 struct TreatedCanal {
   std::string name;
   CanalOutcomes outcomes;
-  LengthError length;
+  std::optional<LengthError> length;  ///< none: no file was in it
   StraightLine straight_line;
   int size = 0;
-  std::optional<double> deepest_mm;  ///< of any file, from the working length; positive: too long
 };
 
 struct Treatment {

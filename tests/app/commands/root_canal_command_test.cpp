@@ -47,6 +47,18 @@ TEST_F(RootCanalCommand, FilesACanalAndTellsWhatItHasComeTo) {
   EXPECT_NE(molar("metrics " + at("s.molar")).out.find("Root canals of tooth 45"), std::string::npos);
 }
 
+TEST_F(RootCanalCommand, GoesOnWhereItEnded) {
+  ASSERT_EQ(treat("--access open --device scripted --pace fast --seconds 12 --record " + at("s.molar")).status, 0);
+  const ProgramOutput said = molar("rehearse --continue " + at("s.molar") +
+                                   " --headless --device scripted --pace fast --seconds 3 --record " + at("t.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const StoredStart before = SessionReader(at("s.molar")).start();
+  const auto left = SessionReader(at("s.molar")).finalBone(before);
+  ASSERT_TRUE(left);
+  EXPECT_NE(left->solid, before.solid) << "it was filed";
+  EXPECT_EQ(SessionReader(at("t.molar")).start().solid, left->solid);
+}
+
 TEST_F(RootCanalCommand, RefusesInOneLine) {
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const ProgramOutput said = molar("rehearse --headless " + arguments);

@@ -133,8 +133,12 @@ TEST(CanalOutcomes, StraighteningIsTheDifferenceOfSchneidersAngles) {
 }
 
 TEST(CanalOutcomes, ThePlacesOfAFileTellItsLength) {
-  const std::vector<TipSample> tip{{0.0, 9.0}, {1.0, 10.3}, {1.5, 10.1}, {2.0, 9.8}};
-  const LengthError error = lengthError(tip, 10.0);
+  TipTrack track(10.0);
+  EXPECT_TRUE(track.isEmpty());
+  for (const auto& [t_s, along_mm] : {std::pair(0.0, 9.0), {1.0, 10.3}, {1.5, 10.1}, {2.0, 9.8}})
+    track.add(t_s, along_mm);
+  const LengthError& error = track.error();
+  EXPECT_NEAR(error.deepest_mm, 0.8, 1e-12);
   EXPECT_NEAR(error.at_rest_mm, 0.3, 1e-12);
   EXPECT_NEAR(error.most_over_mm, 0.3, 1e-12);
   EXPECT_NEAR(error.over_s, 1.0, 1e-12);

@@ -54,18 +54,18 @@ TEST(FileUse, CountsWhatFilesDid) {
   tick.file.keeps_bend = true;
   use.add(tick, 30);
   tick.file.broken_from_tip_mm = 0.0;
-  use.add(tick, 0);
+  use.add(tick, 30);
   EXPECT_NEAR(use.filing_s(), 0.097, 1e-9);
-  EXPECT_EQ(use.tips(0).size(), 97u);
-  EXPECT_TRUE(use.tips(1).empty());
-  EXPECT_NEAR(use.deepest_mm(0).value(), 9.5, 1e-9);
-  EXPECT_FALSE(use.deepest_mm(1));
+  EXPECT_TRUE(use.tip(1).isEmpty());
+  EXPECT_NEAR(use.tip(0).error().deepest_mm, 0.0, 1e-9) << "9.5 of 10 mm: the working length";
   EXPECT_EQ(use.size(0), 30) << "within a millimetre of 9.5 mm";
   EXPECT_EQ(use.size(1), 0);
   EXPECT_EQ(use.torque_share(), 0.6);
   EXPECT_NEAR(use.filed_mm3(), 0.095, 1e-12);
   EXPECT_EQ(use.broken(), 1);
   EXPECT_EQ(use.bent(), 1) << "kept through both ticks: once";
+  use.add(tick, 25);
+  EXPECT_EQ(use.bent(), 2) << "another file";
 }
 
 }  // namespace
