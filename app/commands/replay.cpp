@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/treatment_metrics.h"
 #include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
+#include "app/review/treatment_text.h"
 #include "app/session/metrics.h"
 #include "app/session/moment_values.h"
 #include "app/session/replay.h"

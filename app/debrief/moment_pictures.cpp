@@ -65,7 +65,7 @@ SessionReview reviewWithPictures(const std::string& session, const std::string& 
     return pictures;
   };
   return reviewOf(session, {run.moments().start(), run.knowsPatient() ? &run.patient() : nullptr, run.risks(),
-                            run.moments().boneLeft(), run.remarks(), draw});
+                            run.moments().boneLeft(), run.remarks(), draw, patient_folder});
 }
 
 }  // namespace app

@@ -41,7 +41,7 @@ std::string caseSection(const SessionReview& review) {
   Rows rows{{"Patient", review.metrics.patient_title}};
   if (review.plan)
     for (const PlanItem& item : *review.plan) rows.push_back({std::string(item.name), itemWords(item)});
-  else
+  else if (!review.treatment)
     rows.push_back({"Plan", "not told: " + review.why_no_plan});
   if (review.metrics.prediction)
     rows.push_back({"Predicted", predictionInWords(*review.metrics.prediction, review.metrics.endOfWork_s())});
@@ -185,8 +185,9 @@ std::string removedSection(const SessionReview& review) {
     for (const auto& [tissue, removed_mm3] : *review.metrics.removed_mm3_by_label)
       if (const std::string_view name = hardTissueName(tissue); !name.empty() && removed_mm3 >= 0.05)
         rows.push_back({std::string(name), fixedText(removed_mm3, 1) + " mm³"});
+  // Outcomes of an extraction; those of canals are told apart.
   for (const MeasureValue& measure : review.metrics.measures)
-    if (isOutcome(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
+    if (isOutcome(measure) && !review.treatment) rows.push_back({std::string(measure.name), valueWords(measure)});
   const std::string caption =
       review.is_against_plan
           ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
@@ -213,6 +214,7 @@ std::string handSection(const SessionReview& review, const SessionMetrics* other
   Rows rows;
   for (const MeasureValue& measure : measures) {
     if (isSafety(measure) || isOutcome(measure)) continue;
+    if (review.treatment && !measure.value) continue;
     std::vector<std::string> row{std::string(measure.name), valueWords(measure)};
     if (other != nullptr) {
       const MeasureValue* const same = measureOf(*other, measure.id);
@@ -295,12 +297,16 @@ std::string reviewHtml(const SessionReview& review, const HeldAgainst& against) 
   if (!review.started_utc.empty()) below = timeText(review.started_utc) + " \u00b7 " + below;
   HtmlPage page("Rehearsal: " + review.metrics.patient_title, below);
   page.section("The case", caseSection(review));
-  page.section("Errors", errorsSection(review));
+  if (review.treatment)
+    addTreatment(page, *review.treatment);
+  else
+    page.section("Errors", errorsSection(review));
   if (reference != nullptr) page.section("Against the reference", againstSection(review, *reference));
-  page.section("How near, and on what", nearSection(review));
+  if (!review.treatment) page.section("How near, and on what", nearSection(review));
   page.section("These moments", momentsSection(review));
   page.section("Bone and tooth removed", removedSection(review));
-  page.section("The hand's work", handSection(review, other));
+  // With files alone there is no bur whose work would be told.
+  if (!review.treatment || review.metrics.drill_on_s > 0.0) page.section("The hand's work", handSection(review, other));
   page.section("The course", courseSection(review));
   if (trend != nullptr) page.section("Over time", trendSection(*trend));
   page.section("Conditions", conditionsSection(review));

@@ -1,10 +1,22 @@
 #include "app/review/session_review.h"
 
+#include "app/case/patient_source.h"
 #include "app/options/law_text.h"
 #include "app/review/site_view.h"
 #include "app/station/session_case.h"
+#include "assets/patient/patient_folder.h"
 
 namespace app {
+namespace {
+
+/// The whole scan that a treated tooth is of.
+std::optional<assets::CtVolume> jawOf(const StoredStart& start, const std::string& folder) {
+  if (!folder.empty()) return assets::loadPatient(folder).ct;
+  if (start.setup.built_in) return builtInPatient(*start.setup.built_in).ct;
+  return {};
+}
+
+}  // namespace
 
 SessionReview reviewOf(const std::string& path, const RunAgain& again) {
   const StoredStart& start = again.start;
@@ -20,6 +32,10 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
   review.has_canal = !about.risks.of(assets::RiskStructure::canal).isEmpty();
   review.moments = again.draw(toldMoments(review.metrics, review.course));
   review.remarks = again.remarks;
+  if (const auto treated = treatmentOfSession(session, start, again.left.solid)) {
+    const std::optional<assets::CtVolume> jaw = jawOf(start, again.patient_folder);
+    review.treatment.emplace(TreatmentReview{*treated, treatmentFilms(start, again.left.solid, jaw ? &*jaw : nullptr)});
+  }
 
   if (again.patient != nullptr && again.patient->site)
     review.plan = extractionPlan(*again.patient, again.patient->title);

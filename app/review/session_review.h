@@ -12,6 +12,7 @@
 #include "app/review/bone_pictures.h"
 #include "app/review/session_course.h"
 #include "app/review/told_moments.h"
+#include "app/review/treatment_page.h"
 #include "app/session/metrics.h"
 #include "assets/patient.h"
 
@@ -27,8 +28,9 @@ struct SessionReview {
   bool is_against_plan = false;  ///< pictures are coloured by it
   bool has_canal = false;
   std::vector<BonePicture> pictures;
-  std::vector<MomentPicture> moments;  ///< in order of time
-  std::vector<std::string> remarks;    ///< for people: what is not as it was when it was run again
+  std::vector<MomentPicture> moments;        ///< in order of time
+  std::vector<std::string> remarks;          ///< for people: what is not as it was when it was run again
+  std::optional<TreatmentReview> treatment;  ///< of root canals; none: another operation
 };
 
 /// A session run again once to its end, for its report.
@@ -39,6 +41,7 @@ struct RunAgain {
   BoneLeft left;
   std::vector<std::string> remarks;
   std::function<std::vector<MomentPicture>(const std::vector<ToldMoment>&)> draw;
+  std::string patient_folder = {};  ///< of an imported patient; empty: not named
 };
 
 /// Throws SessionError.

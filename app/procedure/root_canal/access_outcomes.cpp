@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "assets/tissue.h"
 
@@ -38,6 +39,14 @@ std::uint8_t toothPartAt(const ToothBlocks& before, glm::ivec3 ijk) {
       if (assets::isToothPart(before.label(beside))) return before.label(beside);
     }
   return label;
+}
+
+/// Tooth all around in its plane: where it is air, it was cut, now or before the session.
+bool isWithinTooth(const ToothBlocks& before, glm::ivec3 ijk) {
+  constexpr int kAround = 4;
+  for (const auto& [x, y] : {std::pair(0, 0), {kAround, 0}, {-kAround, 0}, {0, kAround}, {0, -kAround}})
+    if (!assets::isToothPart(before.label(ijk + glm::ivec3(x, y, 0)))) return false;
+  return true;
 }
 
 /// The middle of the nearest place of all canals, and how far that is beyond its wall.
@@ -84,8 +93,8 @@ OutlineOutcome outlineOutcome(const ToothBlocks& before, const FineSolid& after,
     const glm::dvec3 p_P = tooth.frame.inP({at, tooth.chamber.roof_mm + kOutlineHeight_mm});
     const glm::ivec3 ijk(glm::floor(before.grid().indexFromPoint(p_P) + 0.5));
     const std::uint8_t label = before.label(ijk);
-    const bool was_tooth =
-        assets::Tissue{label} == assets::Tissue::pulp || (assets::isToothPart(label) && before.at(p_P) >= kSolid);
+    const bool was_tooth = assets::Tissue{label} == assets::Tissue::pulp ||
+                           (assets::isToothPart(label) && before.at(p_P) >= kSolid) || isWithinTooth(before, ijk);
     const bool is_open = was_tooth && after.at(p_P) < kSolid;
     if (is_ideal) out.ideal_mm2 += column_mm2;
     if (is_open) out.opened_mm2 += column_mm2;
@@ -105,7 +114,8 @@ LostTissue lostTissue(const ToothBlocks& before, const FineSolid& after, const a
     (assets::Tissue{label} == assets::Tissue::enamel ? lost.enamel_mm3 : lost.dentine_mm3) += mm3;
     const glm::dvec3 p_P = before.grid().centre_P_mm(ijk), p = tooth.frame.local(p_P);
     const bool is_deep = p.z < tooth.chamber.floor_mm;
-    if (is_deep && besideCanals_mm(tooth, p_P) < kBesideOrifice_mm) return;
+    // Orifices are the files' work.
+    if (p.z < tooth.chamber.floor_mm + kBesideOrifice_mm && besideCanals_mm(tooth, p_P) < kBesideOrifice_mm) return;
     lost.deepest_mm = std::max(lost.deepest_mm, belowCusp_mm(tooth, p_P));
     if (is_deep && p.z > tooth.chamber.floor_mm - kBelowFloor_mm) lost.floor_mm3 += mm3;
   });

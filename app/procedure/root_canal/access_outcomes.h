@@ -16,7 +16,8 @@ struct RoofOutcome {
 };
 RoofOutcome roofOutcome(const FineSolid& after, const assets::ToothCanals& tooth);
 
-/// Half a millimetre over the roof, against the hull of all orifices and 0.5 mm around.
+/// Half a millimetre over the roof, what is open (also what was before the session) against the hull of all orifices
+/// and 0.5 mm around.
 struct OutlineOutcome {
   double ideal_mm2 = 0.0, opened_mm2 = 0.0;
   double too_wide_mm2 = 0.0, missing_mm2 = 0.0;

@@ -14,41 +14,54 @@ constexpr double kPanel = 250.0, kNames = 26.0, kWords = 13.0, kHalf_mm = 3.2;
 constexpr double kPerMm = 0.5 * kPanel / kHalf_mm;
 constexpr Ink kDentine = inkOf(0xf0e2c4);
 
-/// As it lies in a panel, seen towards the apex: the furcation to the right.
+/// As it lies in a panel, seen towards the apex: the furcation to the right. What is farther ends at the panel's edge.
 std::vector<glm::dvec2> shapeOf(const CanalSection& section, const CanalSection::Radii& radii_mm,
-                                const glm::dvec2& centre) {
+                                const glm::dvec2& centre, double half, double half_mm) {
   std::vector<glm::dvec2> shape;
   for (std::size_t ray = 0; ray < radii_mm.size(); ++ray) {
-    const double mm = std::min(radii_mm[ray], 2.0 * kHalf_mm);
     const glm::dvec2 way = section.wayOf(ray);
-    shape.push_back(centre + kPerMm * mm * way);
+    const double most_mm = half_mm / std::max(std::abs(way.x), std::abs(way.y));
+    shape.push_back(centre + half / half_mm * std::min(radii_mm[ray], most_mm) * way);
   }
   return shape;
 }
 
 void drawPanel(const Drawing& drawing, const CanalSection& section, const glm::dvec2& corner) {
-  const glm::dvec2 size(kPanel - 4.0, kPanel - 4.0), centre = corner + 0.5 * size;
-  drawing.inside(corner, size, [&] {
-    drawing.box(corner, size, paper::kFaint);
-    drawing.polygon(shapeOf(section, section.root_mm, centre), kDentine);
-    const bool is_cut = section.after_mm != section.before_mm;
-    drawing.polygon(shapeOf(section, section.after_mm, centre), paper::kWhite);
-    if (is_cut) drawing.path(shapeOf(section, section.after_mm, centre), 2.0, paper::kOrange, true);
-    drawing.path(shapeOf(section, section.before_mm, centre), 1.5, paper::kBlue, true, {4.0, 3.0});
-  });
-  double least_mm = section.wall_mm(0);
-  for (std::size_t ray = 0; ray < CanalSection::kRays; ++ray) least_mm = std::min(least_mm, section.wall_mm(ray));
+  drawSection(drawing, section, corner, kPanel - 4.0, kHalf_mm, 2.0);
   drawing.text(fmt::format("{:g} mm", section.from_foramen_mm), corner + glm::dvec2(8.0, 14.0), kWords, paper::kInk,
                Align::left, true);
-  const double shift_mm = transportation_mm(section);
-  if (std::abs(shift_mm) >= 0.005)
-    drawing.text(fmt::format("moved {:.2f} mm {} the furcation", std::abs(shift_mm), shift_mm > 0.0 ? "to" : "off"),
-                 corner + glm::dvec2(8.0, kPanel - 36.0), kWords, paper::kInk, Align::left);
-  drawing.text(fmt::format("dentine {:.2f} mm", std::max(0.0, least_mm)), corner + glm::dvec2(8.0, kPanel - 18.0),
-               kWords, paper::kInk, Align::left);
+  if (const std::string moved = movedWords(section); !moved.empty())
+    drawing.text(moved, corner + glm::dvec2(8.0, kPanel - 36.0), kWords, paper::kInk, Align::left);
+  drawing.text(fmt::format("dentine {:.2f} mm", std::max(0.0, leastDentine_mm(section))),
+               corner + glm::dvec2(8.0, kPanel - 18.0), kWords, paper::kInk, Align::left);
 }
 
 }  // namespace
+
+double leastDentine_mm(const CanalSection& section) {
+  double least_mm = section.wall_mm(0);
+  for (std::size_t ray = 0; ray < CanalSection::kRays; ++ray) least_mm = std::min(least_mm, section.wall_mm(ray));
+  return least_mm;
+}
+
+std::string movedWords(const CanalSection& section) {
+  const double shift_mm = transportation_mm(section);
+  if (!(std::abs(shift_mm) >= 0.005)) return "";
+  return fmt::format("moved {:.2f} mm {} the furcation", std::abs(shift_mm), shift_mm > 0.0 ? "to" : "off");
+}
+
+void drawSection(const Drawing& drawing, const CanalSection& section, const glm::dvec2& corner, double edge,
+                 double half_mm, double line) {
+  const glm::dvec2 centre = corner + 0.5 * edge;
+  const auto shape = [&](const CanalSection::Radii& radii_mm) {
+    return shapeOf(section, radii_mm, centre, 0.5 * edge, half_mm);
+  };
+  drawing.box(corner, glm::dvec2(edge), paper::kFaint);
+  drawing.polygon(shape(section.root_mm), kDentine);
+  drawing.polygon(shape(section.after_mm), paper::kWhite);
+  if (section.after_mm != section.before_mm) drawing.path(shape(section.after_mm), line, paper::kOrange, true);
+  drawing.path(shape(section.before_mm), 0.75 * line, paper::kBlue, true, {2.0 * line, 1.5 * line});
+}
 
 render::Image sectionPicture(const std::vector<CanalRow>& canals) {
   std::size_t columns = 1;

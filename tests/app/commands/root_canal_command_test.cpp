@@ -45,6 +45,15 @@ TEST_F(RootCanalCommand, FilesACanalAndTellsWhatItHasComeTo) {
   EXPECT_NEAR(canal.at("E7_most_over_mm").get<double>(), 0.0, 0.05);
   EXPECT_EQ(read("s.png").substr(1, 3), "PNG");
   EXPECT_NE(molar("metrics " + at("s.molar")).out.find("Root canals of tooth 45"), std::string::npos);
+
+  // The same as a page, with the films of the tooth within its jaw.
+  const ProgramOutput reported = molar("report " + at("s.molar") + " --out " + at("s.html"));
+  ASSERT_EQ(reported.status, 0) << reported.err;
+  const std::string page = read("s.html");
+  for (const char* words : {"<b>No</b>: File separated", "E4 wall untouched", "Shape of each canal",
+                            "tube 20° to distal: before, after", "within the jaw"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("lingual plate"), std::string::npos) << "of an extraction";
 }
 
 TEST_F(RootCanalCommand, GoesOnWhereItEnded) {

@@ -73,6 +73,15 @@ TEST(AccessOutcomes, TheRoofThatIsLeftIsItsRing) {
   EXPECT_EQ(roofOutcome(cut([](const glm::dvec3& p) { return opening(p, 1.7); }), tooth()).removed, 1.0);
 }
 
+TEST(AccessOutcomes, AnOutlineThatWasOpenFromTheBeginningCounts) {
+  const auto open = [](const glm::dvec3& p) { return std::min(wholeTooth(p), -opening(p, 1.0)); };
+  const ToothBlocks opened(shapes::ShapeTooth(grid(), open, tissueOf));
+  const OutlineOutcome out = outlineOutcome(opened, ShapeSolid(grid(), open), tooth());
+  EXPECT_NEAR(out.opened_mm2, kPi, 0.05);
+  EXPECT_EQ(out.missing_mm2, 0.0);
+  EXPECT_NEAR(out.too_wide_mm2, kPi - out.ideal_mm2, 0.05);
+}
+
 TEST(AccessOutcomes, AnOutlineIsComparedWithHalfAMillimetreAroundTheOrifice) {
   const OutlineOutcome wide =
       outlineOutcome(before(), cut([](const glm::dvec3& p) { return opening(p, 1.0); }), tooth());

@@ -1,4 +1,4 @@
-#include "app/commands/treatment_metrics.h"
+#include "app/review/treatment_text.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,9 +7,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/procedure/root_canal/dense_tooth.h"
 #include "app/procedure/root_canal/section_picture.h"
-#include "app/session/session_reader.h"
 
 namespace app {
 namespace {
@@ -18,23 +16,6 @@ double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
 nlohmann::ordered_json numberOrNull(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-}
-
-FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
-  FileUse files(tooth);
-  const std::vector<SessionCommand> commands = session.commands();
-  std::size_t next = 0;
-  int size = 0;
-  for (;;) {
-    const TickBlock block = session.nextBlock();
-    if (block.ticks.empty()) break;
-    for (const haptics::Tick& tick : block.ticks) {
-      for (; next < commands.size() && commands[next].first_tick <= tick.index; ++next)
-        size = static_cast<int>(commands[next].command.tool.file.size);
-      files.add(tick, size);
-    }
-  }
-  return files;
 }
 
 nlohmann::ordered_json sectionJson(const CanalSection& section) {
@@ -73,19 +54,6 @@ nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
 }
 
 }  // namespace
-
-std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path) {
-  SessionReader session(path);
-  if (!session.about().setup.canals) return {};
-  const StoredStart start = session.start();
-  const auto end = session.finalBone(start);
-  if (!end) return {};
-  TreatmentOfSession of{*start.setup.canals, {}};
-  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
-  const DenseSolid after(start.grid, end->solid);
-  of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth));
-  return of;
-}
 
 std::string treatmentJson(const TreatmentOfSession& of) {
   const Treatment& all = of.treatment;

@@ -1,0 +1,33 @@
+// Periapical radiographs of a treated tooth as it was and as it is left, from one side after the other: the tube
+// straight and shifted by 20 degrees to either side, which parts two canals of one root. Within the jaw where it is
+// known, else of the volume that was treated alone. Frame P, mm. Any one thread; some 0.3 s a film.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "app/session/session_start.h"
+#include "assets/ct_volume.h"
+#include "render/image.h"
+
+namespace app {
+
+inline constexpr std::array<double, 3> kTubeShifts_deg{0.0, 20.0, -20.0};
+
+struct FilmPair {
+  double shift_deg = 0.0;  ///< towards mesial
+  render::Image before, after;
+};
+
+struct TreatmentFilms {
+  std::vector<FilmPair> pairs;
+  bool in_jaw = false;
+};
+
+/// `start`: of a session with canals; `jaw`: the scan that its tooth is of, null or without that tooth: not known.
+TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
+                              const assets::CtVolume* jaw);
+
+}  // namespace app

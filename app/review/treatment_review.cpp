@@ -1,0 +1,48 @@
+#include "app/review/treatment_review.h"
+
+#include <vector>
+
+#include "app/procedure/root_canal/dense_tooth.h"
+
+namespace app {
+namespace {
+
+FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
+  session.rewind();
+  FileUse files(tooth);
+  const std::vector<SessionCommand> commands = session.commands();
+  std::size_t next = 0;
+  int size = 0;
+  for (;;) {
+    const TickBlock block = session.nextBlock();
+    if (block.ticks.empty()) break;
+    for (const haptics::Tick& tick : block.ticks) {
+      for (; next < commands.size() && commands[next].first_tick <= tick.index; ++next)
+        size = static_cast<int>(commands[next].command.tool.file.size);
+      files.add(tick, size);
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, const StoredStart& start,
+                                                     std::span<const std::uint8_t> solid_after) {
+  if (!start.setup.canals) return {};
+  TreatmentOfSession of{*start.setup.canals, {}};
+  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
+  const DenseSolid after(start.grid, solid_after);
+  of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth));
+  return of;
+}
+
+std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path) {
+  SessionReader session(path);
+  if (!session.about().setup.canals) return {};
+  const StoredStart start = session.start();
+  const auto end = session.finalBone(start);
+  return end ? treatmentOfSession(session, start, end->solid) : std::nullopt;
+}
+
+}  // namespace app

@@ -1,0 +1,27 @@
+// What a recorded root-canal treatment has come to, read from its session. Frame P, mm. Any one thread; a second or
+// two. Throws SessionError.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "app/procedure/root_canal/treatment.h"
+#include "app/session/session_reader.h"
+#include "assets/tooth_canals.h"
+
+namespace app {
+
+struct TreatmentOfSession {
+  assets::ToothCanals tooth;
+  Treatment treatment;
+};
+
+/// None: the session is of another operation, or its bone at the end is not known.
+std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path);
+/// The same with a bone that is known, in the order of the grid. `start`: that of the session, which is rewound.
+std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, const StoredStart& start,
+                                                     std::span<const std::uint8_t> solid_after);
+
+}  // namespace app
