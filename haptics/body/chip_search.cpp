@@ -125,11 +125,11 @@ void ChipSearch::addChips(std::size_t bone, ChipPlan& plan) {
     if (plan.chips.size() == kMostChips) break;
     Chip chip{bone, 0, 0.0, now.pieces()[piece].centroid_mm, voxels.front()};
     for (const auto& [v, voxel] : bytesOfChip(now, voxels)) {
-      const std::size_t at = lattice.offsetOf(voxel.first), number = at / kBlockVoxels;
+      const std::size_t number = lattice.blockAt(SolidField::blockOf(voxel.first));
       SplitPlan::Block& block = blocks[number];
       block.block = static_cast<std::uint32_t>(number);
       // A film between two chips goes with the first.
-      if (std::exchange(block.given[at % kBlockVoxels], voxel.second) == 0) chip.bytes += voxel.second;
+      if (std::exchange(block.given[SolidField::within(voxel.first)], voxel.second) == 0) chip.bytes += voxel.second;
     }
     chip.volume_mm3 = chip.bytes * now.grid().voxelVolume_mm3() / 255.0;
     plan.chips.push_back(chip);

@@ -35,10 +35,10 @@ SplitPlan splitPlan(const assets::VolumeGrid& grid, std::span<const std::uint8_t
   std::map<std::size_t, SplitPlan::Block> blocks;
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     if (bytes[v] == 0) return;
-    const std::size_t at = lattice.offsetOf(ijk), block = at / kBlockVoxels;
+    const std::size_t block = lattice.blockAt(SolidField::blockOf(ijk));
     SplitPlan::Block& planned = blocks[block];
     planned.block = static_cast<std::uint32_t>(block);
-    planned.given[at % kBlockVoxels] = bytes[v];
+    planned.given[SolidField::within(ijk)] = bytes[v];
   });
   SplitPlan plan;
   for (const auto& [number, block] : blocks) plan.blocks.push_back(block);

@@ -141,7 +141,8 @@ class Cutter {
         const int ahead = (phase_ + interleave_ - (first.x + y + z) % interleave_) % interleave_;
         const std::size_t row = field.blockAt({0, y, z});
         for (int x = first.x + ahead; x <= last.x; x += interleave_) {
-          if (field.weight[row + static_cast<std::size_t>(x)] == 0 || !shape.of({x, y, z}, cut_)) continue;
+          const std::size_t slot = field.slotOf(row + static_cast<std::size_t>(x));
+          if (field.weight[slot] == 0 || !shape.of({x, y, z}, cut_)) continue;
           bone_.cutBlock({x, y, z}, cut_, steps_, strokes_);
         }
       }

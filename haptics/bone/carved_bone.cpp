@@ -31,11 +31,12 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
   const History uncut{};
   std::size_t with_bone = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
-    if (at.weight[block] == 0) continue;
+    const std::size_t slot = at.slotOf(block);
+    if (at.weight[slot] == 0) continue;
     ++with_bone;
-    solid_steps_ += at.weight[block];
+    solid_steps_ += at.weight[slot];
     addToDigest(calibration::mixedBits(block + 1),
-                blockDigest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
+                blockDigest(at.solid + slot * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
   }
   history_of_.assign(blocks, 0);
   written_.assign((blocks + 63) / 64, 0);
@@ -56,7 +57,8 @@ CarvedBone::History* CarvedBone::historyOf(std::size_t block) {
     if (histories_used_ == histories_most_) return nullptr;
     History& fresh = histories_[histories_used_++];
     history_of_[block] = static_cast<std::uint32_t>(histories_used_);
-    const std::uint8_t* solid = field().solid + block * kBlockVoxels;
+    const SolidField at = field();
+    const std::uint8_t* solid = at.solid + at.slotOf(block) * kBlockVoxels;
     std::copy(solid, solid + kBlockVoxels, fresh.first.begin());
     fresh.reach.fill(0);
     fresh.dose.fill(0);
@@ -67,10 +69,10 @@ CarvedBone::History* CarvedBone::historyOf(std::size_t block) {
 bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
                           std::array<std::int64_t, assets::kTissueCount>& steps, StrokeHistory* strokes) {
   const SolidField at = field();
-  const std::size_t block = at.blockAt(block_ijk), start = block * kBlockVoxels;
+  const std::size_t block = at.blockAt(block_ijk), slot = at.slotOf(block), start = slot * kBlockVoxels;
   const std::uint8_t* const before = at.solid + start;
   const std::uint64_t key = calibration::mixedBits(block + 1);
-  const bool mixed_labels = at.only_label[block] == kMixedLabels;
+  const bool mixed_labels = at.only_label[slot] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
   saveTo(strokes, block);
@@ -123,7 +125,7 @@ CarvedBone CarvedBone::emptied(const assets::VolumeGrid& grid, std::span<const s
   CarvedBone empty(grid, solid, label);
   const SolidField at = empty.field();
   for (std::size_t block = 0; block < empty.blocks(); ++block) {
-    if (at.weight[block] == 0) continue;
+    if (at.weight[at.slotOf(block)] == 0) continue;
     BlockState gone;
     if (empty.historyOf(block) != nullptr) gone.dose.fill(kFullDose);
     empty.restoreBlock(block, gone);
@@ -185,7 +187,8 @@ std::int64_t CarvedBone::loseBlock(std::size_t block, std::span<const std::uint8
 
 BlockState CarvedBone::stateOf(std::size_t block) const {
   BlockState state;
-  const std::uint8_t* const solid = field().solid + block * kBlockVoxels;
+  const SolidField at = field();
+  const std::uint8_t* const solid = at.solid + at.slotOf(block) * kBlockVoxels;
   std::copy(solid, solid + kBlockVoxels, state.solid.begin());
   if (history_of_[block] != 0) {
     const History& history = histories_[history_of_[block] - 1];
@@ -210,10 +213,11 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
   if (state.solid == now.solid) return 0;
 
   const SolidField at = field();
+  const std::size_t start = at.slotOf(block) * kBlockVoxels;
   std::int64_t steps = 0;
   for (std::size_t n = 0; n < kBlockVoxels; ++n) {
     const int more = state.solid[n] - now.solid[n];
-    removed_steps_[tissueOf(at, block * kBlockVoxels + n)] -= more;
+    removed_steps_[tissueOf(at, start + n)] -= more;
     steps += more;
   }
   solid_steps_ += steps;

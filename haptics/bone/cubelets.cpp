@@ -34,9 +34,17 @@ Cubelets::Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t>
 }
 
 SolidField Cubelets::field() const {
-  return {grid_,          blocks_,           solid_.data(),    label_.empty() ? nullptr : label_.data(),
-          weight_.data(), weight_x_.data(),  weight_y_.data(), weight_z_.data(),
-          grey_.data(),   only_label_.data()};
+  return {grid_,
+          blocks_,
+          nullptr,
+          solid_.data(),
+          label_.empty() ? nullptr : label_.data(),
+          weight_.data(),
+          weight_x_.data(),
+          weight_y_.data(),
+          weight_z_.data(),
+          grey_.data(),
+          only_label_.data()};
 }
 
 void Cubelets::sumBlock(std::size_t block, const std::uint8_t* solid) {

@@ -1,6 +1,7 @@
 // A view of a solid-fraction field: the live bone, or any volume passed to `molar feel`. Frame P, mm. The arrays belong
-// to bone/cubelets, whose header draws their layout, and must outlive the view. Outside the grid is air. Trivially
-// copyable.
+// to bone/cubelets, whose header draws their layout, and must outlive the view. Blocks have a number, by their place in
+// the grid, and a slot, by which the arrays are read; several blocks may share a slot. Outside the grid is air.
+// Trivially copyable.
 #pragma once
 
 #include <cmath>
@@ -16,9 +17,10 @@ inline constexpr std::uint8_t kMixedLabels = 255;
 
 struct SolidField {
   assets::VolumeGrid grid;
-  glm::ivec3 blocks{0};                 ///< along i, j, k
-  const std::uint8_t* solid = nullptr;  ///< 0..255 = fraction of the voxel that is solid
-  const std::uint8_t* label = nullptr;  ///< assets::Tissue, same order; null: unlabelled
+  glm::ivec3 blocks{0};                    ///< along i, j, k
+  const std::uint32_t* slot_of = nullptr;  ///< by block; null: every block's slot is its own number
+  const std::uint8_t* solid = nullptr;     ///< 0..255 = fraction of the voxel that is solid
+  const std::uint8_t* label = nullptr;     ///< assets::Tissue, same order; null: unlabelled
   const std::uint16_t *weight = nullptr, *weight_x = nullptr, *weight_y = nullptr, *weight_z = nullptr;
   const std::uint32_t* grey = nullptr;
   const std::uint8_t* only_label = nullptr;
@@ -29,11 +31,15 @@ struct SolidField {
                static_cast<std::size_t>(blocks.x) +
            static_cast<std::size_t>(block.x);
   }
-  /// Index of a voxel of the grid in `solid` and `label`.
-  std::size_t offsetOf(glm::ivec3 ijk) const {
-    const int within = (ijk.z & 3) * 16 + (ijk.y & 3) * 4 + (ijk.x & 3);
-    return blockAt({ijk.x >> 2, ijk.y >> 2, ijk.z >> 2}) * kBlockVoxels + static_cast<std::size_t>(within);
+  static glm::ivec3 blockOf(glm::ivec3 ijk) { return {ijk.x >> 2, ijk.y >> 2, ijk.z >> 2}; }
+  /// Of a voxel among the 64 of its block.
+  static std::size_t within(glm::ivec3 ijk) {
+    return static_cast<std::size_t>((ijk.z & 3) * 16 + (ijk.y & 3) * 4 + (ijk.x & 3));
   }
+  std::size_t slotOf(std::size_t block) const { return slot_of == nullptr ? block : slot_of[block]; }
+  std::size_t slotAt(glm::ivec3 block) const { return slotOf(blockAt(block)); }
+  /// Index of a voxel of the grid in `solid` and `label`.
+  std::size_t offsetOf(glm::ivec3 ijk) const { return slotAt(blockOf(ijk)) * kBlockVoxels + within(ijk); }
   std::uint8_t solidAt(glm::ivec3 ijk) const { return solid[offsetOf(ijk)]; }
   std::uint8_t labelAt(glm::ivec3 ijk) const { return label == nullptr ? std::uint8_t{0} : label[offsetOf(ijk)]; }
 };

@@ -18,6 +18,14 @@ double interpolated(const std::uint8_t* lowest, std::size_t dx, std::size_t dy, 
   return a + part.z * (b - a);
 }
 
+/// The same where blocks that touch may lie anywhere.
+double interpolatedBySlots(const SolidField& field, const glm::ivec3& low, const glm::dvec3& part) {
+  std::array<std::uint8_t, 8> byte;
+  for (int n = 0; n < 8; ++n)
+    byte[static_cast<std::size_t>(n)] = field.solidAt(low + glm::ivec3(n & 1, (n >> 1) & 1, n >> 2));
+  return interpolated(byte.data(), 1, 2, 4, part);
+}
+
 /// The same where some of the eight lie outside the grid.
 double interpolatedAtBorder(const SolidField& field, const glm::ivec3& low, const glm::dvec3& part) {
   double sum = 0.0;
@@ -35,6 +43,16 @@ std::size_t stepFrom(int index, std::size_t within, std::size_t block) {
   return (index & 3) != 3 ? within : block - 3 * within;
 }
 
+/// At the grid's border, and where blocks have slots.
+[[gnu::noinline]] FieldSample sampleByVoxels(const SolidField& field, const glm::ivec3& low, const glm::dvec3& part,
+                                             bool inside) {
+  const double sum = inside ? interpolatedBySlots(field, low, part) : interpolatedAtBorder(field, low, part);
+  if (sum <= 0.0) return {};
+  if (field.label == nullptr) return {sum / 255.0, 0};
+  const glm::ivec3 up(part.x >= 0.5, part.y >= 0.5, part.z >= 0.5);
+  return {sum / 255.0, field.labelAt(glm::clamp(low + up, glm::ivec3(0), field.grid.size - 1))};
+}
+
 [[gnu::always_inline]] inline FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
   const glm::ivec3 size = field.grid.size;
   // Also false for NaN.
@@ -47,19 +65,17 @@ std::size_t stepFrom(int index, std::size_t within, std::size_t block) {
   const glm::dvec3 part(index.x - low.x, index.y - low.y, index.z - low.z);
   const bool inside =
       low.x >= 0 && low.y >= 0 && low.z >= 0 && low.x + 1 < size.x && low.y + 1 < size.y && low.z + 1 < size.z;
-  double sum = 0.0;
-  if (inside) {
-    const auto blocks_x = static_cast<std::size_t>(field.blocks.x), blocks_y = static_cast<std::size_t>(field.blocks.y);
-    sum = interpolated(field.solid + field.offsetOf(low), stepFrom(low.x, 1, kBlockVoxels),
-                       stepFrom(low.y, 4, kBlockVoxels * blocks_x),
-                       stepFrom(low.z, 16, kBlockVoxels * blocks_x * blocks_y), part);
-  } else {
-    sum = interpolatedAtBorder(field, low, part);
-  }
+  if (!inside || field.slot_of != nullptr) return sampleByVoxels(field, low, part, inside);
+
+  const auto blocks_x = static_cast<std::size_t>(field.blocks.x), blocks_y = static_cast<std::size_t>(field.blocks.y);
+  const std::size_t lowest = field.blockAt(SolidField::blockOf(low)) * kBlockVoxels + SolidField::within(low);
+  const std::size_t dx = stepFrom(low.x, 1, kBlockVoxels), dy = stepFrom(low.y, 4, kBlockVoxels * blocks_x),
+                    dz = stepFrom(low.z, 16, kBlockVoxels * blocks_x * blocks_y);
+  const double sum = interpolated(field.solid + lowest, dx, dy, dz, part);
   if (sum <= 0.0) return {};
   if (field.label == nullptr) return {sum / 255.0, 0};
-  const glm::ivec3 up(part.x >= 0.5, part.y >= 0.5, part.z >= 0.5);
-  return {sum / 255.0, field.labelAt(glm::clamp(low + up, glm::ivec3(0), size - 1))};
+  const std::size_t nearest = lowest + (part.x >= 0.5 ? dx : 0) + (part.y >= 0.5 ? dy : 0) + (part.z >= 0.5 ? dz : 0);
+  return {sum / 255.0, field.label[nearest]};
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ class HarmonicSum {
       for (int j = first.y; j <= last.y; ++j)
         for (int i = first.x; i <= last.x; ++i) {
           const glm::ivec3 block(i, j, k);
-          const std::size_t at = field_.blockAt(block);
+          const std::size_t at = field_.slotAt(block);
           if (field_.weight[at] == 0) continue;
           // Nearest and farthest voxel of the block.
           const glm::dvec3 low = glm::dvec3(4 * block) - reach_.centre, high = low + 3.0;
@@ -153,22 +153,22 @@ class HarmonicSum {
   }
 
  private:
-  void addFar(const glm::dvec3& low, std::size_t block) {
-    const double weight = field_.weight[block];
+  void addFar(const glm::dvec3& low, std::size_t slot) {
+    const double weight = field_.weight[slot];
     const glm::dvec3 from =
-        low + glm::dvec3(field_.weight_x[block], field_.weight_y[block], field_.weight_z[block]) / weight;
+        low + glm::dvec3(field_.weight_x[slot], field_.weight_y[slot], field_.weight_z[slot]) / weight;
     const double d2 = glm::dot(from, from);
-    force_ += weight * tissue_.of(field_.only_label[block]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
+    force_ += weight * tissue_.of(field_.only_label[slot]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
   }
 
-  void addVoxels(const glm::dvec3& low, std::size_t block) {
-    const std::uint8_t* solid = field_.solid + kBlockVoxels * block;
+  void addVoxels(const glm::dvec3& low, std::size_t slot) {
+    const std::uint8_t* solid = field_.solid + kBlockVoxels * slot;
     alignas(64) BlockWeights weight;
-    if (field_.only_label[block] != kMixedLabels) {
-      const auto factor = static_cast<float>(tissue_.of(field_.only_label[block]));
+    if (field_.only_label[slot] != kMixedLabels) {
+      const auto factor = static_cast<float>(tissue_.of(field_.only_label[slot]));
       for (std::size_t n = 0; n < kBlockVoxels; ++n) weight[n] = factor * static_cast<float>(solid[n]);
     } else {
-      const std::uint8_t* label = field_.label + kBlockVoxels * block;
+      const std::uint8_t* label = field_.label + kBlockVoxels * slot;
       for (std::size_t n = 0; n < kBlockVoxels; ++n)
         weight[n] = static_cast<float>(tissue_.of(label[n])) * static_cast<float>(solid[n]);
     }

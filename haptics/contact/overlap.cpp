@@ -50,7 +50,8 @@ SphereOverlap sphereOverlap(const SolidField& field, const Point<Patient>& centr
   if (boxOf(field, centre, radius + kVoxelSphereRadius).empty()) return {};
 
   const LensCurve curve(radius);
-  SphereSumsInput in{field.solid,
+  SphereSumsInput in{field.slot_of,
+                     field.solid,
                      tissue == nullptr ? nullptr : field.label,
                      field.weight,
                      field.weight_x,

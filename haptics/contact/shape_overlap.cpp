@@ -33,11 +33,11 @@ class Neighbourhood {
       const glm::ivec3 at = block + kOffset[n];
       const bool there = at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < field.blocks.x && at.y < field.blocks.y &&
                          at.z < field.blocks.z;
-      const std::size_t index = there ? field.blockAt(at) : 0;
-      const int weight = there ? field.weight[index] : 0;
-      solid_[n] = weight != 0 ? field.solid + index * kBlockVoxels : kAir.data();
+      const std::size_t slot = there ? field.slotAt(at) : 0;
+      const int weight = there ? field.weight[slot] : 0;
+      solid_[n] = weight != 0 ? field.solid + slot * kBlockVoxels : kAir.data();
       total += weight;
-      if (n == 0) index_ = index, weight_ = weight;
+      if (n == 0) slot_ = slot, weight_ = weight;
     }
     empty_ = total == 0;
     even_ = empty_ || total == kBlocks * kFullBlock;
@@ -48,7 +48,7 @@ class Neighbourhood {
   bool even() const { return even_; }
   bool airInside() const { return weight_ == 0; }
   int weight() const { return weight_; }
-  std::size_t index() const { return index_; }
+  std::size_t slot() const { return slot_; }
   const std::uint8_t* solid() const { return solid_[0]; }
 
   /// Difference of every voxel's neighbours along i, j, k.
@@ -79,7 +79,7 @@ class Neighbourhood {
   const SolidField& field_;
   glm::ivec3 block_;
   std::array<const std::uint8_t*, kBlocks> solid_;
-  std::size_t index_ = 0;
+  std::size_t slot_ = 0;
   int weight_ = 0;
   bool empty_ = true, even_ = true;
 };
@@ -148,9 +148,9 @@ class BlockSums {
   bool isAir(const Range& row, int j, int k) const {
     if (j < 0 || k < 0 || j >= field_.blocks.y || k >= field_.blocks.z) return true;
     const int first = std::max(row.first - 1, 0), last = std::min(row.last + 1, field_.blocks.x - 1);
-    const std::uint16_t* weight = field_.weight + field_.blockAt({0, j, k});
+    const std::size_t blocks = field_.blockAt({0, j, k});
     unsigned any = 0;
-    for (int i = first; i <= last; ++i) any |= weight[i];
+    for (int i = first; i <= last; ++i) any |= field_.weight[field_.slotOf(blocks + static_cast<std::size_t>(i))];
     return any == 0;
   }
 
@@ -168,7 +168,7 @@ class BlockSums {
 
   /// Every voxel counts whole: uses the block's sums (reference/physics 5).
   void addWhole(const Neighbourhood& around, const glm::dvec3& corner) {
-    const std::size_t at = around.index();
+    const std::size_t at = around.slot();
     if (!around.airInside()) {
       const double weight = around.weight();
       sums_.volume += weight;
@@ -200,7 +200,7 @@ class BlockSums {
       block.only_factor = static_cast<float>(*only);
     } else {
       for (std::size_t n = 0; n < kBlockVoxels; ++n)
-        factor_[n] = static_cast<float>(tissue_.of(field_.label[around.index() * kBlockVoxels + n]));
+        factor_[n] = static_cast<float>(tissue_.of(field_.label[around.slot() * kBlockVoxels + n]));
       block.factor = factor_.data();
     }
     const HeadSums cut = bur_.hasKernel() ? sumUnderHead(head_, block) : sumInParts(block, corner);
@@ -240,14 +240,14 @@ class BlockSums {
   /// Of a block with one tissue.
   std::optional<double> onlyFactor(const Neighbourhood& around) const {
     if (field_.label == nullptr || around.airInside()) return tissue_.factor[0];
-    const std::uint8_t only = field_.only_label[around.index()];
+    const std::uint8_t only = field_.only_label[around.slot()];
     return only == kMixedLabels ? std::nullopt : std::optional(tissue_.of(only));
   }
   double stiffOf(const Neighbourhood& around) const {
     if (const auto only = onlyFactor(around)) return around.weight() * *only;
     double sum = 0.0;
     for (std::size_t n = 0; n < kBlockVoxels; ++n)
-      sum += around.solid()[n] * tissue_.of(field_.label[around.index() * kBlockVoxels + n]);
+      sum += around.solid()[n] * tissue_.of(field_.label[around.slot() * kBlockVoxels + n]);
     return sum;
   }
 

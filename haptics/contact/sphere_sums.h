@@ -15,6 +15,7 @@ inline constexpr double kMaxSumRadius = 130.0;
 inline constexpr double kFactorSteps = 65536.0;
 
 struct SphereSumsInput {
+  const std::uint32_t* slot_of;  ///< by block; null: the block's number
   const std::uint8_t* solid;
   const std::uint8_t* label;  ///< null: every factor is 1
   const std::uint16_t *weight, *weight_x, *weight_y, *weight_z;

@@ -35,7 +35,7 @@ inline Reach reachOf(float first) {
   return {mostOf(0.0f, mostOf(first, -last)), mostOf(magnitude(first), magnitude(last))};
 }
 
-template <int kCoefficients, bool kLabels>
+template <int kCoefficients, bool kLabels, bool kIndexed>
 class SphereSum {
  public:
   explicit SphereSum(const SphereSumsInput& in) : in_(in) {
@@ -109,13 +109,14 @@ class SphereSum {
   void addWhole(std::int64_t row, int first, int last, int by, int bz, SphereSums& out) const {
     std::uint32_t weight = 0, along = 0, x = 0, y = 0, z = 0, grey = 0;
     for (int b = first; b <= last; ++b) {
-      const std::uint32_t w = in_.weight[row + b];
+      const std::int64_t slot = slotOf(row + b);
+      const std::uint32_t w = in_.weight[slot];
       weight += w;
       along += w * static_cast<std::uint32_t>(b - first);
-      x += in_.weight_x[row + b];
-      y += in_.weight_y[row + b];
-      z += in_.weight_z[row + b];
-      grey += in_.grey[row + b];
+      x += in_.weight_x[slot];
+      y += in_.weight_y[slot];
+      z += in_.weight_z[slot];
+      grey += in_.grey[slot];
     }
     const std::int64_t total = weight;
     out.weight += total;
@@ -124,16 +125,23 @@ class SphereSum {
     out.z += 4 * total * bz + z;
     out.grey += grey;
     if constexpr (kLabels)
-      for (int b = first; b <= last; ++b) out.stiff_steps += stiffStepsOf(row + b);
+      for (int b = first; b <= last; ++b) out.stiff_steps += stiffStepsOf(slotOf(row + b));
   }
 
-  std::int64_t stiffStepsOf(std::int64_t block) const {
-    const std::uint8_t only = in_.only_label[block];
-    if (only != 255) return static_cast<std::int64_t>(in_.weight[block]) * in_.factor_steps[only];
-    if (in_.weight[block] == 0) return 0;
+  std::int64_t slotOf(std::int64_t block) const {
+    if constexpr (kIndexed)
+      return in_.slot_of[block];
+    else
+      return block;
+  }
+
+  std::int64_t stiffStepsOf(std::int64_t slot) const {
+    const std::uint8_t only = in_.only_label[slot];
+    if (only != 255) return static_cast<std::int64_t>(in_.weight[slot]) * in_.factor_steps[only];
+    if (in_.weight[slot] == 0) return 0;
     std::int64_t steps = 0;
     for (int n = 0; n < 64; ++n)
-      steps += static_cast<std::int64_t>(in_.solid[64 * block + n]) * in_.factor_steps[in_.label[64 * block + n]];
+      steps += static_cast<std::int64_t>(in_.solid[64 * slot + n]) * in_.factor_steps[in_.label[64 * slot + n]];
     return steps;
   }
 
@@ -141,8 +149,9 @@ class SphereSum {
   void addPlanes(std::int64_t row, int from, int to, int n, const Lanes& tyz, Lanes& caps) {
     const Lanes none = all(0.0f), full = all(2.0f), solid = all(255.0f);
     for (int b = from; b <= to; ++b) {
-      if (in_.weight[row + b] == 0) continue;
-      const std::int64_t plane = 64 * (row + b) + 16 * n;
+      const std::int64_t slot = slotOf(row + b);
+      if (in_.weight[slot] == 0) continue;
+      const std::int64_t plane = 64 * slot + 16 * n;
       const Lanes w = load(in_.solid + plane);
       const Lanes t = clamped(load(tx_[b - first_[0]]) + tyz, none, full);
       const Lanes t2w = t * t * w;
@@ -154,13 +163,13 @@ class SphereSum {
       grey_ = timesPlus(lens, solid - w, grey_);
       x_ = timesPlus(moment, load(dx_[b - first_[0]]), x_);
       caps = caps + moment;
-      if constexpr (kLabels) stiff_ = timesPlus(lens, factorsOf(row + b, plane), stiff_);
+      if constexpr (kLabels) stiff_ = timesPlus(lens, factorsOf(slot, plane), stiff_);
     }
   }
 
-  Lanes factorsOf(std::int64_t block, std::int64_t plane) const {
+  Lanes factorsOf(std::int64_t slot, std::int64_t plane) const {
     constexpr float kStep = 1.0f / static_cast<float>(kFactorSteps);
-    const std::uint8_t only = in_.only_label[block];
+    const std::uint8_t only = in_.only_label[slot];
     if (only != 255) return all(static_cast<float>(in_.factor_steps[only]) * kStep);
     float factor[16];
     for (int lane = 0; lane < 16; ++lane)
@@ -185,23 +194,31 @@ class SphereSum {
   alignas(64) float tx_[kMaxBlocksAcross][16];
 };
 
-template <int kCoefficients>
+template <int kCoefficients, bool kIndexed>
 inline void sumSphereWith(const SphereSumsInput& in, SphereSums& out) {
   if (in.label != nullptr)
-    SphereSum<kCoefficients, true>(in).sumInto(out);
+    SphereSum<kCoefficients, true, kIndexed>(in).sumInto(out);
   else
-    SphereSum<kCoefficients, false>(in).sumInto(out);
+    SphereSum<kCoefficients, false, kIndexed>(in).sumInto(out);
+}
+
+template <bool kIndexed>
+inline void sumSphereOf(const SphereSumsInput& in, SphereSums& out) {
+  if (in.coefficients <= 4)
+    sumSphereWith<4, kIndexed>(in, out);
+  else if (in.coefficients <= 5)
+    sumSphereWith<5, kIndexed>(in, out);
+  else if (in.coefficients <= 6)
+    sumSphereWith<6, kIndexed>(in, out);
+  else
+    sumSphereWith<8, kIndexed>(in, out);
 }
 
 inline void sumSphere(const SphereSumsInput& in, SphereSums& out) {
-  if (in.coefficients <= 4)
-    sumSphereWith<4>(in, out);
-  else if (in.coefficients <= 5)
-    sumSphereWith<5>(in, out);
-  else if (in.coefficients <= 6)
-    sumSphereWith<6>(in, out);
+  if (in.slot_of != nullptr)
+    sumSphereOf<true>(in, out);
   else
-    sumSphereWith<8>(in, out);
+    sumSphereOf<false>(in, out);
 }
 
 }  // namespace

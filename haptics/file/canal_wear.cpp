@@ -72,9 +72,9 @@ double pressedOn(const PressedSection& section, const SolidField& field, ivec3 b
   const double around_mm = std::numbers::sqrt3 * kHalfBlock * s, far_mm = at.radius_mm + s + around_mm;
   if (std::fabs(beside) > half_mm + around_mm || across2 > far_mm * far_mm) return 0.0;
 
-  const std::size_t number = field.blockAt(block);
-  const std::uint8_t* const solid = field.solid + number * kBlockVoxels;
-  const std::uint8_t* const label = field.label == nullptr ? nullptr : field.label + number * kBlockVoxels;
+  const std::size_t start = field.slotAt(block) * kBlockVoxels;
+  const std::uint8_t* const solid = field.solid + start;
+  const std::uint8_t* const label = field.label == nullptr ? nullptr : field.label + start;
   double sum = 0.0;
   for (int v = 0; v < kBlockVoxels; ++v) {
     const auto n = static_cast<std::size_t>(v);
@@ -196,7 +196,7 @@ CarveResult CanalWear::take(const FileLaw& law, const SectionPlace& at, Section&
   std::size_t count = 0;
   double yield = 0.0;
   assets::forVoxels(box.first / kBlockEdge, box.last / kBlockEdge + 1, [&](ivec3 block) {
-    if (count == kMostBlocks || field.weight[field.blockAt(block)] == 0) return;
+    if (count == kMostBlocks || field.weight[field.slotAt(block)] == 0) return;
     const double sum = pressedOn(pressed, field, block, blocks[count]);
     if (!(sum > 0.0)) return;
     yield += sum;

@@ -65,7 +65,8 @@ bool cast(const FileLaw& law, const SolidField& wall, const SectionPlace& at, co
   section.step = static_cast<float>(step_mm * per_mm);
   section.flat_face = static_cast<float>(law.flat_face_voxels);
   section.samples = std::clamp(static_cast<int>(std::lround(law.ray_reach_mm / step_mm)), 1, kMostSamples);
-  const WallVoxels voxels{wall.solid,
+  const WallVoxels voxels{wall.slot_of,
+                          wall.solid,
                           {wall.grid.size.x, wall.grid.size.y, wall.grid.size.z},
                           {wall.blocks.x, wall.blocks.y, wall.blocks.z}};
   return castRays(voxels, section, out);

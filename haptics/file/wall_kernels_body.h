@@ -29,17 +29,16 @@ inline Floats loaded(const float* from) {
 }
 inline void kept(const Floats& v, float* to) { std::memcpy(to, &v, sizeof v); }
 
-inline void gather(const std::uint8_t* bytes, const Ints& word, Words& out) {
+inline void gather(const void* from, const Ints& word, Words& out) {
 #if defined(__AVX512F__)
-  out = reinterpret_cast<Words>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(word), bytes, 4));
+  out = reinterpret_cast<Words>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(word), from, 4));
 #elif defined(__AVX2__)
-  const void* const from = bytes;
   out = reinterpret_cast<Words>(
       _mm256_i32gather_epi32(static_cast<const int*>(from), reinterpret_cast<__m256i>(word), 4));
 #else
   for (int n = 0; n < kWide; ++n) {
     std::uint32_t one;
-    std::memcpy(&one, bytes + 4 * static_cast<std::size_t>(word[n]), 4);
+    std::memcpy(&one, static_cast<const std::uint8_t*>(from) + 4 * static_cast<std::size_t>(word[n]), 4);
     out[n] = one;
   }
 #endif
@@ -93,6 +92,24 @@ inline Floats weighed(const Floats* weight, const Floats& before, const Floats& 
 /// The slope of the slopes d: 1 -2 1.
 inline Floats bend(const Floats& before, const Floats& at, const Floats& after) { return before - 2.0f * at + after; }
 
+/// The first words of the eight blocks, at most, in which the 27 voxels about a place lie: by side along k, j, i.
+struct Around {
+  Ints word[2][2][2];
+};
+
+inline void wordsAround(const WallVoxels& wall, const Ints& i, const Ints& j, const Ints& k, Around& out) {
+  for (int c = 0; c < 2; ++c)
+    for (int b = 0; b < 2; ++b)
+      for (int a = 0; a < 2; ++a) {
+        const Ints block = (((k + (2 * c - 1)) >> 2) * wall.blocks[1] + ((j + (2 * b - 1)) >> 2)) * wall.blocks[0] +
+                           ((i + (2 * a - 1)) >> 2);
+        Words slot;
+        gather(wall.slot_of, block, slot);
+        out.word[c][b][a] = reinterpret_cast<Ints>(slot) * 16;
+      }
+}
+
+template <bool kIndexed>
 inline void smoothAt(const WallVoxels& wall, const Floats& fx, const Floats& fy, const Floats& fz, Smooth& out) {
   Taps i, j, k;
   tapsAt(fx, wall.size[0], i);
@@ -102,17 +119,31 @@ inline void smoothAt(const WallVoxels& wall, const Floats& fx, const Floats& fy,
   const Ints low_word = (first >> 2) * 16, high_word = (last >> 2) * 16;
   const Words shift = reinterpret_cast<Words>((first & 3) * 8);
   const int row = 16 * wall.blocks[0], layer = row * wall.blocks[1];
+  Around around;
+  if constexpr (kIndexed) wordsAround(wall, i.nearest, j.nearest, k.nearest, around);
   Floats value[3], x[3], y[3], xx[3], xy[3], yy[3];
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
-    const Ints at_k = k.nearest + (c - 1), slab = (at_k >> 2) * layer + (at_k & 3) * 4;
+    const Ints at_k = k.nearest + (c - 1), beyond_k = (at_k >> 2) != ((k.nearest - 1) >> 2);
     Floats along[3], slope[3], curve[3];
 #pragma GCC unroll 3
     for (int b = 0; b < 3; ++b) {
-      const Ints at_j = j.nearest + (b - 1), base = slab + (at_j >> 2) * row + (at_j & 3);
+      const Ints at_j = j.nearest + (b - 1), within = (at_k & 3) * 4 + (at_j & 3);
       Words low, high;
-      gather(wall.solid, base + low_word, low);
-      gather(wall.solid, base + high_word, high);
+      if constexpr (kIndexed) {
+        const Ints beyond_j = (at_j >> 2) != ((j.nearest - 1) >> 2);
+        const auto wordOn = [&](int side) {
+          const Ints near = beyond_j ? around.word[0][1][side] : around.word[0][0][side];
+          const Ints far = beyond_j ? around.word[1][1][side] : around.word[1][0][side];
+          return (beyond_k ? far : near) + within;
+        };
+        gather(wall.solid, wordOn(0), low);
+        gather(wall.solid, wordOn(1), high);
+      } else {
+        const Ints base = (at_k >> 2) * layer + (at_j >> 2) * row + within;
+        gather(wall.solid, base + low_word, low);
+        gather(wall.solid, base + high_word, high);
+      }
       // Twice, as a shift by all 32 bits is none.
       const Words three = (low >> shift) | ((high << (31u - shift)) << 1);
       const Floats v0 = bytesAt(three, 0), v1 = bytesAt(three, 1), v2 = bytesAt(three, 2);
@@ -144,11 +175,8 @@ inline Ints inside(const Floats& at, int size) {
   return (at > spread(0.0f)) & (at < spread(static_cast<float>(size - 1)));
 }
 
-}  // namespace
-
-namespace MOLAR_KERNEL_SET {
-
-bool castRays(const WallVoxels& wall, const SectionRays& rays, RayDepths& out) noexcept {
+template <bool kIndexed>
+inline bool cast(const WallVoxels& wall, const SectionRays& rays, RayDepths& out) {
   bool met = false;
   const Floats none{};
   for (int from = 0; from < kRays; from += kWide) {
@@ -162,7 +190,7 @@ bool castRays(const WallVoxels& wall, const SectionRays& rays, RayDepths& out) n
       const Floats fx = rays.centre[0] + rho * along_x, fy = rays.centre[1] + rho * along_y,
                    fz = rays.centre[2] + rho * along_z;
       Smooth here;
-      smoothAt(wall, fx, fy, fz, here);
+      smoothAt<kIndexed>(wall, fx, fy, fz, here);
       going &= (here.value > none) & inside(fx, wall.size[0]) & inside(fy, wall.size[1]) & inside(fz, wall.size[2]);
       if (!anyOf(going)) break;
       const Floats share = going ? spread(n == 0 ? 0.5f * rays.step : rays.step) : none;
@@ -184,6 +212,14 @@ bool castRays(const WallVoxels& wall, const SectionRays& rays, RayDepths& out) n
     for (int pair = 0; pair < 6; ++pair) kept(curve[pair], out.curve[pair] + from);
   }
   return met;
+}
+
+}  // namespace
+
+namespace MOLAR_KERNEL_SET {
+
+bool castRays(const WallVoxels& wall, const SectionRays& rays, RayDepths& out) noexcept {
+  return wall.slot_of != nullptr ? cast<true>(wall, rays, out) : cast<false>(wall, rays, out);
 }
 
 }  // namespace MOLAR_KERNEL_SET

@@ -54,8 +54,7 @@ std::vector<std::uint8_t> bytesOf(const SplitPlan& plan, const assets::VolumeGri
   std::vector<std::uint8_t> bytes(grid.voxelCount(), 0);
   for (const SplitPlan::Block& block : plan.blocks)
     assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-      const std::size_t at = lattice.offsetOf(ijk);
-      if (at / kBlockVoxels == block.block) bytes[v] = block.given[at % kBlockVoxels];
+      if (lattice.blockAt(SolidField::blockOf(ijk)) == block.block) bytes[v] = block.given[SolidField::within(ijk)];
     });
   return bytes;
 }

@@ -23,7 +23,7 @@ int cutVoxel(CarvedBone& bone, std::size_t voxel, double coverage, double loss, 
   const glm::ivec3 size = bone.grid().size, ijk(n % size.x, n / size.x % size.y, n / (size.x * size.y));
   BlockCut cut;
   cut.tick = tick;
-  const std::size_t within = bone.field().offsetOf(ijk) % kBlockVoxels;
+  const std::size_t within = SolidField::within(ijk);
   cut.coverage[within] = static_cast<std::uint16_t>(coverage * 65535.0 + 0.5);
   cut.exposure[within] = 65535;
   cut.loss_q32.fill(static_cast<std::uint32_t>(loss * 4294967295.0));

@@ -107,8 +107,8 @@ TEST(ChipSearch, ChipsOfTheToothAreFoundInItsOwnVolume) {
   const glm::ivec3 neck = Knob::kNeck - first;
   const SolidField field = bodies.bones()[1].field();
   std::array<std::uint8_t, kBlockVoxels> given{};
-  given[field.offsetOf(neck) % kBlockVoxels] = 255;
-  bodies.loseBlock(1, field.offsetOf(neck) / kBlockVoxels, given);
+  given[SolidField::within(neck)] = 255;
+  bodies.loseBlock(1, field.blockAt(SolidField::blockOf(neck)), given);
   forBricks(bodies.grid().bricks(), [&](std::size_t, glm::ivec3 corner) { giveBrick(bodies, corner / 8, search); });
   const ChipPlan plan = search.plan();
   ASSERT_EQ(plan.chips.size(), 1u);

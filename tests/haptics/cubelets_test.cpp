@@ -21,7 +21,7 @@ void expectSumsOfItsVoxels(const SolidField& field, glm::ivec3 block) {
     x += w * static_cast<std::uint32_t>(local.x), y += w * static_cast<std::uint32_t>(local.y);
     z += w * static_cast<std::uint32_t>(local.z);
   }
-  const std::size_t at = field.blockAt(block);
+  const std::size_t at = field.slotAt(block);
   EXPECT_EQ(field.weight[at], weight);
   EXPECT_EQ(field.weight_x[at], x);
   EXPECT_EQ(field.weight_y[at], y);
@@ -61,8 +61,8 @@ TEST(Cubelets, KnowABlockOfOneLabelFromAMixedOne) {
   label[phantom.grid.index({5, 1, 2})] = 1;
   const Cubelets cubelets(phantom.grid, phantom.solid, label);
   const SolidField field = cubelets.field();
-  EXPECT_EQ(field.only_label[field.blockAt({0, 0, 0})], 4);
-  EXPECT_EQ(field.only_label[field.blockAt({1, 0, 0})], kMixedLabels);
+  EXPECT_EQ(field.only_label[field.slotAt({0, 0, 0})], 4);
+  EXPECT_EQ(field.only_label[field.slotAt({1, 0, 0})], kMixedLabels);
 }
 
 TEST(Cubelets, KeepTheSumsRightWhenABlockChanges) {

@@ -7,6 +7,7 @@
 #include "haptics/file/wall_kernels.h"
 #include "tests/haptics/allocation_count.h"
 #include "tests/haptics/file_scene.h"
+#include "tests/haptics/shuffled_blocks.h"
 
 namespace haptics {
 namespace {
@@ -392,13 +393,18 @@ TEST(FileInCanal, AllocatesNothing) {
   EXPECT_GT(sum_N, 1.0);
 }
 
-/// The same bits from every instruction set, and the values of a slow and obvious sum.
+/// The same bits from every instruction set and wherever a block lies, and the values of a slow and obvious sum.
 TEST(WallKernels, AgreeWithEachOtherAndWithAPlainSum) {
   const CanalWall& canal = flared();
   const SolidField& field = canal.wall;
-  const WallVoxels wall{field.solid,
-                        {field.grid.size.x, field.grid.size.y, field.grid.size.z},
-                        {field.blocks.x, field.blocks.y, field.blocks.z}};
+  const phantom::ShuffledBlocks shuffled(field, 8);
+  const auto wallOf = [](const SolidField& of) {
+    return WallVoxels{of.slot_of,
+                      of.solid,
+                      {of.grid.size.x, of.grid.size.y, of.grid.size.z},
+                      {of.blocks.x, of.blocks.y, of.blocks.z}};
+  };
+  const WallVoxels wall = wallOf(field), indexed = wallOf(shuffled.field());
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(-0.15, 1.15), unit(-1.0, 1.0);
   int met = 0;
@@ -443,15 +449,19 @@ TEST(WallKernels, AgreeWithEachOtherAndWithAPlainSum) {
       }
       EXPECT_NEAR(static_cast<double>(found.depth[n]), depth, 2e-3) << trial << ", ray " << n;
     }
-#if defined(__x86_64__)
     RayDepths other{};
-    if (assets::available(assets::InstructionSet::avx2)) {
-      EXPECT_EQ(avx2::castRays(wall, rays, other), hit);
-      EXPECT_EQ(std::memcmp(&found, &other, sizeof found), 0) << trial;
-    }
-    if (assets::available(assets::InstructionSet::avx512)) {
-      EXPECT_EQ(avx512::castRays(wall, rays, other), hit);
-      EXPECT_EQ(std::memcmp(&found, &other, sizeof found), 0) << trial;
+    EXPECT_EQ(portable::castRays(indexed, rays, other), hit);
+    EXPECT_EQ(std::memcmp(&found, &other, sizeof found), 0) << trial;
+#if defined(__x86_64__)
+    for (const WallVoxels& blocks : {wall, indexed}) {
+      if (assets::available(assets::InstructionSet::avx2)) {
+        EXPECT_EQ(avx2::castRays(blocks, rays, other), hit);
+        EXPECT_EQ(std::memcmp(&found, &other, sizeof found), 0) << trial;
+      }
+      if (assets::available(assets::InstructionSet::avx512)) {
+        EXPECT_EQ(avx512::castRays(blocks, rays, other), hit);
+        EXPECT_EQ(std::memcmp(&found, &other, sizeof found), 0) << trial;
+      }
     }
 #endif
   }

@@ -32,7 +32,9 @@ Whole wholeOf(const CarvedBone& bone) {
   const SolidField at = bone.field();
   for (std::size_t n = 0; n < blockCount(bone); ++n) {
     whole.blocks.push_back(bone.stateOf(n));
-    whole.sums.insert(whole.sums.end(), {at.weight[n], at.weight_x[n], at.weight_y[n], at.weight_z[n], at.grey[n]});
+    const std::size_t slot = at.slotOf(n);
+    whole.sums.insert(whole.sums.end(),
+                      {at.weight[slot], at.weight_x[slot], at.weight_y[slot], at.weight_z[slot], at.grey[slot]});
   }
   return whole;
 }
@@ -244,7 +246,7 @@ TEST(StrokeHistory, StaysInItsRoomUnderRandomUse) {
       ASSERT_LE(now.blocks[n].solid[voxel], first.blocks[n].solid[voxel]);
       weight += now.blocks[n].solid[voxel];
     }
-    ASSERT_EQ(bone.field().weight[n], weight);
+    ASSERT_EQ(bone.field().weight[bone.field().slotOf(n)], weight);
   }
 }
 

@@ -106,11 +106,12 @@ TEST(LooseChips, SuctionDoesNotReachThroughBone) {
 /// Where a chip broke off, full and empty, as undo and redo leave it.
 struct BreakingPlace {
   Slope& floor;
-  std::size_t at = floor.bodies.jaw().field().offsetOf(floor.chip().chip.voxel), block = at / haptics::kBlockVoxels;
+  glm::ivec3 voxel = floor.chip().chip.voxel;
+  std::size_t block = floor.bodies.jaw().field().blockAt(haptics::SolidField::blockOf(voxel));
   haptics::BlockState empty = floor.bodies.jaw().stateOf(block), full = empty;
-  std::vector<glm::ivec3> brick{floor.chip().chip.voxel / 8};
+  std::vector<glm::ivec3> brick{voxel / 8};
 
-  explicit BreakingPlace(Slope& of) : floor(of) { full.solid[at % haptics::kBlockVoxels] = 255; }
+  explicit BreakingPlace(Slope& of) : floor(of) { full.solid[haptics::SolidField::within(voxel)] = 255; }
 
   void become(const haptics::BlockState& state, double restored_mm3, int undone_strokes) {
     floor.bodies.bones()[0].restoreBlock(block, state);
