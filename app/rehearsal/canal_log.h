@@ -24,7 +24,7 @@ class CanalLog {
   /// What happened, in order.
   std::vector<std::string> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
 
-  /// "17.2 of 20.4 mm in the distal canal, torque 34 %"; "free" outside.
+  /// "17.2 of 20.4 mm in the distal canal, watch-winding, torque 34 %"; "free" outside.
   std::string line(const haptics::Tick& tick) const;
   /// "distal canal: to size 25 at 20.3 of 20.4 mm; 0.42 mm³ filed"; empty: nothing was filed.
   std::string summary() const;

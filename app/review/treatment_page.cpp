@@ -166,8 +166,10 @@ std::string films(const TreatmentFilms& films) {
 }
 
 std::string files(const Treatment& all) {
+  const std::string motions = motionWords(all);
   return tableMarkup({}, {{"dentine filed", fixedText(all.filed_mm3, 3) + " mm³"},
                           {"time against the wall", fixedText(all.filing_s, 0) + " s"},
+                          {"moved, share of that time", motions.empty() ? "hardly" : motions},
                           {"largest torque", fixedText(100.0 * all.torque_share, 0) + " % of what breaks a file"},
                           {"separated, bent", fmt::format("{}, {}", all.broken_files, all.bent_files)}});
 }

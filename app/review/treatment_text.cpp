@@ -61,6 +61,8 @@ std::string treatmentJson(const TreatmentOfSession& of) {
   for (const TreatedCanal& canal : all.canals) canals.push_back(canalJson(canal));
   for (const Perforation& hole : all.perforations)
     holes.push_back({{"kind", nameOf(hole.kind)}, {"area_mm2", hole.area_mm2}});
+  nlohmann::ordered_json motions = nlohmann::ordered_json::object();
+  for (std::size_t n = 0; n < kFileMotions; ++n) motions[std::string(keyOf(FileMotion{n}))] = all.motion_s[n];
   const nlohmann::ordered_json json = {{"fdi", of.tooth.fdi},
                                        {"canals_are", of.tooth.is_modelled ? "modelled" : "built-in"},
                                        {"gates",
@@ -82,6 +84,7 @@ std::string treatmentJson(const TreatmentOfSession& of) {
                                         {{"filed_mm3", all.filed_mm3},
                                          {"filing_s", all.filing_s},
                                          {"largest_torque_share", all.torque_share},
+                                         {"motion_s", motions},
                                          {"broken", all.broken_files},
                                          {"bent", all.bent_files}}},
                                        {"perforations", holes},
@@ -113,6 +116,7 @@ std::string treatmentTable(const TreatmentOfSession& of) {
       100.0 * all.roof.removed, all.lost.enamel_mm3, all.lost.dentine_mm3, all.lost.floor_mm3);
   text += fmt::format("files: {:.3f} mm3 in {:.0f} s, at most {:.0f} % of the torque that breaks one, {} broken\n",
                       all.filed_mm3, all.filing_s, 100.0 * all.torque_share, all.broken_files);
+  if (const std::string motions = motionWords(all); !motions.empty()) text += "moved: " + motions + "\n";
   for (const Perforation& hole : all.perforations)
     text += fmt::format("perforation: {}, {:.2f} mm2\n", nameOf(hole.kind), hole.area_mm2);
   if (all.isForamenMoved()) text += "a foramen was moved by more than 0.1 mm\n";

@@ -1,6 +1,9 @@
 #include "app/procedure/root_canal/treatment.h"
 
 #include <algorithm>
+#include <functional>
+
+#include <fmt/core.h>
 
 #include "app/procedure/root_canal/canal_tip.h"
 
@@ -10,9 +13,20 @@ FileUse::FileUse(const assets::ToothCanals& tooth) : tooth_(tooth) {
   for (const assets::ToothCanal& canal : tooth_.canals) canals_.push_back({TipTrack(canal.length_mm())});
 }
 
+void FileUse::moveOn(const haptics::Tick& tick, int size) {
+  const glm::dvec3& handle_P_mm = tick.proxy_P.mm;
+  in_mm_ += glm::dot(handle_P_mm - last_handle_P_mm_, tick.heldRotation() * glm::dvec3(0.0, 0.0, -1.0));
+  last_handle_P_mm_ = handle_P_mm;
+  if (tick.file.stay != haptics::FileStay::wall || size != in_hand_)
+    motion_.lift();
+  else
+    motion_.add(tick.dt_s, tick.file.roll_rad, in_mm_);
+}
+
 void FileUse::add(const haptics::Tick& tick, int size) {
   using haptics::FileStay;
   const haptics::FileWork& file = tick.file;
+  moveOn(tick, size);
   if (file.stay == FileStay::none || file.stay == FileStay::through) return;
   torque_share_ = std::max(torque_share_, file.torque_share);
   filed_mm3_ = file.removed_total_mm3;
@@ -35,6 +49,18 @@ bool Treatment::isForamenMoved() const {
                              [](const TreatedCanal& one) { return one.outcomes.foramen_moved_mm > kForamenMoved_mm; });
 }
 
+std::string motionWords(const Treatment& treatment) {
+  std::array<std::size_t, kFileMotions> longest{0, 1, 2, 3};
+  std::ranges::stable_sort(longest, std::greater{}, [&](std::size_t n) { return treatment.motion_s[n]; });
+  std::string words;
+  for (const std::size_t n : longest) {
+    const double percent = treatment.filing_s > 0.0 ? 100.0 * treatment.motion_s[n] / treatment.filing_s : 0.0;
+    if (percent < 0.5) continue;
+    words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : ", ", nameOf(FileMotion{n}), percent);
+  }
+  return words;
+}
+
 Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& before, const FineSolid& after,
                       const FileUse& files) {
   Treatment all;
@@ -53,6 +79,7 @@ Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& befor
   all.perforations = perforations(before, after, tooth);
   all.broken_files = files.broken(), all.bent_files = files.bent();
   all.torque_share = files.torque_share(), all.filed_mm3 = files.filed_mm3(), all.filing_s = files.filing_s();
+  for (std::size_t n = 0; n < kFileMotions; ++n) all.motion_s[n] = files.motion().seconds(FileMotion{n});
   return all;
 }
 

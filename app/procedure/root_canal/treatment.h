@@ -10,6 +10,7 @@
 
 #include "app/procedure/root_canal/access_outcomes.h"
 #include "app/procedure/root_canal/canal_outcomes.h"
+#include "app/procedure/root_canal/file_motion.h"
 #include "app/procedure/root_canal/perforation.h"
 #include "haptics/servo/tick.h"
 
@@ -22,7 +23,7 @@ inline constexpr double kForamenMoved_mm = 0.1;
 class FileUse {
  public:
   explicit FileUse(const assets::ToothCanals& tooth);
-  /// `size`: of the file in the hand; 0: none.
+  /// `size`: of the file in the hand; 0: none. Ticks in order, without gaps in the hand.
   void add(const haptics::Tick& tick, int size);
 
   const assets::ToothCanals& tooth() const { return tooth_; }
@@ -34,18 +35,24 @@ class FileUse {
   int broken() const { return broken_; }
   int bent() const { return bent_; }
   double filing_s() const { return filing_s_; }
+  const MotionNames& motion() const { return motion_; }
 
  private:
   struct Canal {
     TipTrack tip;
     int size = 0;
   };
+  void moveOn(const haptics::Tick& tick, int size);
+
   assets::ToothCanals tooth_;
   std::vector<Canal> canals_;
   double torque_share_ = 0.0, filed_mm3_ = 0.0, filing_s_ = 0.0;
   int broken_ = 0, bent_ = 0;
   int in_hand_ = 0;
   bool is_bent_ = false;  ///< the one in the hand: told once
+  MotionNames motion_;
+  glm::dvec3 last_handle_P_mm_{0.0};
+  double in_mm_ = 0.0;  ///< way of the handle towards the tip
 };
 
 struct TreatedCanal {
@@ -64,9 +71,13 @@ struct Treatment {
   std::vector<Perforation> perforations;
   int broken_files = 0, bent_files = 0;
   double torque_share = 0.0, filed_mm3 = 0.0, filing_s = 0.0;
+  std::array<double, kFileMotions> motion_s{};  ///< of filing_s; the rest was held still or had no name
 
   bool isForamenMoved() const;
 };
+
+/// "filing 62 %, watch-winding 25 %" of the time against the wall, the longest first; empty: none.
+std::string motionWords(const Treatment& treatment);
 
 Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& before, const FineSolid& after,
                       const FileUse& files);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "app/procedure/root_canal/canal_tip.h"
 
 namespace app {
@@ -66,6 +68,23 @@ TEST(FileUse, CountsWhatFilesDid) {
   EXPECT_EQ(use.bent(), 1) << "kept through both ticks: once";
   use.add(tick, 25);
   EXPECT_EQ(use.bent(), 2) << "another file";
+}
+
+TEST(FileUse, NamesHowAFileIsMoved) {
+  FileUse use(twoCanals());
+  haptics::Tick tick;
+  tick.dt_s = 0.001;
+  tick.file.stay = haptics::FileStay::wall;
+  // Two millimetres in and out in half a second, along a handle that points down.
+  for (int n = 0; n < 4000; ++n) {
+    tick.proxy_P.mm = {0.0, 0.0, 20.0 - 0.008 * std::abs(n % 500 - 250)};
+    use.add(tick, 25);
+  }
+  EXPECT_NEAR(use.motion().seconds(FileMotion::filing), 4.0, 0.3);
+  Treatment all;
+  all.filing_s = 4.0;
+  all.motion_s = {1.0, 0.0, 2.5, 0.0};
+  EXPECT_EQ(motionWords(all), "watch-winding 62 %, filing 25 %");
 }
 
 }  // namespace
