@@ -108,6 +108,21 @@ std::string onScreen(const PrivateScreen& screen) {
   return "DISPLAY=" + screen.name() + " LIBGL_ALWAYS_SOFTWARE=1 exec " + std::string(MOLAR_PROGRAM);
 }
 
+TEST(RunningProgramTest, EndsWhatDoesNotEndByItself) {
+  RunningProgram hangs("trap '' TERM; echo begun; sleep 1000; sleep 1000", 200ms);
+  ASSERT_TRUE(hears(hangs, "begun"));
+  EXPECT_FALSE(hangs.nextLine(50ms));
+  EXPECT_FALSE(hangs.hasEnded());
+  EXPECT_EQ(hangs.exitStatus(), 128 + SIGKILL);
+  // More words than a pipe holds do not keep it from ending.
+  RunningProgram talks("head -c 300000 /dev/zero | tr '\\0' 'a'; exit 3");
+  EXPECT_EQ(talks.exitStatus(), 3);
+  // Left without asking for its end, it does not outlive its owner.
+  const auto left_at = std::chrono::steady_clock::now();
+  { const RunningProgram left("exec sleep 1000"); }
+  EXPECT_LT(std::chrono::steady_clock::now() - left_at, kLongestWait);
+}
+
 TEST_F(CheckByMouse, BrushCanalPointsAndTheThirdMolarAreSavedAsTheyWereDrawn) {
   const tests::ArchPhantom phantom = tests::archPhantom({.spacing_mm = 0.8});
   assets::savePatient(tests::phantomPatient(phantom), at("patient"), false);

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -128,14 +127,32 @@ class ScreenHand {
   Display* display_;
 };
 
-/// A shell command with its words line by line, as it says them.
+/// A shell command with its words line by line, as it says them. It never outlives the test: what does not end by
+/// itself within the limit is ended, with all that it started.
 class RunningProgram {
  public:
-  explicit RunningProgram(const std::string& command) : output_(popen((command + " 2>&1").c_str(), "re")) {
-    if (output_ == nullptr) throw std::runtime_error("not started: " + command);
+  /// `patience`: how long its end is waited for; longer than a busy machine needs.
+  explicit RunningProgram(const std::string& command, std::chrono::milliseconds patience = std::chrono::minutes(2))
+      : patience_(patience) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    child_ = fork();
+    if (child_ == 0) {
+      setpgid(0, 0);
+      dup2(ends[1], STDOUT_FILENO), dup2(ends[1], STDERR_FILENO);
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    output_ = ends[0];
+    if (child_ < 0) throw std::runtime_error("not started: " + command);
+    // Whichever of the two comes first.
+    setpgid(child_, child_);
   }
   ~RunningProgram() {
-    if (output_ != nullptr) pclose(output_);
+    if (!status_) end(SIGTERM, std::chrono::seconds(5));
+    if (!status_) end(SIGKILL, patience_);
+    close(output_);
   }
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
@@ -150,24 +167,43 @@ class RunningProgram {
         return line;
       }
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-      pollfd output{fileno(output_), POLLIN, 0};
+      pollfd output{output_, POLLIN, 0};
       if (has_ended_ || left.count() <= 0 || poll(&output, 1, static_cast<int>(left.count())) <= 0) return {};
       char text[4096];
-      const ssize_t count = read(output.fd, text, sizeof text);
+      const ssize_t count = read(output_, text, sizeof text);
       has_ended_ = count <= 0;
       if (count > 0) said_.append(text, static_cast<std::size_t>(count));
     }
   }
   bool hasEnded() const { return has_ended_; }
-  /// Waits for its end.
+  /// Waits for its end; 128 + SIGKILL: it did not come, and it was ended.
   int exitStatus() {
-    const int status = pclose(output_);
-    output_ = nullptr;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    wait(patience_);
+    if (!status_) end(SIGKILL, patience_);
+    if (!status_) return -1;
+    return WIFEXITED(*status_) ? WEXITSTATUS(*status_) : 128 + WTERMSIG(*status_);
   }
 
  private:
-  FILE* output_;
+  /// Its output is read meanwhile, so that it is not held up by that.
+  void wait(std::chrono::milliseconds within) {
+    const auto until = std::chrono::steady_clock::now() + within;
+    while (!status_ && std::chrono::steady_clock::now() < until) {
+      int status = 0;
+      if (waitpid(child_, &status, WNOHANG) == child_) status_ = status;
+      if (!status_ && !has_ended_) nextLine(std::chrono::milliseconds(5));
+      if (!status_ && has_ended_) poll(nullptr, 0, 5);
+    }
+  }
+  void end(int signal_number, std::chrono::milliseconds within) {
+    kill(-child_, signal_number);
+    wait(within);
+  }
+
+  std::chrono::milliseconds patience_;
+  pid_t child_ = -1;
+  int output_ = -1;
+  std::optional<int> status_;
   std::string said_;
   bool has_ended_ = false;
 };
