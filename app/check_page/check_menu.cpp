@@ -128,23 +128,32 @@ void CheckMenu::refuseLast(const std::string& why) {
   say(why + "; taken back", true);
 }
 
+/// In force and last, or not computed yet: the lights do not show it before.
+bool CheckMenu::isSaid(const CheckEdit& edit) const {
+  if (edits_.last() != nullptr && *edits_.last() == edit) return true;
+  const auto end = edits_.all().begin() + static_cast<std::ptrdiff_t>(edits_.done());
+  return is_busy_ && std::find(edits_.all().begin(), end, edit) != end;
+}
+
+void CheckMenu::sayOnce(CheckEdit edit) {
+  if (isSaid(edit)) return say("it is said already", false);
+  add(std::move(edit));
+}
+
 void CheckMenu::confirm(const CheckRow& row) {
   if (row.light == Light::confirmed) return say("it is confirmed already", false);
   if (!row.is_there) return say("it is not there: click it, or undo", true);
-  if (row.kind == CheckRow::Kind::canal) {
-    add(CanalWord{row.is_right, true, row.length_mm});
-    return;
-  }
+  if (row.kind == CheckRow::Kind::canal) return sayOnce(CanalWord{row.is_right, true, row.length_mm});
   if (row.fdi == 0) return say("it has no number: choose Number, type it, click the piece", true);
-  add(assets::ToothClick{assets::ToothEdit::number, {row.at_P_mm, {}}, row.fdi});
+  sayOnce(assets::ToothClick{assets::ToothEdit::number, {row.at_P_mm, {}}, row.fdi});
 }
 
 void CheckMenu::refuse(const CheckRow& row) {
   if (!row.is_there || row.light == Light::refused) return say("it is refused already", false);
   if (row.kind == CheckRow::Kind::canal)
-    add(CanalWord{row.is_right, false, row.length_mm});
+    sayOnce(CanalWord{row.is_right, false, row.length_mm});
   else
-    add(assets::ToothClick{assets::ToothEdit::no_tooth, {row.at_P_mm, {}}, 0});
+    sayOnce(assets::ToothClick{assets::ToothEdit::no_tooth, {row.at_P_mm, {}}, 0});
 }
 
 CheckMenu::Answer CheckMenu::act(CheckAction action) {

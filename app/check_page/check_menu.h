@@ -126,6 +126,8 @@ class CheckMenu {
 
  private:
   bool add(CheckEdit edit);
+  bool isSaid(const CheckEdit& edit) const;
+  void sayOnce(CheckEdit edit);
   void setBrush(char letter);
   void clickCanal(const glm::dvec3& p_P_mm, bool is_right);
   void confirm(const CheckRow& row);

@@ -370,7 +370,13 @@ void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
       stroke_.begin(*view, page_.sizeOf(view->view, window_px));
     } else if (view->view == JawView::solid)
       pressed_px_ = at_px, is_dragged_ = false;
-    else
+    else if (const auto end = menu_.tool() == CheckTool::canal && is_slice
+                                  ? canal_.proposedEndAt(found().canals, view->at_px, inView(view->view, window_px))
+                                  : std::nullopt) {
+      // The end as it was proposed, which may lie beside the slice.
+      menu_.clickAt(*end, views_.isRight(*end));
+      answer(CheckMenu::Answer::none);
+    } else
       clickIn(*view, window_px);
     return;
   }

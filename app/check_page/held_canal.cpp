@@ -34,7 +34,8 @@ std::optional<HeldCanal::Held> HeldCanal::pointAt(const std::vector<assets::Cana
     const std::vector<glm::dvec3>& points_P_mm = points_of[is_right ? 0 : 1];
     for (std::size_t n = 0; n < points_P_mm.size(); ++n) {
       const glm::dvec3 at = in_view(points_P_mm[n]);
-      if (isNear(at, at_px, kPoint_px, kPointOff_mm)) return Held{is_right, points_P_mm, n, at.z, false};
+      if (isNear(at, at_px, kPoint_px, kPointOff_mm))
+        return Held{is_right, points_P_mm, n, at.z, false, menu_.edits().canalOn(is_right) != nullptr};
     }
   }
   return std::nullopt;
@@ -74,10 +75,22 @@ void HeldCanal::moveTo(const glm::dvec3& p_P_mm, const glm::dvec3& normal_P) {
 bool HeldCanal::release() {
   const std::optional<Held> held = std::exchange(held_, std::nullopt);
   line_P_mm_.clear();
-  if (!held || !held->is_moved) return false;
+  if (!held) return false;
+  if (!held->is_moved) {
+    if (held->is_clicked) return menu_.say("a point of the canal: drag it, or Delete removes it", false), false;
+    const std::size_t before = menu_.edits().done();
+    menu_.clickAt(held->points_P_mm[held->which], held->is_right);
+    return menu_.edits().done() != before;
+  }
   menu_.moveCursor(held->points_P_mm[held->which]);
   menu_.addCanal({held->is_right, held->points_P_mm});
   return true;
+}
+
+std::optional<glm::dvec3> HeldCanal::proposedEndAt(const std::vector<assets::CanalProposal>& canals,
+                                                   const glm::dvec2& at_px, const InView& in_view) const {
+  const auto found = pointAt(canals, at_px, in_view);
+  return found && !found->is_clicked ? std::optional(found->points_P_mm[found->which]) : std::nullopt;
 }
 
 bool HeldCanal::removeAt(const std::vector<assets::CanalProposal>& canals, const glm::dvec2& at_px,

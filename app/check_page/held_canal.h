@@ -31,8 +31,12 @@ class HeldCanal {
   bool press(const std::vector<assets::CanalProposal>& canals, const glm::dvec2& at_px, const InView& in_view);
   /// `p_P_mm`: under the hand, in the slice; the point keeps its distance from it.
   void moveTo(const glm::dvec3& p_P_mm, const glm::dvec3& normal_P);
-  /// True: an edit was made of it.
+  /// Pressed and let go at one place it is a click there: an end of a canal that is begun, unless the point was clicked
+  /// before. True: an edit was made of it.
   bool release();
+  /// The end of a canal that nobody has clicked, as it is drawn there.
+  std::optional<glm::dvec3> proposedEndAt(const std::vector<assets::CanalProposal>& canals, const glm::dvec2& at_px,
+                                          const InView& in_view) const;
   void leave() { held_.reset(); }
   /// The point under the hand goes. False: there is none.
   bool removeAt(const std::vector<assets::CanalProposal>& canals, const glm::dvec2& at_px, const InView& in_view);
@@ -46,7 +50,7 @@ class HeldCanal {
     std::vector<glm::dvec3> points_P_mm;
     std::size_t which = 0;
     double off_mm = 0.0;  ///< from the slice
-    bool is_moved = false;
+    bool is_moved = false, is_clicked = false;
   };
   std::optional<Held> pointAt(const std::vector<assets::CanalProposal>& canals, const glm::dvec2& at_px,
                               const InView& in_view) const;

@@ -141,6 +141,28 @@ TEST(CheckMenu, ConfirmsAndRefusesWhatIsChosen) {
   EXPECT_EQ(lastTooth(one).edit, ToothEdit::no_tooth);
 }
 
+TEST(CheckMenu, EnterAndDeletePressedManyTimesSayItOnce) {
+  CheckMenu one = menu();
+  for (int n = 0; n < 5; ++n) press(one, render::Key::enter);
+  EXPECT_EQ(one.edits().done(), 1u);
+  EXPECT_EQ(one.message(), "it is said already");
+  // Not shown yet, with another in between.
+  one.setBusy(true);
+  one.select(1);
+  press(one, render::Key::enter);
+  one.select(0);
+  press(one, render::Key::enter);
+  EXPECT_EQ(one.edits().done(), 2u);
+  one.select(3);
+  for (int n = 0; n < 3; ++n) press(one, render::Key::enter);
+  for (int n = 0; n < 3; ++n) press(one, render::Key::erase);
+  EXPECT_EQ(one.edits().done(), 4u) << "a canal's word can be taken back by another";
+  // Undone, it can be said again.
+  press(one, render::keyOf('Z'), true);
+  press(one, render::Key::erase);
+  EXPECT_EQ(one.edits().done(), 4u);
+}
+
 TEST(CheckMenu, EscAsksBeforeAnythingIsLeftUnsaved) {
   CheckMenu one = menu();
   EXPECT_EQ(press(one, render::Key::escape), Answer::leave);

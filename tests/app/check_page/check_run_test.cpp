@@ -231,6 +231,45 @@ TEST_F(CheckRunTest, ACanalsEndIsDraggedAPointInsertedAndRemoved) {
   run->finish();
 }
 
+TEST_F(CheckRunTest, AClickOnAProposalsEndTakesThatEnd) {
+  const auto run = open(folder_.path());
+  const auto canal = std::ranges::find(run->found().canals, true, &assets::CanalProposal::is_right);
+  ASSERT_NE(canal, run->found().canals.end());
+  ASSERT_FALSE(canal->is_confirmed);
+  const std::array ends{canal->line_P_mm.front(), canal->line_P_mm.back()};
+  const auto click_end = [&](const glm::dvec3& end) {
+    const double off_mm = run->views().planeOf(JawView::axial, run->menu().cursor_P_mm(), {}, {100, 100}).of(end).z;
+    run->handle(render::PointerMoved{run->placeOf(JawView::axial, end, kWindow_px), {}, render::MouseButton::none},
+                kWindow_px);
+    run->handle(render::WheelTurned{std::round(off_mm / run->views().grid().spacing_mm)}, kWindow_px);
+    clickOn(*run, run->placeOf(JawView::axial, end, kWindow_px));
+  };
+  type(*run, U'c');
+  click_end(ends[0]);
+  ASSERT_EQ(run->menu().pending().size(), 1u) << run->menu().message();
+  EXPECT_EQ(run->menu().pending().front(), ends[0]);
+  click_end(ends[1]);
+  const CanalClicks* const clicked = run->menu().edits().canalOn(true);
+  ASSERT_NE(clicked, nullptr) << run->menu().message();
+  EXPECT_EQ(clicked->at_P_mm, std::vector(ends.begin(), ends.end()));
+  run->finish();
+  EXPECT_EQ(run->menu().edits().done(), 1u) << run->menu().message();
+  // Its points are there to be dragged from now on: a click on one changes nothing and says so.
+  click_end(ends[0]);
+  EXPECT_EQ(run->menu().edits().done(), 1u);
+  EXPECT_THAT(run->menu().message(), testing::HasSubstr("drag it"));
+}
+
+TEST_F(CheckRunTest, EnterPressedWhileItIsComputedSaysItOnce) {
+  const auto run = open(folder_.path());
+  for (int n = 0; n < 6; ++n) press(*run, Key::enter);
+  EXPECT_EQ(run->menu().edits().done(), 1u);
+  run->finish();
+  for (int n = 0; n < 6; ++n) press(*run, Key::enter);
+  EXPECT_EQ(run->menu().edits().done(), 1u);
+  EXPECT_EQ(run->menu().rows()[run->menu().selected()].light, Light::confirmed);
+}
+
 TEST_F(CheckRunTest, AConfirmedCanalIsSaved) {
   const auto run = open(folder_.path());
   const auto canal = std::ranges::find_if(run->menu().rows(), [](const CheckRow& row) {
