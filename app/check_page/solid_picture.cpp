@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace app {
 namespace {
@@ -27,9 +28,9 @@ struct SolidPicture::Rays {
       is_up[a] = along > 0.0F ? 1 : 0;
     }
   }
-  /// Where a ray leaves the brick of that edge around a voxel.
-  float exitOf(const glm::vec3& from, const glm::ivec3& voxel, int edge) const {
-    const glm::vec3 face((voxel / edge + is_up) * edge);
+  /// Where a ray leaves the bricks that are nearer than so many to this one.
+  float exitOf(const glm::vec3& from, const glm::ivec3& brick, int bricks) const {
+    const glm::vec3 face((brick + (is_up * (2 * bricks - 1) - (bricks - 1))) * LabelBricks::kEdge);
     const glm::vec3 t = (face - from) * per;
     return std::min({t.x, t.y, t.z});
   }
@@ -48,17 +49,18 @@ SolidPicture::Seen SolidPicture::along(const Rays& rays, const glm::dvec2& at_px
   const float begins = std::max({in.x, in.y, in.z, 0.0F}), ends = std::min({out.x, out.y, out.z, rays.reach});
   const auto row = static_cast<std::size_t>(rays.size.x), layer = row * static_cast<std::size_t>(rays.size.y);
   Seen seen;
-  std::uint8_t wanted = sees_bone ? LabelBricks::kBone | LabelBricks::kTooth : LabelBricks::kTooth;
-  const auto step_at = [](float t) { return static_cast<int>(std::ceil(t / kStep)); };
+  LabelBricks::Wanted wanted = sees_bone ? LabelBricks::bone_or_tooth : LabelBricks::tooth_alone;
+  const auto step_at = [](float t) {
+    const float steps = t * (1.0F / kStep);
+    const int below = static_cast<int>(steps);
+    return below + (static_cast<float>(below) < steps ? 1 : 0);
+  };
   for (int n = step_at(begins); static_cast<float>(n) * kStep < ends;) {
     const glm::vec3 at = from + static_cast<float>(n) * kStep * rays.direction;
     const glm::ivec3 voxel = glm::clamp(glm::ivec3(at), glm::ivec3(0), rays.size - 1);
-    if ((bricks_.coarseAt(voxel) & wanted) == 0) {
-      n = std::max(n + 1, step_at(rays.exitOf(from, voxel, LabelBricks::kCoarse)));
-      continue;
-    }
-    if ((bricks_.fineAt(voxel) & wanted) == 0) {
-      n = std::max(n + 1, step_at(rays.exitOf(from, voxel, LabelBricks::kFine)));
+    const glm::ivec3 brick = voxel / LabelBricks::kEdge;
+    if (const int empty = bricks_.distanceAt(brick, wanted); empty > 0) {
+      n = std::max(n + 1, step_at(rays.exitOf(from, brick, empty)));
       continue;
     }
     const std::uint8_t what = what_[static_cast<std::size_t>(voxel.x) + row * static_cast<std::size_t>(voxel.y) +
@@ -69,7 +71,7 @@ SolidPicture::Seen SolidPicture::along(const Rays& rays, const glm::dvec2& at_px
     }
     if (what == kBoneVoxel && !seen.is_through_bone) {
       seen.is_through_bone = true, seen.bone = voxel;
-      wanted = LabelBricks::kTooth;
+      wanted = LabelBricks::tooth_alone;
     }
     ++n;
   }
@@ -79,22 +81,44 @@ SolidPicture::Seen SolidPicture::along(const Rays& rays, const glm::dvec2& at_px
 /// How far a surface at a voxel faces along a direction, 1 straight: by what lies outside it two voxels around.
 float SolidPicture::facing(const glm::ivec3& voxel, std::uint8_t own, bool is_own_inside,
                            const glm::vec3& direction) const {
-  glm::ivec3 out(0);
-  const bool is_whole = voxel.x >= 2 && voxel.x + 2 < grid_.size.x;
-  for (int k = -2; k <= 2; ++k)
-    for (int j = -2; j <= 2; ++j) {
-      const glm::ivec3 first = voxel + glm::ivec3(-2, j, k);
-      const bool is_there = first.y >= 0 && first.z >= 0 && first.y < grid_.size.y && first.z < grid_.size.z;
-      int count = 0, sum = 0;
-      for (int i = 0; i < 5; ++i) {
-        const bool is_in = is_there && (is_whole || (first.x + i >= 0 && first.x + i < grid_.size.x));
-        const std::uint8_t what = is_in ? what_[grid_.index(first + glm::ivec3(i, 0, 0))] : std::uint8_t{0};
-        const int is_out = (what == own) != is_own_inside ? 1 : 0;
-        count += is_out, sum += is_out * (i - 2);
+  constexpr std::uint64_t kEach = 0x0101010101ULL;
+  constexpr int kReach = 2;
+  // Sums over rows of five: of all, of their places, and of those two and one before and behind.
+  int sum = 0, along_j = 0, along_k = 0;
+  const std::uint64_t owns = kEach * own, turned = is_own_inside ? 0 : kEach;
+  const auto add = [&](std::uint64_t five, int j, int k) {
+    const std::uint64_t other = five ^ owns;
+    // 1 in each byte that differs.
+    const std::uint64_t is_out = (((((other & (0x7f * kEach)) + 0x7f * kEach) | other) >> 7) & kEach) ^ turned;
+    const int count = static_cast<int>((is_out * kEach) >> 32 & 0xff);
+    // Places 0 to 4 times: the sum in the fifth byte of a product.
+    const int places = static_cast<int>((is_out * 0x0403020100ULL >> 32) & 0xff);
+    sum += 2 * count - places;
+    along_j += count * j, along_k += count * k;
+  };
+  const glm::ivec3 low = voxel - kReach, high = voxel + kReach;
+  const bool is_whole = low.x >= 0 && low.y >= 0 && low.z >= 0 && high.x + 3 < grid_.size.x && high.y < grid_.size.y &&
+                        high.z < grid_.size.z;
+  if (is_whole) {
+    const auto row = static_cast<std::ptrdiff_t>(grid_.size.x), layer = row * grid_.size.y;
+    const std::uint8_t* const first = what_.data() + grid_.index(low);
+    for (int k = 0; k < 5; ++k)
+      for (int j = 0; j < 5; ++j) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, first + k * layer + j * row, 8);
+        add(eight & 0xffffffffffULL, j - kReach, k - kReach);
       }
-      out += glm::ivec3(sum, count * j, count * k);
-    }
-  const glm::vec3 normal(out);
+  } else {
+    for (int k = -kReach; k <= kReach; ++k)
+      for (int j = -kReach; j <= kReach; ++j) {
+        std::uint64_t five = 0;
+        for (int i = 0; i < 5; ++i)
+          if (const glm::ivec3 at = voxel + glm::ivec3(i - kReach, j, k); grid_.contains(at))
+            five |= std::uint64_t{what_[grid_.index(at)]} << (8 * i);
+        add(five, j, k);
+      }
+  }
+  const glm::vec3 normal(sum, along_j, along_k);
   return glm::dot(normal, direction) / std::max(glm::length(normal), 1e-9F);
 }
 

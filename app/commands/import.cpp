@@ -51,6 +51,7 @@ struct ImportOptions {
   DicomOptions dicom;
   assets::ScanImportOptions choices;
   bool no_face = false, no_check = false, force = false;
+  bool is_shown = false;  ///< in a window while it works
 };
 
 /// "hu", "hu+1024", or the grey values of air, muscle and dentine.
@@ -149,6 +150,12 @@ assets::ImportedScan importAny(ImportOptions& options, ImportCourse& course) {
   }
   nlohmann::json report;
   options.choices.stage = [&course](std::string_view stage) { course.begin(stage); };
+  if (options.is_shown) {
+    options.choices.grey = [&course](const assets::VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) {
+      course.view().takeGrey(grid, hounsfield);
+    };
+    options.choices.so_far = [&course](const assets::JawSoFar& jaw) { course.view().takeJaw(jaw); };
+  }
   const auto write = [&] {
     if (report.is_null()) return;
     report["stages"] = jsonOf(course.stages());
@@ -262,8 +269,9 @@ int import(ImportOptions options) {
     options.out = newPatientPath(usualPatientFolder(), now.time_since_epoch().count());
   }
   Imported imported;
+  options.is_shown = isWatched(options);
   const std::unique_ptr<CheckWindow> window =
-      runShown([&](ImportCourse& course) { imported = importWhole(options, course); }, isWatched(options));
+      runShown([&](ImportCourse& course) { imported = importWhole(options, course); }, options.is_shown);
   std::fputs(imported.words.c_str(), stderr);
   if (has_no_place)
     printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/check_page/import_stages.h"
+#include "app/check_page/import_view.h"
 #include "app/commands/stop_signals.h"
 
 namespace app {
@@ -40,6 +41,10 @@ class ImportCourse {
   /// Too late to be stopped.
   void commit();
 
+  /// The scan as it is shown; not under the lock.
+  ImportView& view() { return view_; }
+  const ImportView& view() const { return view_; }
+
   // Those that show it:
   ImportStages stages() const;
   double now_s() const;
@@ -57,6 +62,7 @@ class ImportCourse {
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   ImportStages stages_{expectedImportStages()};
   std::vector<std::string> to_remove_;
+  ImportView view_;
 };
 
 /// Stops it when a signal asks for that, whatever the other threads do: within 20 ms.

@@ -1,8 +1,11 @@
 #include "app/commands/shown_import.h"
 
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <future>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -24,18 +27,55 @@ bool isCancel(const render::WindowEvent& event, const glm::dvec2& pointer_px, gl
           isCancelAt(pointer_px, window_px));
 }
 
-void showCourse(CheckWindow& window, const ImportCourse& course, glm::dvec2& pointer_px) {
-  for (const render::WindowEvent& event : window.takeEvents()) {
-    if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px = moved->to_px;
-    // As Ctrl+C.
-    if (isCancel(event, pointer_px, window.size_px())) ::kill(::getpid(), SIGINT);
+/// The window while it works.
+class ShownCourse {
+ public:
+  ShownCourse(CheckWindow& window, ImportCourse& course) : window_(window), course_(course) {}
+
+  void show() {
+    for (const render::WindowEvent& event : window_.takeEvents()) {
+      if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px_ = moved->to_px;
+      if (const auto* const wheel = std::get_if<render::WheelTurned>(&event)) turn(wheel->notches);
+      // As Ctrl+C.
+      if (isCancel(event, pointer_px_, window_.size_px())) ::kill(::getpid(), SIGINT);
+    }
+    window_.show([this](glm::ivec2 px) {
+      drawSlices(px);
+      return importPage(
+          course_.stages(), course_.now_s(),
+          {"Importing a scan", "What names a person is left out; jaw, teeth and canals are looked for.", true}, px,
+          slices_ ? &*slices_ : nullptr);
+    });
   }
-  window.show([&course](glm::ivec2 px) {
-    return importPage(
-        course.stages(), course.now_s(),
-        {"Importing a scan", "What names a person is left out; jaw, teeth and canals are looked for.", true}, px);
-  });
-}
+
+ private:
+  void turn(double notches) {
+    const auto boxes = importViewBoxes(window_.size_px());
+    for (std::size_t n = 0; n < boxes.size(); ++n) {
+      const glm::dvec2 inside = pointer_px_ - glm::dvec2(boxes[n].corner_px);
+      if (glm::all(glm::greaterThanEqual(inside, glm::dvec2(0.0))) &&
+          glm::all(glm::lessThan(inside, glm::dvec2(boxes[n].size_px))))
+        course_.view().turn(static_cast<ImportView::Slice>(n), notches);
+    }
+  }
+  /// Where they differ from those that are shown.
+  void drawSlices(glm::ivec2 px) {
+    const std::uint64_t changes = course_.view().changes();
+    if (changes == drawn_changes_ && px == drawn_px_) return;
+    drawn_changes_ = changes, drawn_px_ = px;
+    const auto boxes = importViewBoxes(px);
+    slices_.reset();
+    if (boxes[0].size_px.x > 0)
+      slices_ = course_.view().pictures({boxes[0].size_px, boxes[1].size_px, boxes[2].size_px});
+  }
+
+  CheckWindow& window_;
+  ImportCourse& course_;
+  glm::dvec2 pointer_px_{-1.0};
+  std::uint64_t drawn_changes_ = 0;
+  glm::ivec2 drawn_px_{0};
+  std::optional<std::array<render::Image, ImportView::kSlices>> slices_;
+};
 
 }  // namespace
 
@@ -52,10 +92,11 @@ std::unique_ptr<CheckWindow> runShown(const std::function<void(ImportCourse&)>& 
     } catch (const render::GpuError& error) {
       course.say(std::string("no window: ") + error.what());
     }
-  glm::dvec2 pointer_px{-1.0};
+  std::optional<ShownCourse> shown;
+  if (window) shown.emplace(*window, course);
   while (working.wait_for(kDrawnEvery) != std::future_status::ready) {
     course.drawLine();
-    if (window) showCourse(*window, course, pointer_px);
+    if (shown) shown->show();
   }
   working.get();
   // Too late to undo it, early enough not to go on.

@@ -181,7 +181,7 @@ bool isToSegment(const Volume& volume, const ScanImportOptions& options) {
 /// Jaw and teeth of a scan without labels; hard tissue elsewhere by grey value.
 FoundJaw findJaw(const std::string& name, const ScanImportOptions& options, CtVolume& ct) {
   if (options.stage) options.stage("shading");
-  JawSegmentation found = segmentJaw(ct.grid, greyToSearch(ct), options.stage, options.clicks);
+  JawSegmentation found = segmentJaw(ct.grid, greyToSearch(ct), options.stage, options.clicks, options.so_far);
   if (found.refusal) throw JawRefused(name, *found.refusal);
   applyVoxelEdits({ct.grid, ct.hounsfield}, options.clicks.voxels, found);
   return takeLabels(std::move(found), ct);
@@ -324,6 +324,7 @@ ImportedScan importScan(const std::string& source, const ScanImportOptions& opti
   Volume volume{readHounsfield(sources.ct, options.window), sources.ct, sources.labels, sources.teeth};
   std::vector<std::string> remarks;
   takeScale(volume, options, remarks);
+  if (options.grey) options.grey(volume.image.grid, volume.image.hounsfield);
   return patientOf(std::move(volume), std::move(remarks), options);
 }
 
@@ -391,6 +392,7 @@ ImportedScan importScan(DicomSurvey& survey, const ScanImportOptions& options) {
   std::ranges::replace(grey, kNoGrey, kAirHu);
   const Resampling resampling(survey.plan->geometry, name);
   HounsfieldImage image{resampling.grid(), resampling.linear(std::move(grey), kAirHu)};
+  if (options.grey) options.grey(image.grid, image.hounsfield);
   ScanOrigin origin = originOf(survey, options);
   origin.blanked_text_lines = static_cast<int>(text.size());
   origin.scale = map.scale, origin.slope = map.slope, origin.offset_hu = map.offset_hu;

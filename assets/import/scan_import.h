@@ -39,6 +39,9 @@ struct ScanImportOptions {
   bool grey_only = false;  ///< without labels: tissues by grey value alone, no jaw and no teeth are looked for
   JawClicks clicks{};      ///< a person's edits of what is found in a scan without labels
   ReportStage stage{};     ///< called when a stage begins
+  /// For who waits: the scan's grey values once they are read, and what has been found in them.
+  std::function<void(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield)> grey{};
+  ReportJaw so_far{};
 };
 
 /// No teeth can be found in the scan.

@@ -114,7 +114,8 @@ struct JawFinder::Canal {
 
 JawFinder::~JawFinder() = default;
 
-JawFinder::JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, const ReportStage& report)
+JawFinder::JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, const ReportStage& report,
+                     const ReportJaw& so_far)
     : scan_(grid), canals_(std::make_unique<Canal>()) {
   beginStage(report, "row of teeth");
   const int edge = std::max(1, static_cast<int>(std::lround(kCell_mm / grid.spacing_mm)));
@@ -140,14 +141,17 @@ JawFinder::JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& ho
   const double hard_within_arch = hardWithinArch(cells, smooth_hu, *arch, sheet);
   Mandible mandible = mandibleIn(grid, hounsfield, cells, jaw_cells, edge);
   smooth_hu = {};
+  if (so_far) so_far({&mandible, nullptr, nullptr});
   const GreyLevels levels = greyLevelsOf(mandible, sheet);
   beginStage(report, "teeth");
   ToothRegions regions = findToothRegions(mandible, levels);
+  if (so_far) so_far({&mandible, &regions, nullptr});
   jaw_ = std::make_unique<Jaw>(
       Jaw{std::move(*arch), sheet, std::move(mandible), levels, std::move(regions), hard_within_arch, {}, {}});
 }
 
-JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage& report, const ShowTeeth& show) {
+JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage& report, const ShowTeeth& show,
+                                      const ReportJaw& so_far) {
   if (refusal_) return refused(*refusal_);
   const Mandible& mandible = jaw_->mandible;
   const bool had_teeth = teeth_ && !teeth_->refusal, is_new = !teeth_ || teeth_->clicks != clicks.teeth;
@@ -158,6 +162,7 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
     const ToldParts told = editTeeth(mandible, jaw_->levels, clicks.teeth, edited);
     beginStage(report, "tooth surfaces");
     found.regions = jaw_->surfaces.placed(mandible, edited);
+    if (so_far) so_far({&mandible, &found.regions, nullptr});
     const auto measure = [&] {
       found.teeth = measuredTeeth(mandible, found.regions, jaw_->levels);
       told.tell(found.teeth);
@@ -187,6 +192,7 @@ JawSegmentation JawFinder::withClicks(const JawClicks& clicks, const ReportStage
   out.teeth = teeth_->teeth;
   beginStage(report, "labels");
   labelJaw(scan_, mandible, teeth_->regions, teeth_->tissue, out);
+  if (so_far) so_far({nullptr, nullptr, &out});
   // What canals depend on, right and left.
   const CanalScene scene{mandible, teeth_->regions, jaw_->arch, jaw_->sheet};
   struct Asked {
@@ -227,8 +233,8 @@ HalfJaw JawFinder::halfOf(bool is_right) const {
 }
 
 JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                           const ReportStage& report, const JawClicks& clicks) {
-  return JawFinder(grid, hounsfield, report).withClicks(clicks, report);
+                           const ReportStage& report, const JawClicks& clicks, const ReportJaw& so_far) {
+  return JawFinder(grid, hounsfield, report, so_far).withClicks(clicks, report, {}, so_far);
 }
 
 }  // namespace assets

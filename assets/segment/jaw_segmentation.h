@@ -21,6 +21,9 @@
 
 namespace assets {
 
+struct Mandible;
+struct ToothRegions;
+
 struct JawSegmentation {
   std::optional<JawRefusal> refusal;  ///< then nothing else is set
   std::vector<std::uint8_t> label;    ///< Tissue, on the scan's grid
@@ -33,6 +36,14 @@ struct JawSegmentation {
 /// Called when a stage begins, with its name.
 using ReportStage = std::function<void(std::string_view stage)>;
 
+/// What is known while the rest is looked for, on the scan's grid; valid during the call. Null: not yet.
+struct JawSoFar {
+  const Mandible* jaw = nullptr;
+  const ToothRegions* teeth = nullptr;      ///< without numbers
+  const JawSegmentation* labels = nullptr;  ///< then the others are null
+};
+using ReportJaw = std::function<void(const JawSoFar& jaw)>;
+
 /// What clicks on teeth make of them, before canals that they change are found anew: those are as they were.
 using ShowTeeth = std::function<void(JawSegmentation teeth)>;
 
@@ -42,14 +53,16 @@ using ShowTeeth = std::function<void(JawSegmentation teeth)>;
 class JawFinder {
  public:
   /// Everything that does not depend on clicks.
-  JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, const ReportStage& report = {});
+  JawFinder(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, const ReportStage& report = {},
+            const ReportJaw& so_far = {});
   ~JawFinder();
   JawFinder(const JawFinder&) = delete;
   JawFinder& operator=(const JawFinder&) = delete;
 
   /// The same as segmentJaw() with these clicks, whatever was clicked before. Throws LoadError as that, and whatever
   /// `report` or `show` throws; the finder can be used again afterwards. `show`: called at most once.
-  JawSegmentation withClicks(const JawClicks& clicks, const ReportStage& report = {}, const ShowTeeth& show = {});
+  JawSegmentation withClicks(const JawClicks& clicks, const ReportStage& report = {}, const ShowTeeth& show = {},
+                             const ReportJaw& so_far = {});
 
   /// What canals of a side are drawn in with those clicks, in cells of about 0.7 mm (canal_search.h); empty where
   /// nothing was found. 0.3 s at 0.35 mm.
@@ -72,6 +85,6 @@ bool canHoldJaw(const VolumeGrid& grid);
 
 /// Throws LoadError of one line for clicks that do not fit what was found.
 JawSegmentation segmentJaw(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                           const ReportStage& report = {}, const JawClicks& clicks = {});
+                           const ReportStage& report = {}, const JawClicks& clicks = {}, const ReportJaw& so_far = {});
 
 }  // namespace assets
