@@ -9,6 +9,7 @@
 #include "assets/ct_volume.h"
 #include "assets/mesh.h"
 #include "assets/operative_site.h"
+#include "assets/proposed.h"
 #include "assets/tooth_canals.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
@@ -45,12 +46,13 @@ struct Patient {
   /// A layer of usual thickness over the bone, not the patient's (import/modelled_gum.h).
   bool has_modelled_gum = false;
 
-  /// Tooth or canal were found by the program, and no person has confirmed them.
-  bool isProposed() const {
-    return found && ((site && !found->tooth) || (!mandibular_canal_P_mm.empty() && !found->canal));
+  Proposed proposed() const {
+    if (!found) return {};
+    return {(site || canals) && !found->tooth, !mandibular_canal_P_mm.empty() && !found->canal};
   }
+  bool isProposed() const { return proposed().any(); }
   /// For people: the title, and what it is to be taken with.
-  std::string shownTitle() const { return title + (isProposed() ? ", not confirmed" : ""); }
+  std::string shownTitle() const { return title + (isProposed() ? std::string(kNotConfirmedTitle) : ""); }
   /// Centre of the view.
   glm::dvec3 focus_P_mm() const { return site ? site->centre_P_mm : jaw_P_mm; }
   /// Decides the patient's position; the default site where none is known.

@@ -149,6 +149,9 @@ ExtractionPlan extractionPlan(const assets::Patient& patient, const std::string&
   addRoots(rootForm(third, patient.site->axis_P, frame.mesialSideOf(patient.site->axis_P), patient.ct.grid.spacing_mm),
            plan);
   addDifficulty(found, plan);
+  const assets::Proposed proposed = patient.proposed();
+  for (PlanItem& item : plan)
+    item.is_confirmed = !item.isKnown() || !(proposed.tooth || (proposed.canal && item.key.starts_with("canal")));
   return plan;
 }
 
@@ -170,7 +173,9 @@ std::string valueText(const PlanItem& item) {
 
 std::string planTable(const ExtractionPlan& plan) {
   std::string text;
-  for (const PlanItem& item : plan) text += fmt::format("{:<24} {:<28} {}\n", item.name, valueText(item), item.how);
+  for (const PlanItem& item : plan)
+    text += fmt::format("{:<24} {:<28} {}{}\n", item.name, valueText(item), item.is_confirmed ? "" : "not confirmed; ",
+                        item.how);
   return text;
 }
 

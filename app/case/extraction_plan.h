@@ -16,8 +16,9 @@ struct PlanItem {
   std::string_view key;   ///< for programs
   std::string_view name;  ///< for people
   std::variant<std::monostate, double, std::string> value;
-  std::string_view unit;  ///< of a number; may be empty
-  std::string how;        ///< of a value; why there is none
+  std::string_view unit;     ///< of a number; may be empty
+  std::string how;           ///< of a value; why there is none
+  bool is_confirmed = true;  ///< false: it rests on a tooth or canal that nobody has confirmed
 
   bool isKnown() const { return value.index() != 0; }
 };

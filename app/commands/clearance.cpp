@@ -28,6 +28,13 @@ struct ClearanceOptions {
 using assets::RiskStructure;
 constexpr std::array kColumns{RiskStructure::canal, RiskStructure::lingual, RiskStructure::second_molar};
 
+/// The columns that rest on what nobody has confirmed: lingual surface and second molar are told by the tooth.
+std::string notConfirmed(const assets::Proposed& proposed) {
+  std::string columns = proposed.canal ? "canal_mm" : "";
+  if (proposed.tooth) columns += std::string(columns.empty() ? "" : " ") + "lingual_mm second_molar_mm";
+  return columns;
+}
+
 int clearance(const ClearanceOptions& options) {
   options.patient.refuseUnlessOne("clearance");
   const haptics::Tool tool = haptics::sanitised({headFrom(options.tool), shaftFrom(options.shaft)});
@@ -35,9 +42,12 @@ int clearance(const ClearanceOptions& options) {
   calibration::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   refuseControls(poses, options.poses);
-  const assets::RiskStructures structures = cachedRiskStructures(options.patient.load());
+  const assets::Patient patient = options.patient.load();
+  const assets::RiskStructures structures = cachedRiskStructures(patient);
+  const std::string not_confirmed = notConfirmed(patient.proposed());
 
-  std::string csv = "t_s,canal_mm,lingual_mm,second_molar_mm\n";
+  std::string csv = "t_s,canal_mm,lingual_mm,second_molar_mm";
+  csv += not_confirmed.empty() ? "\n" : ",not_confirmed\n";
   for (const TimedPose& pose : poses) {
     csv += fmt::format("{:.9g}", pose.t_s);
     for (const RiskStructure structure : kColumns) {
@@ -45,7 +55,7 @@ int clearance(const ClearanceOptions& options) {
       if (const auto& distance = structures.of(structure); !distance.isEmpty())
         csv += fmt::format("{:.4f}", haptics::clearance_mm(distance, tool, pose.X_PT));
     }
-    csv += "\n";
+    csv += not_confirmed.empty() ? "\n" : "," + not_confirmed + "\n";
   }
   out.commit(csv);
   return 0;
@@ -66,7 +76,9 @@ void addClearance(CommandLine& molar) {
   command.footer(
       "From the tool's surface to the structure as labelled in the scan, mm, negative inside; empty where the case has "
       "no such structure. A sphere: to its centre, less the radius. lingual: the outer surface of the jaw towards the "
-      "tongue, from 20 mm before to 20 mm behind the operated tooth.");
+      "tongue, from 20 mm before to 20 mm behind the operated tooth. Where the program found tooth or canal in a scan "
+      "and nobody "
+      "has confirmed them, a column not_confirmed names the columns that rest on them.");
   command.does([options] { return clearance(*options); });
 }
 

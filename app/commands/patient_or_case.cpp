@@ -30,10 +30,9 @@ std::optional<assets::JawParameters> PatientOrCase::builtInJaw() const {
 assets::Patient PatientOrCase::load() const {
   if (!case_name_.empty()) return builtInPatient(caseNamed(case_name_)->jaw);
   assets::Patient patient = assets::loadPatient(patientNamed(patient_));
-  if (patient.isProposed())
-    printMessage(
-        "tooth and canal of this patient were found by the program and nobody has confirmed them: molar "
-        "check shows, corrects and confirms them");
+  if (const assets::Proposed proposed = patient.proposed(); proposed.any())
+    printMessage("not confirmed: what rests on the " + proposed.words() +
+                 " of this patient, found by the program in the scan; molar check shows, corrects and confirms");
   return patient;
 }
 

@@ -31,6 +31,7 @@ nlohmann::ordered_json jsonOf(const ExtractionPlan& plan) {
     else
       entry["unit"] = std::string(item.unit);
     entry[item.isKnown() ? "how" : "reason"] = item.how;
+    entry["confirmed"] = item.is_confirmed;
   }
   return out;
 }
@@ -52,9 +53,12 @@ void addPlan(CommandLine& molar) {
   command.flag("--json", options->json, "All of it as JSON");
   command.footer(
       "Measured on labels and numbers of the teeth. What the scan does not show is \"not known\", with the reason.\n"
-      "JSON: by parameter {value, unit, how}, or value null and a reason: fdi, winter_angle, winter_class, depth, "
+      "JSON: by parameter {value, unit, how, confirmed}, or value null and a reason: fdi, winter_angle, winter_class, "
+      "depth, "
       "pell_gregory_depth, pell_gregory_ramus, canal_distance, canal_relation, lingual_plate, second_molar, roots, "
-      "root_shape, difficulty.");
+      "root_shape, difficulty. Not confirmed: it rests on a tooth or canal that was found in a scan and that nobody "
+      "has "
+      "confirmed, see molar check.");
   command.does([options] { return plan(*options); });
 }
 

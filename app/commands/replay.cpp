@@ -12,6 +12,7 @@
 #include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
 #include "app/review/treatment_text.h"
+#include "app/session/measures/rests_on.h"
 #include "app/session/metrics.h"
 #include "app/session/moment_values.h"
 #include "app/session/replay.h"
@@ -140,7 +141,9 @@ void addMetrics(CommandLine& molar) {
               "Of root canals: a picture of their sections at 1, 3, 5 and 7 mm, before and after")
       .valueNamed("FILE.png");
   command.flag("--force", *force, "Replace the picture if it exists");
-  command.footer(measuresHelp());
+  command.footer(measuresHelp() +
+                 "\"confirmed\": false marks what rests on a tooth or canal that was found in a scan and nobody had "
+                 "confirmed; \"not_confirmed\" names which, and the keys of this object that rest on it.\n");
   command.does([session, as_json, reference, sections, force] {
     std::optional<ReferenceSet> set;
     if (!reference->empty()) set = loadReference(*reference);
@@ -158,6 +161,7 @@ void addMetrics(CommandLine& molar) {
     if (treated && *as_json) {
       nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
       json["root_canals"] = nlohmann::ordered_json::parse(treatmentJson(*treated));
+      if (!isConfirmed("root_canals", metrics.proposed)) json["not_confirmed"]["keys"].push_back("root_canals");
       text = json.dump(2) + "\n";
     } else if (treated) {
       text += treatmentTable(*treated);

@@ -80,7 +80,7 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
                           "",
                           tick.site == haptics::SiteAnswer::ready,
                           ""};
-    values.clearances = clearance_.ruler(!run_.patient().isProposed());
+    values.clearances = clearance_.ruler(run_.patient().proposed());
     line_.update(head_up_.content(values, std::chrono::steady_clock::now()),
                  headUpPlace(frame_.rig, frame_.display, frame_));
     panels = line_.panels();

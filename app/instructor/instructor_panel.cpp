@@ -14,6 +14,7 @@
 #include "app/options/bur_name.h"
 #include "app/options/picture_option.h"
 #include "app/report/markup.h"
+#include "app/session/measures/rests_on.h"
 #include "app/text/clock_text.h"
 #include "app/view/head_up_line.h"
 #include "assets/tissue.h"
@@ -35,6 +36,8 @@ constexpr float kText_px = 16.0f, kSmall_px = 13.0f, kLarge_px = 26.0f;
 const ImVec4 kInk{0.91f, 0.92f, 0.94f, 1.0f}, kQuiet{0.60f, 0.64f, 0.70f, 1.0f}, kGood{0.42f, 0.80f, 0.55f, 1.0f},
     kWarn{0.98f, 0.73f, 0.28f, 1.0f}, kBad{0.95f, 0.38f, 0.35f, 1.0f}, kStopRed{0.62f, 0.13f, 0.12f, 1.0f},
     kAccent{0.36f, 0.66f, 0.95f, 1.0f};
+
+constexpr const char* kUnconfirmed = ", not confirmed";
 
 // In loading order.
 enum FontAt { text_font, small_font, large_font, heading_font };
@@ -146,8 +149,11 @@ void drawClearances(const RehearsalStatus& s) {
   for (std::size_t n = 0; n < s.clearances.size(); ++n) {
     if (!s.clearances[n]) continue;
     const assets::RiskLevel level = assets::riskLevel(n, *s.clearances[n]);
-    row(std::string(assets::kRiskTexts[n].name).c_str(), fixedText(*s.clearances[n], 1) + " mm",
-        level == assets::RiskLevel::red     ? kBad
+    const bool is_confirmed = isConfirmed(static_cast<assets::RiskStructure>(n), s.proposed);
+    row(std::string(assets::kRiskTexts[n].name).c_str(),
+        fixedText(*s.clearances[n], 1) + " mm" + (is_confirmed ? "" : kUnconfirmed),
+        !is_confirmed                       ? kQuiet
+        : level == assets::RiskLevel::red   ? kBad
         : level == assets::RiskLevel::amber ? kWarn
         : level == assets::RiskLevel::note  ? kGood
                                             : kInk);
@@ -171,9 +177,11 @@ void drawMeasures(const RehearsalStatus& s) {
   for (std::size_t n = 0; n < s.least.size(); ++n) {
     if (!s.least[n]) continue;
     const assets::RiskLevel level = assets::riskLevel(n, s.least[n]->mm);
+    const bool is_confirmed = isConfirmed(static_cast<assets::RiskStructure>(n), s.proposed);
     row(("Nearest to " + std::string(assets::kRiskTexts[n].name)).c_str(),
-        fixedText(s.least[n]->mm, 1) + " mm at " + clockText(s.least[n]->t_s),
-        level == assets::RiskLevel::red     ? kBad
+        fixedText(s.least[n]->mm, 1) + " mm at " + clockText(s.least[n]->t_s) + (is_confirmed ? "" : kUnconfirmed),
+        !is_confirmed                       ? kQuiet
+        : level == assets::RiskLevel::red   ? kBad
         : level == assets::RiskLevel::amber ? kWarn
                                             : kInk);
   }

@@ -11,6 +11,7 @@
 #include "app/session/measures/clearance_measures.h"
 #include "app/session/session_calibration.h"
 #include "app/view/motion_to_photon.h"
+#include "assets/proposed.h"
 #include "haptics/loop/loop_statistics.h"
 #include "haptics/safety/trips.h"
 #include "haptics/servo/command.h"
@@ -45,7 +46,8 @@ struct RehearsalStatus {
   render::Layers layers;
   double cutting_s = 0.0, dry_s = 0.0;  ///< time with the bur in bone or tooth, and that without water
   std::string said;                     ///< to the surgeon, last
-  std::optional<double> gap_mm;  ///< from the bur to tooth or bone as drawn; none: farther than render::kMaxGap_mm
+  std::optional<double> gap_mm;    ///< from the bur to tooth or bone as drawn; none: farther than render::kMaxGap_mm
+  assets::Proposed proposed = {};  ///< what nobody has confirmed
   haptics::Clearances clearances = {};  ///< of the tool now
   /// The main ones so far (rehearsal/live_measures), and the least clearance of the turning bur.
   std::vector<MeasureValue> measures = {};

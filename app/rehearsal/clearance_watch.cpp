@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/session/measures/rests_on.h"
+
 namespace app {
 
 void ClearanceWatch::follow(std::span<const haptics::Tick> ticks, const haptics::Command& command,
@@ -18,13 +20,14 @@ void ClearanceWatch::update(const haptics::Tick& newest, const haptics::Tool& to
   now_ = is_told ? haptics::clearances_mm(risks_, tool, heldPose(newest)) : haptics::Clearances{};
 }
 
-std::vector<HeadUpClearance> ClearanceWatch::ruler(bool is_confirmed) const {
+std::vector<HeadUpClearance> ClearanceWatch::ruler(const assets::Proposed& proposed) const {
   std::vector<HeadUpClearance> near;
   for (std::size_t n = 0; n < now_.size(); ++n) {
     if (!now_[n]) continue;
     const assets::RiskLevel level = assets::riskLevel(n, *now_[n]);
     if (level == assets::RiskLevel::none) continue;
-    near.push_back({std::string(assets::kRiskTexts[n].name), *now_[n], level, is_confirmed});
+    near.push_back({std::string(assets::kRiskTexts[n].name), *now_[n], level,
+                    isConfirmed(static_cast<assets::RiskStructure>(n), proposed)});
   }
   std::ranges::stable_sort(near, std::greater{}, &HeadUpClearance::level);
   return near;

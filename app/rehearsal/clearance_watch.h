@@ -25,8 +25,8 @@ class ClearanceWatch {
   const haptics::Clearances& now() const { return now_; }
   std::optional<double> canal_mm() const { return now_[static_cast<std::size_t>(assets::RiskStructure::canal)]; }
   /// Those within their bands, the most urgent first: for the ruler in the picture.
-  /// `is_confirmed`: a person has looked at tooth and canal.
-  std::vector<HeadUpClearance> ruler(bool is_confirmed) const;
+  /// `proposed`: what nobody has confirmed.
+  std::vector<HeadUpClearance> ruler(const assets::Proposed& proposed) const;
   const ClearanceMeasures& measures() const { return measures_; }
 
  private:

@@ -369,7 +369,7 @@ class Rehearsal {
             site_->socketLine(),
             site_->wayLine(),
             ringShown(),
-            plan_.shows_clearance ? clearance_.ruler(!plan_.patient.isProposed()) : std::vector<HeadUpClearance>(),
+            plan_.shows_clearance ? clearance_.ruler(plan_.patient.proposed()) : std::vector<HeadUpClearance>(),
             true,
             canal_log_ && newest_.file.stay != haptics::FileStay::none ? canal_log_->line(newest_) : std::string()};
   }
@@ -441,7 +441,7 @@ class Rehearsal {
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
     if (canal_log_) figures.canals = canal_log_->summary();
     figures.touched = touches_.counts();
-    figures.clearance = clearancesInWords(clearance_.measures());
+    figures.clearance = clearancesInWords(clearance_.measures(), plan_.patient.proposed());
     figures.warnings = head_up_.warnings().counts();
     figures.soft_touches = soft_touches_.counts();
     if (plan_.recording) figures.recording = recorded, figures.recorded_by_default = plan_.recording->by_default;

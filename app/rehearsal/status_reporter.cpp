@@ -37,6 +37,7 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
   s.dry_s = state.head_up.times().dry_s;
   s.said = state.head_up.lastSaid();
   s.ruler = state.ruler;
+  s.proposed = plan_.patient.proposed();
   s.clearances = state.clearances;
   s.measures = state.measures;
   s.least = state.least;

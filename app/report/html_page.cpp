@@ -22,6 +22,8 @@ a { color: #0072b2; }
 .verdict svg { flex: none; }
 .verdict b { font-size: 20px; }
 .quiet { color: #666; }
+.unconfirmed, .unconfirmed b { color: #757575; font-style: italic; }
+p.unconfirmed { border-left: 4px solid #9a9a9a; padding-left: 10px; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; margin: 0 0 14px; }
 th { text-align: left; font-weight: normal; color: #666; }
 th, td { padding: 3px 10px 3px 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }

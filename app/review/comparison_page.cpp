@@ -34,7 +34,8 @@ std::function<double(const glm::dvec3&)> fromRemoval(const StoredStart& start, c
 
 std::string eventWords(const Gate& gate) {
   const std::string said = !gate.is_open ? "not known" : *gate.is_open ? "yes" : "no";
-  return gate.words.empty() ? said : said + ": " + gate.words;
+  const std::string mark = gate.is_open && !gate.is_confirmed ? ", not confirmed" : "";
+  return said + mark + (gate.words.empty() ? "" : ": " + gate.words);
 }
 
 std::string orDash(const std::optional<double>& value) { return value ? shortText(*value) : "-"; }
@@ -72,9 +73,12 @@ std::string measuresSection(const SessionComparison& c) {
   for (const ComparedMeasure& row : comparedMeasures(c)) {
     if (isAmongMeasures(row.key) || (!row.a && !row.b)) continue;
     const std::string difference = row.a && row.b ? signedText(*row.b - *row.a, 2) : "-";
-    rows.push_back({std::string(row.name), orDash(row.a), orDash(row.b), difference, unitText(row.unit)});
+    rows.push_back({std::string(row.name) + (row.is_confirmed ? "" : ", not confirmed"), orDash(row.a), orDash(row.b),
+                    difference, unitText(row.unit)});
+    for (std::string& cell : rows.back())
+      cell = row.is_confirmed ? escaped(cell) : "<span class=\"unconfirmed\">" + escaped(cell) + "</span>";
   }
-  return tableMarkup({"Measure", "first", "second", "difference", ""}, rows);
+  return tableOfMarkup({"Measure", "first", "second", "difference", ""}, rows);
 }
 
 }  // namespace

@@ -214,7 +214,7 @@ std::vector<Score> scoresOf(const SessionMetrics& run, const ReferenceSet& set) 
     if (!measure.value || values.empty()) continue;
     const auto [low, high] = std::ranges::minmax(values);
     scores.push_back({measure.id, measure.name, measure.unit, *measure.value, *medianOf(values), low, high,
-                      zOf(*measure.value, values), betterOf(measure.id)});
+                      zOf(*measure.value, values), betterOf(measure.id), measure.is_confirmed});
   }
   return scores;
 }
@@ -269,17 +269,19 @@ Grade gradeOf(std::span<const SessionMetrics> runs, const ReferenceSet& set) {
 std::string scoresText(const SessionMetrics& run, const ReferenceSet& set) {
   std::string words = fmt::format("Against {}, {} runs of {}\n", set.name, set.runs.size(), set.case_title);
   for (const Gate& gate : gatesOf(run))
-    words += fmt::format("  {:<38} {}{}\n", gate.name,
+    words += fmt::format("  {:<38} {}{}{}\n", gate.name,
                          !gate.is_open   ? "not known"
                          : *gate.is_open ? "YES"
                                          : "no",
+                         gate.is_open && !gate.is_confirmed ? " (not confirmed)" : "",
                          gate.words.empty() ? "" : ", " + gate.words);
   words += fmt::format("\n{:>11} {:>11} {:>23} {:>7}\n", "this run", "median", "range", "z");
   for (const Score& score : scoresOf(run, set)) {
     if (isAmongMeasures(score.id) && score.better == 0) continue;
-    words += fmt::format("{:>11} {:>11} {:>23} {:>7} {:<8} {}\n", number(score.value), number(score.median),
-                         number(score.low) + " to " + number(score.high),
-                         score.z ? fmt::format("{:+.1f}", *score.z) : "-", unitText(score.unit), score.name);
+    words +=
+        fmt::format("{:>11} {:>11} {:>23} {:>7} {:<8} {}{}\n", number(score.value), number(score.median),
+                    number(score.low) + " to " + number(score.high), score.z ? fmt::format("{:+.1f}", *score.z) : "-",
+                    unitText(score.unit), score.name, score.is_confirmed ? "" : " (not confirmed)");
   }
   if (set.runs.size() < kLeastRuns) words += fmt::format("no z: it needs a set of {} runs\n", kLeastRuns);
   words += fmt::format("no grade of one run: from {} runs on, molar trend --reference {}\n", kLeastRuns, set.name);
@@ -295,6 +297,7 @@ std::string scoresJson(const SessionMetrics& run, const ReferenceSet& set) {
     SetJson one = {{"id", score.id},     {"value", score.value}, {"unit", score.unit}, {"median", score.median},
                    {"least", score.low}, {"most", score.high},   {"z", nullptr},       {"better", score.better}};
     if (score.z) one["z"] = *score.z;
+    one["confirmed"] = score.is_confirmed;
     scores.push_back(std::move(one));
   }
   json["reference"] = {{"name", set.name}, {"runs", set.runs.size()}, {"scores", std::move(scores)}};

@@ -55,9 +55,10 @@ void refuseOtherCase(const std::string& case_title, const ReferenceSet& set);
 struct Score {
   std::string_view id, name, unit;
   double value = 0.0, median = 0.0, low = 0.0, high = 0.0;  ///< the run's; of the set
-  std::optional<double> z;  ///< standard deviations above the set's mean, whatever is better; none: fewer than three
-                            ///< runs, or no spread
-  int better = 0;           ///< 1: more is better, -1: less, 0: neither, it is not graded
+  std::optional<double> z;   ///< standard deviations above the set's mean, whatever is better; none: fewer than three
+                             ///< runs, or no spread
+  int better = 0;            ///< 1: more is better, -1: less, 0: neither, it is not graded
+  bool is_confirmed = true;  ///< false: it rests on what nobody has confirmed
 };
 /// Of what run and set both tell. Throws UsageError: of another case.
 std::vector<Score> scoresOf(const SessionMetrics& run, const ReferenceSet& set);

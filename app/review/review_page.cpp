@@ -19,6 +19,15 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
+constexpr const char* kNotConfirmed = ", not confirmed";
+
+/// Cells as markup, grey where they rest on what nobody has confirmed.
+std::vector<std::string> cellsMarkup(std::vector<std::string> cells, bool is_confirmed) {
+  for (std::string& cell : cells)
+    cell = is_confirmed ? escaped(cell) : "<span class=\"unconfirmed\">" + escaped(cell) + "</span>";
+  return cells;
+}
+
 std::string valueWords(const MeasureValue& measure) {
   if (!measure.value) return "not told: " + std::string(measure.why);
   // What is counted, a share of all or nothing.
@@ -26,10 +35,13 @@ std::string valueWords(const MeasureValue& measure) {
   std::string words = is_whole ? fixedText(*measure.value, 0) : shortText(*measure.value);
   if (!measure.unit.empty()) words += " " + unitText(measure.unit);
   if (measure.t_s) words += " at " + clockText(*measure.t_s);
+  if (!measure.is_confirmed) words += kNotConfirmed;
   return words;
 }
 
-std::string itemWords(const PlanItem& item) { return item.isKnown() ? valueText(item) : "not known: " + item.how; }
+std::string itemWords(const PlanItem& item) {
+  return item.isKnown() ? valueText(item) + (item.is_confirmed ? "" : kNotConfirmed) : "not known: " + item.how;
+}
 
 /// Bone or tooth of this key in files, for people; empty: neither, the rim of what is soft.
 std::string_view hardTissueName(const std::string& key) {
@@ -37,18 +49,29 @@ std::string_view hardTissueName(const std::string& key) {
   return named == assets::kTissues.end() || !(named->hard || named->tooth) ? "" : named->name;
 }
 
+/// "Lingual plate broken through".
+std::string begun(std::string_view name) {
+  std::string words(name);
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return words;
+}
+
 std::string caseSection(const SessionReview& review) {
-  Rows rows{{"Patient", review.metrics.patient_title}};
+  const assets::Proposed& proposed = review.metrics.proposed;
+  Rows rows{{"Patient", escaped(review.metrics.patient_title)}};
   if (review.plan)
-    for (const PlanItem& item : *review.plan) rows.push_back({std::string(item.name), itemWords(item)});
+    for (const PlanItem& item : *review.plan)
+      rows.push_back(cellsMarkup({std::string(item.name), itemWords(item)}, item.is_confirmed));
   else if (!review.treatment)
-    rows.push_back({"Plan", "not told: " + review.why_no_plan});
+    rows.push_back({"Plan", "not told: " + escaped(review.why_no_plan)});
   if (review.metrics.prediction)
-    rows.push_back({"Predicted", predictionInWords(*review.metrics.prediction, review.metrics.endOfWork_s())});
+    rows.push_back({"Predicted", escaped(predictionInWords(*review.metrics.prediction, review.metrics.endOfWork_s()))});
   if (const std::string drawn = review.metrics.drawn_cut ? drawnCutInWords(*review.metrics.drawn_cut) : "";
       !drawn.empty())
-    rows.push_back({"Own plan", drawn});
-  return tableMarkup({}, rows);
+    rows.push_back(cellsMarkup({"Own plan", drawn + (proposed.tooth ? kNotConfirmed : "")}, !proposed.tooth));
+  const std::string words = notConfirmedText(proposed);
+  return (words.empty() ? "" : "<p class=\"unconfirmed\">" + escaped(begun(words)) + ", in grey.</p>\n") +
+         tableOfMarkup({}, rows);
 }
 
 /// "2:39", leading to its picture where it has one.
@@ -72,19 +95,18 @@ std::optional<double> momentOf(const SessionReview& review, const Gate& gate) {
 }
 
 std::string answer(const SessionReview& review, const Gate& gate, const std::string& question) {
-  const char* said = !gate.is_open ? "Not known" : *gate.is_open ? "Yes" : "No";
+  // Of what nobody has confirmed it is neither known that it happened nor that it did not.
+  const bool is_grey = gate.is_open && !gate.is_confirmed;
+  const std::string said = std::string(!gate.is_open   ? "Not known"
+                                       : *gate.is_open ? "Yes"
+                                                       : "No") +
+                           (is_grey ? kNotConfirmed : "");
   std::string words = escaped(gate.words);
   if (const auto t_s = momentOf(review, gate); t_s && pictureOf(review.moments, *t_s))
     words += ", picture " + momentLink(review, *t_s);
-  return "<div class=\"verdict\">\n" + answerSymbol(gate.is_open) + "<div><b>" + said + "</b>: " + escaped(question) +
+  return std::string("<div class=\"verdict") + (is_grey ? " unconfirmed" : "") + "\">\n" +
+         answerSymbol(is_grey ? std::nullopt : gate.is_open) + "<div><b>" + said + "</b>: " + escaped(question) +
          (words.empty() ? "" : "<br><span class=\"quiet\">" + words + "</span>") + "</div>\n</div>\n";
-}
-
-/// "Lingual plate broken through".
-std::string begun(std::string_view name) {
-  std::string words(name);
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
-  return words;
 }
 
 std::string errorsSection(const SessionReview& review) {
@@ -97,15 +119,17 @@ std::string againstSection(const SessionReview& review, const ReferenceSet& set)
   Rows rows;
   for (const Score& score : scoresOf(review.metrics, set)) {
     if (score.better == 0) continue;
-    rows.push_back({std::string(score.name), fixedText(score.value, 2) + " " + unitText(score.unit),
-                    fixedText(score.median, 2), fixedText(score.low, 2) + " to " + fixedText(score.high, 2),
-                    score.z ? fmt::format("{:+.1f}", *score.z) : "-", score.better > 0 ? "more" : "less"});
+    rows.push_back(cellsMarkup({std::string(score.name) + (score.is_confirmed ? "" : kNotConfirmed),
+                                fixedText(score.value, 2) + " " + unitText(score.unit), fixedText(score.median, 2),
+                                fixedText(score.low, 2) + " to " + fixedText(score.high, 2),
+                                score.z ? fmt::format("{:+.1f}", *score.z) : "-", score.better > 0 ? "more" : "less"},
+                               score.is_confirmed));
   }
   return "<p>" +
          escaped(
              fmt::format("{}: {} runs of this case. The events above are never averaged away; one run has no grade.",
                          set.name, set.runs.size())) +
-         "</p>\n" + tableMarkup({"Measure", "this rehearsal", "median", "range", "z", "better is"}, rows);
+         "</p>\n" + tableOfMarkup({"Measure", "this rehearsal", "median", "range", "z", "better is"}, rows);
 }
 
 bool isSafety(const MeasureValue& measure) { return measure.id.starts_with("S"); }
@@ -129,13 +153,20 @@ std::string clearanceTable(const SessionReview& review) {
       rows.push_back({name, "not told: " + escaped(measure->why), "", "", "", "", "", ""});
       continue;
     }
-    rows.push_back({name, "<b>" + cell(least) + "</b>", measure->t_s ? momentLink(review, *measure->t_s) : "",
-                    cell(least + "_force"), cell(least + "_speed"), cell(near + "_1mm"), cell(near + "_2mm"),
-                    cell(near + "_4mm")});
+    std::vector<std::string>& row = rows.emplace_back(std::vector<std::string>{
+        name, "<b>" + cell(least) + "</b>", measure->t_s ? momentLink(review, *measure->t_s) : "",
+        cell(least + "_force"), cell(least + "_speed"), cell(near + "_1mm"), cell(near + "_2mm"), cell(near + "_4mm")});
+    if (measure->is_confirmed) continue;
+    row[0] += kNotConfirmed;
+    for (std::string& one : row) one = "<span class=\"unconfirmed\">" + one + "</span>";
   }
   if (rows.empty()) return "";
   return tableOfMarkup({"Turning bur to", "nearest", "at", "force then", "speed then", "below 1 mm", "2 mm", "4 mm"},
                        rows);
+}
+
+std::vector<std::string> measureRow(const MeasureValue& measure) {
+  return cellsMarkup({std::string(measure.name), valueWords(measure)}, measure.is_confirmed || !measure.value);
 }
 
 std::string nearSection(const SessionReview& review) {
@@ -149,16 +180,19 @@ std::string nearSection(const SessionReview& review) {
     return !of_neighbour || measure.value.value_or(0.0) != 0.0;
   };
   for (const MeasureValue& measure : metrics.measures)
-    if (isSafety(measure) && is_told(measure)) rows.push_back({std::string(measure.name), valueWords(measure)});
-  if (metrics.touched)
-    rows.push_back({"touched by the bur", !metrics.touched->empty() ? touchesText(*metrics.touched)
-                                          : review.has_canal        ? "no tooth, no canal"
-                                                                    : "no tooth"});
+    if (isSafety(measure) && is_told(measure)) rows.push_back(measureRow(measure));
+  if (metrics.touched) {
+    std::string words = !metrics.touched->empty() ? touchesText(*metrics.touched)
+                        : review.has_canal        ? "no tooth, no canal"
+                                                  : "no tooth";
+    if (metrics.proposed.any()) words += kNotConfirmed;
+    rows.push_back(cellsMarkup({"touched by the bur", words}, !metrics.proposed.any()));
+  }
   const std::string cut = softTouchesText(metrics.soft_touches.cut),
                     pressed = softTouchesText(metrics.soft_touches.touched);
-  rows.push_back({"bur turned on soft tissue", cut.empty() ? "never" : cut});
-  rows.push_back({"soft tissue pressed", pressed.empty() ? "never" : pressed});
-  return clearanceTable(review) + tableMarkup({}, rows);
+  rows.push_back({"bur turned on soft tissue", cut.empty() ? "never" : escaped(cut)});
+  rows.push_back({"soft tissue pressed", pressed.empty() ? "never" : escaped(pressed)});
+  return clearanceTable(review) + tableOfMarkup({}, rows);
 }
 
 std::string momentsSection(const SessionReview& review) {
@@ -181,19 +215,22 @@ std::string momentsSection(const SessionReview& review) {
 
 std::string removedSection(const SessionReview& review) {
   Rows rows;
+  const bool is_confirmed = !review.metrics.proposed.tooth;
   if (review.metrics.removed_mm3_by_label)
     for (const auto& [tissue, removed_mm3] : *review.metrics.removed_mm3_by_label)
       if (const std::string_view name = hardTissueName(tissue); !name.empty() && removed_mm3 >= 0.05)
-        rows.push_back({std::string(name), fixedText(removed_mm3, 1) + " mm³"});
+        rows.push_back(
+            cellsMarkup({std::string(name), fixedText(removed_mm3, 1) + " mm³" + (is_confirmed ? "" : kNotConfirmed)},
+                        is_confirmed));
   // Outcomes of an extraction; those of canals are told apart.
   for (const MeasureValue& measure : review.metrics.measures)
-    if (isOutcome(measure) && !review.treatment) rows.push_back({std::string(measure.name), valueWords(measure)});
+    if (isOutcome(measure) && !review.treatment) rows.push_back(measureRow(measure));
   const std::string caption =
       review.is_against_plan
           ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
             "the plan that stands. What sectioning and clearing took beyond the gutter is red, too."
           : "The site as it was left.";
-  std::string content = tableMarkup({}, rows);
+  std::string content = tableOfMarkup({}, rows);
   if (review.pictures.empty()) return content;
   // Rows of two, so that a printed page is filled and none is cut.
   content += "<p>" + escaped(caption) + "</p>\n<div class=\"pairs\">\n";
@@ -215,16 +252,16 @@ std::string handSection(const SessionReview& review, const SessionMetrics* other
   for (const MeasureValue& measure : measures) {
     if (isSafety(measure) || isOutcome(measure)) continue;
     if (review.treatment && !measure.value) continue;
-    std::vector<std::string> row{std::string(measure.name), valueWords(measure)};
+    std::vector<std::string> row = measureRow(measure);
     if (other != nullptr) {
       const MeasureValue* const same = measureOf(*other, measure.id);
-      row.push_back(same == nullptr ? "" : valueWords(*same));
+      row.push_back(same == nullptr ? "" : escaped(valueWords(*same)));
     }
     rows.push_back(std::move(row));
   }
   std::vector<std::string> heads;
   if (other != nullptr) heads = {"Measure", "this rehearsal", "compared with"};
-  std::string content = tableMarkup(heads, rows);
+  std::string content = tableOfMarkup(heads, rows);
   if (const std::string force = forceFigure(review.course); !force.empty())
     content += figureMarkup(force, "How long the bur drilled in bone or tooth with which force.");
   return content;

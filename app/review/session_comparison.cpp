@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/session/measures/rests_on.h"
 #include "app/session/session_error.h"
 #include "app/station/session_case.h"
 #include "app/text/clock_text.h"
@@ -23,10 +24,15 @@ nlohmann::ordered_json orNull(const std::optional<double>& value) {
 
 std::vector<ComparedMeasure> comparedMeasures(const SessionComparison& c) {
   std::vector<ComparedMeasure> rows;
+  const auto confirmed = [&c](std::string_view id) {
+    return isConfirmed(id, c.a.proposed) && isConfirmed(id, c.b.proposed);
+  };
   for (const Measure& measure : kMeasures)
-    rows.push_back({std::string(measure.key), measure.meaning, measure.unit, c.a.*measure.value, c.b.*measure.value});
+    rows.push_back({std::string(measure.key), measure.meaning, measure.unit, c.a.*measure.value, c.b.*measure.value,
+                    confirmed(measure.key)});
   for (const MeasureValue& measure : c.a.measures)
-    rows.push_back({std::string(measure.id), measure.name, measure.unit, measure.value, valueOf(c.b, measure.id)});
+    rows.push_back({std::string(measure.id), measure.name, measure.unit, measure.value, valueOf(c.b, measure.id),
+                    confirmed(measure.id)});
   return rows;
 }
 
@@ -80,8 +86,8 @@ std::string comparisonText(const SessionComparison& c) {
   for (const ComparedMeasure& row : comparedMeasures(c)) {
     if (isAmongMeasures(row.key)) continue;
     const std::string difference = row.a && row.b ? fmt::format("{:+.2f}", *row.b - *row.a + 0.0) : "-";
-    words += fmt::format("{:>11} {:>11} {:>11} {:<8} {}\n", number(row.a), number(row.b), difference,
-                         unitText(row.unit), row.name);
+    words += fmt::format("{:>11} {:>11} {:>11} {:<8} {}{}\n", number(row.a), number(row.b), difference,
+                         unitText(row.unit), row.name, row.is_confirmed ? "" : " (not confirmed)");
   }
   return words;
 }
@@ -103,6 +109,7 @@ std::string comparisonJson(const SessionComparison& c) {
     nlohmann::ordered_json entry = {
         {"id", row.key}, {"name", row.name}, {"unit", row.unit}, {"first", orNull(row.a)}, {"second", orNull(row.b)}};
     entry["difference"] = row.a && row.b ? nlohmann::ordered_json(*row.b - *row.a) : nullptr;
+    entry["confirmed"] = row.is_confirmed;
     json["measures"].push_back(std::move(entry));
   }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -33,6 +33,7 @@ struct ComparedMeasure {
   std::string key;
   std::string_view name, unit;
   std::optional<double> a, b;
+  bool is_confirmed = true;  ///< false: in one of them it rests on what nobody has confirmed
 };
 std::vector<ComparedMeasure> comparedMeasures(const SessionComparison& comparison);
 

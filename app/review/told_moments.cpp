@@ -50,6 +50,7 @@ std::vector<ToldMoment> toldMoments(const SessionMetrics& metrics, const Session
     if (!words.is_told_at_zero && !(*measure->value > 0.0)) continue;
     std::string what(words.before);
     if (!words.after.empty()) what += fixedText(*measure->value, 2) + std::string(words.after);
+    if (!measure->is_confirmed) what += " (not confirmed)";
     told.add(*measure->t_s, what);
   }
   for (const MarkKind kind : {MarkKind::touch, MarkKind::error, MarkKind::coach}) {

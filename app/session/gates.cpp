@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/session/measures/clearance_measures.h"
+#include "app/session/measures/rests_on.h"
 #include "app/session/metrics.h"
 #include "app/session/touch_event.h"
 #include "app/text/clock_text.h"
@@ -118,7 +119,10 @@ Gate retainedGate(const SessionMetrics& metrics) {
 }  // namespace
 
 std::array<Gate, 4> gatesOf(const SessionMetrics& metrics) {
-  return {perforationGate(metrics), secondMolarGate(metrics), canalGate(metrics), retainedGate(metrics)};
+  std::array<Gate, 4> gates{perforationGate(metrics), secondMolarGate(metrics), canalGate(metrics),
+                            retainedGate(metrics)};
+  for (Gate& gate : gates) gate.is_confirmed = isConfirmed(gate.key, metrics.proposed);
+  return gates;
 }
 
 std::string gatesInWords(const SessionMetrics& metrics) {
@@ -127,6 +131,7 @@ std::string gatesInWords(const SessionMetrics& metrics) {
     if (!words.empty()) words += "; ";
     words += fmt::format("{}: {}", gate.name, !gate.is_open ? "not known" : *gate.is_open ? "yes" : "no");
     if (!gate.words.empty()) words += ", " + gate.words;
+    if (gate.is_open && !gate.is_confirmed) words += " (not confirmed)";
   }
   return words;
 }

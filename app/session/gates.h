@@ -15,6 +15,7 @@ struct Gate {
   std::string_view key, name;   ///< "perforation", "lingual plate broken through"
   std::optional<bool> is_open;  ///< it happened; none: not known
   std::string words;            ///< how much, when; or why it is not known
+  bool is_confirmed = true;     ///< false: of a tooth or canal that nobody has confirmed
 };
 
 std::array<Gate, 4> gatesOf(const SessionMetrics& metrics);

@@ -16,6 +16,7 @@
 #include "app/session/measures/original_surface.h"
 #include "app/session/measures/outcome.h"
 #include "app/session/measures/practice_measures.h"
+#include "app/session/measures/rests_on.h"
 #include "app/session/measures/tissue_work.h"
 #include "app/session/session_error.h"
 #include "app/text/parse_number.h"
@@ -124,6 +125,7 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const B
   metrics.program_version = start.program_version;
   metrics.calibration = start.calibration;
   metrics.former = start.setup.former;
+  metrics.proposed = start.setup.proposed;
   metrics.closed = session.closed();
   metrics.missing_log = session.missingLog();
   const std::vector<SessionCommand> commands = session.commands();
@@ -216,6 +218,7 @@ SessionMetrics metricsOf(const std::string& path, const CaseOf& case_of, const B
                      {start, *after, *clock, &surface, about, metrics.socket, parted_s, metrics.removed_mm3_by_label}));
   if (const auto task = assets::practiceTaskOf(start.setup.practice); task && clock)
     add(practiceMeasures(*task, start.grid, start.label, start.solid, *after));
+  for (MeasureValue& measure : metrics.measures) measure.is_confirmed = isConfirmed(measure.id, metrics.proposed);
   metrics.envelope = near.envelope();
   metrics.soft_touches = soft_touches.counts();
   metrics.work_p50_us = quantile(work_us, 0.50);

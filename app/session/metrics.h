@@ -26,6 +26,7 @@
 #include "app/session/step_event.h"
 #include "app/session/touch_event.h"
 #include "app/session/way_event.h"
+#include "assets/proposed.h"
 
 namespace app {
 
@@ -45,6 +46,7 @@ struct SessionMetrics {
   std::string patient_title, program_version;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before calibrations were stored
   SessionConditions conditions;
+  assets::Proposed proposed;               ///< what rests on it is not confirmed
   std::optional<FormerSession> former;     ///< the session this one continues: its measures are its own
   bool closed = false;                     ///< false: ended by a kill or a full disk
   std::optional<std::string> missing_log;  ///< killed, and this log of it is missing
@@ -135,6 +137,9 @@ bool isAmongMeasures(std::string_view id);
 
 /// The table of kMeasures for --help and the manual, and where the others are.
 std::string measuresHelp();
+
+/// One sentence on what nobody had confirmed; empty: nothing.
+std::string notConfirmedText(const assets::Proposed& proposed);
 
 /// For people: a summary in a few short lines, then kMeasures with units, then the volume by tissue.
 std::string metricsText(const SessionMetrics& metrics);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/gates.h"
+#include "app/session/measures/rests_on.h"
 
 namespace app {
 namespace {
@@ -131,6 +132,7 @@ nlohmann::ordered_json measuresJson(const std::vector<MeasureValue>& measures) {
       entry["why"] = measure.why;
     if (measure.t_s) entry["t_s"] = *measure.t_s;
     if (!measure.conditions.empty()) entry["conditions"] = measure.conditions;
+    entry["confirmed"] = measure.is_confirmed;
     list.push_back(std::move(entry));
   }
   return list;
@@ -153,6 +155,7 @@ nlohmann::ordered_json gatesJson(const SessionMetrics& metrics) {
   for (const Gate& gate : gatesOf(metrics)) {
     nlohmann::ordered_json one = {{"key", gate.key}, {"name", gate.name}, {"happened", nullptr}, {"words", gate.words}};
     if (gate.is_open) one["happened"] = *gate.is_open;
+    one["confirmed"] = gate.is_confirmed;
     list.push_back(std::move(one));
   }
   return list;
@@ -169,6 +172,15 @@ nlohmann::ordered_json predictionJson(const Prediction& p, double end_s) {
   return json;
 }
 
+/// What nobody had confirmed, and the keys here that rest on it.
+nlohmann::ordered_json notConfirmedJson(const assets::Proposed& proposed) {
+  if (!proposed.any()) return nullptr;
+  nlohmann::ordered_json json = {{"what", nlohmann::ordered_json::array()}, {"keys", nlohmann::ordered_json::array()}};
+  if (proposed.tooth) json["what"].push_back("tooth");
+  if (proposed.canal) json["what"].push_back("canal");
+  return json;
+}
+
 }  // namespace
 
 std::string metricsJson(const SessionMetrics& metrics) {
@@ -179,6 +191,8 @@ std::string metricsJson(const SessionMetrics& metrics) {
   }
   nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
+      {"confirmed", !metrics.proposed.any()},
+      {"not_confirmed", notConfirmedJson(metrics.proposed)},
       {"program_version", metrics.program_version},
       {"calibration", metrics.calibration ? calibrationMetrics(*metrics.calibration) : nlohmann::ordered_json()},
       {"conditions", conditionsJson(metrics.conditions)},
@@ -228,6 +242,11 @@ std::string metricsJson(const SessionMetrics& metrics) {
   json["help_refused"] = metrics.help_refused;
   json["coach_said"] = metrics.coach_said;
   json["soft_tissue"] = softTouchesJson(metrics.soft_touches);
+  // Objects say it of themselves; what is a number or a list is named.
+  for (const auto& [key, value] : json.items()) {
+    if (isConfirmed(key, metrics.proposed) || value.is_null()) continue;
+    json["not_confirmed"]["keys"].push_back(key);
+  }
   json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -6,21 +6,24 @@
 
 #include "app/session/assessment_event.h"
 #include "app/session/gates.h"
+#include "app/session/measures/rests_on.h"
 #include "app/text/clock_text.h"
 
 namespace app {
 namespace {
 
+constexpr std::string_view kNotConfirmed = " (not confirmed)";
+
 /// A line for people, the value first, so that names of any length stand below each other.
-std::string valueLine(double value, std::string_view unit, std::string_view name) {
-  return fmt::format("{:>11.2f} {:<8} {}\n", value + 0.0, unitText(unit), name);
+std::string valueLine(double value, std::string_view unit, std::string_view name, bool is_confirmed) {
+  return fmt::format("{:>11.2f} {:<8} {}{}\n", value + 0.0, unitText(unit), name, is_confirmed ? "" : kNotConfirmed);
 }
 
 std::string measuresText(const std::vector<MeasureValue>& measures) {
   std::string words;
   for (const MeasureValue& measure : measures) {
     if (isAmongMeasures(measure.id)) continue;
-    words += measure.value ? valueLine(*measure.value, measure.unit, measure.name)
+    words += measure.value ? valueLine(*measure.value, measure.unit, measure.name, measure.is_confirmed)
                            : fmt::format("{:>11} {:<8} {}: {}\n", "-", "", measure.name, measure.why);
   }
   return words;
@@ -58,10 +61,22 @@ std::string measuresHelp() {
   return text;
 }
 
+std::string notConfirmedText(const assets::Proposed& proposed) {
+  if (!proposed.any()) return {};
+  return fmt::format(
+      "not confirmed: {} {} found by the program in the scan and nobody had confirmed {}; numbers that rest on {} are "
+      "marked",
+      proposed.words(), proposed.tooth && proposed.canal ? "were" : "was",
+      proposed.tooth && proposed.canal ? "them" : "it", proposed.tooth && proposed.canal ? "them" : "it");
+}
+
 std::string metricsText(const SessionMetrics& metrics) {
-  std::string words =
-      fmt::format("{:.1f} s, of which {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
-                  metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
+  std::string words = metrics.proposed.any() ? notConfirmedText(metrics.proposed) + "\n" : std::string();
+  const auto mark = [&metrics](std::string_view key) {
+    return isConfirmed(key, metrics.proposed) ? std::string() : std::string(kNotConfirmed);
+  };
+  words += fmt::format("{:.1f} s, of which {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
+                       metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
   if (metrics.returned_mm3 > 0.0) words += fmt::format(", another {:.1f} mm³ undone", metrics.returned_mm3);
   words += metrics.drill_in_contact_s == 0.0 ? "\n"
            : metrics.dry_drilling_s > 0.0
@@ -78,11 +93,12 @@ std::string metricsText(const SessionMetrics& metrics) {
     words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
   if (metrics.touched)
-    words += "touched: " + (metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)) + "\n";
+    words += "touched: " + (metrics.touched->empty() ? "no tooth, no canal" : touchesText(*metrics.touched)) +
+             mark("touched") + "\n";
   for (const BridgeBreak& broke : metrics.bridge_breaks)
-    words +=
-        fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}\n", clockText(broke.t_s), broke.area_mm2,
-                    broke.force_N, 1e-3 * broke.bending_Nmm, broke.is_complete ? "" : ", a spur stayed on the root");
+    words += fmt::format("bridge broken at {}: {:.1f} mm², {:.0f} N, {:.2f} N m{}{}\n", clockText(broke.t_s),
+                         broke.area_mm2, broke.force_N, 1e-3 * broke.bending_Nmm,
+                         broke.is_complete ? "" : ", a spur stayed on the root", mark("bridge_breaks"));
   words += "events: " + gatesInWords(metrics) + "\n";
   words += "conditions: " + conditionsInWords(metrics.conditions) + "\n";
   if (metrics.assessed.value_or(false)) {
@@ -94,10 +110,10 @@ std::string metricsText(const SessionMetrics& metrics) {
     words += "\n";
   }
   if (metrics.prediction) words += "predicted: " + predictionInWords(*metrics.prediction, metrics.endOfWork_s()) + "\n";
-  if (metrics.flap) words += "flap: " + flapInWords(*metrics.flap) + "\n";
+  if (metrics.flap) words += "flap: " + flapInWords(*metrics.flap) + mark("flap") + "\n";
   if (metrics.socket && !socketInWords(*metrics.socket).empty())
-    words += "socket: " + socketInWords(*metrics.socket) + "\n";
-  if (metrics.way) words += "last looked what keeps the tooth in: " + wayInWords(*metrics.way) + "\n";
+    words += "socket: " + socketInWords(*metrics.socket) + mark("socket") + "\n";
+  if (metrics.way) words += "last looked what keeps the tooth in: " + wayInWords(*metrics.way) + mark("way_out") + "\n";
   if (metrics.procedure) {
     words += "procedure: " + procedureInWords(*metrics.procedure) + "\n";
     for (const std::string& step : stepsInWords(*metrics.procedure)) words += "  " + step + "\n";
@@ -105,11 +121,14 @@ std::string metricsText(const SessionMetrics& metrics) {
   for (const MeasuredWay& way : metrics.measured)
     words += "measured at " + clockText(way.t_s) + ": " + way.words + "\n";
   words += "\n";
-  for (const Measure& measure : kMeasures) words += valueLine(metrics.*measure.value, measure.unit, measure.meaning);
+  for (const Measure& measure : kMeasures)
+    words +=
+        valueLine(metrics.*measure.value, measure.unit, measure.meaning, isConfirmed(measure.key, metrics.proposed));
   words += measuresText(metrics.measures);
   if (metrics.removed_mm3_by_label)
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label)
-      words += valueLine(removed_mm3, "mm3", "removed " + tissue);
+      words +=
+          valueLine(removed_mm3, "mm3", "removed " + tissue, isConfirmed("removed_mm3_by_label", metrics.proposed));
   return words;
 }
 

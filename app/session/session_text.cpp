@@ -131,6 +131,8 @@ json setupJson(const SessionSetup& setup) {
   if (!setup.canal_P_mm.empty()) object["canal"]["radius_mm"] = setup.canal_radius_mm;
   if (setup.canals) object["root_canals"] = json::parse(canalsText(*setup.canals));
   if (setup.down_P) object["down_P"] = three(*setup.down_P);
+  if (setup.proposed.tooth) object["not_confirmed"].push_back("tooth");
+  if (setup.proposed.canal) object["not_confirmed"].push_back("canal");
   return object;
 }
 
@@ -179,6 +181,11 @@ SessionSetup setupFrom(const json& object) {
   // One of another version is as an imported patient: its bone is in the session.
   setup.practice = valueOf(object, "practice", std::string());
   if (!assets::practiceTaskOf(setup.practice)) setup.practice.clear();
+  if (const auto list = object.find("not_confirmed"); list != object.end() && list->is_array())
+    for (const json& what : *list) {
+      if (what == "tooth") setup.proposed.tooth = true;
+      if (what == "canal") setup.proposed.canal = true;
+    }
   if (const auto tray = object.find("tray"); tray != object.end() && tray->is_array())
     for (const json& one : *tray) {
       if (!one.is_object()) throw damagedSession("it has no valid tray");
@@ -321,6 +328,9 @@ SessionAbout aboutFromText(std::string_view text) {
   }
   if (const auto found = object.find("setup"); found != object.end() && found->is_object())
     about.start.setup = setupFrom(*found);
+  // Recorded when the title alone said so.
+  if (!about.start.setup.proposed.any() && about.start.patient_title.ends_with(assets::kNotConfirmedTitle))
+    about.start.setup.proposed = {true, true};
   about.start.started_utc = valueOf(object, "started_utc", std::string());
   return about;
 }

@@ -33,6 +33,11 @@ assets::Patient patientWithinSession(const StoredStart& start) {
   patient.ct.tooth = start.teeth;
   patient.site = start.setup.site;
   patient.canals = start.setup.canals;
+  if (const assets::Proposed& proposed = start.setup.proposed; proposed.any()) {
+    patient.found = assets::Confirmation{!proposed.tooth, !proposed.canal};
+    if (patient.title.ends_with(assets::kNotConfirmedTitle))
+      patient.title.resize(patient.title.size() - assets::kNotConfirmedTitle.size());
+  }
   patient.jaw_P_mm = start.grid.centre_P_mm(start.grid.size / 2);
   patient.mandibular_canal_P_mm = start.setup.canal_P_mm;
   if (!start.setup.canal_P_mm.empty()) patient.mandibular_canal_radius_mm = start.setup.canal_radius_mm;

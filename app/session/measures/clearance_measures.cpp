@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/session/measures/rests_on.h"
 #include "app/text/clock_text.h"
 
 namespace app {
@@ -118,12 +119,13 @@ std::vector<MeasureValue> noClearances(std::string_view why) {
   return values;
 }
 
-std::string clearancesInWords(const ClearanceMeasures& measures) {
+std::string clearancesInWords(const ClearanceMeasures& measures, const assets::Proposed& proposed) {
   std::string words;
   for (std::size_t n = 0; n < assets::kRiskStructures; ++n)
     if (const auto& least = measures.least()[n])
-      words += fmt::format("{}{} {:.1f} mm at {}", words.empty() ? "" : ", ", assets::kRiskTexts[n].name,
-                           least->mm + 0.0, clockText(least->t_s));
+      words += fmt::format("{}{} {:.1f} mm at {}{}", words.empty() ? "" : ", ", assets::kRiskTexts[n].name,
+                           least->mm + 0.0, clockText(least->t_s),
+                           isConfirmed(static_cast<assets::RiskStructure>(n), proposed) ? "" : " (not confirmed)");
   return words;
 }
 

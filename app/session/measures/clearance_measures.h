@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/session/measures/measure_value.h"
+#include "assets/proposed.h"
 #include "haptics/servo/tick.h"
 #include "haptics/tool/clearance.h"
 
@@ -64,7 +65,7 @@ class ClearanceMeasures {
 std::vector<MeasureValue> noClearances(std::string_view why);
 
 /// "canal 1.4 mm at 3:12, second molar 0.6 mm at 2:10"; empty: nothing was told.
-std::string clearancesInWords(const ClearanceMeasures& measures);
+std::string clearancesInWords(const ClearanceMeasures& measures, const assets::Proposed& proposed = {});
 /// {"canal": {"mm": 1.4, "t_s": 192.3}, …} with all digits.
 std::string clearanceText(const ClearanceMeasures& measures);
 

@@ -15,6 +15,7 @@ struct MeasureValue {
   std::string_view why;             ///< words, where there is no value
   std::optional<double> t_s;        ///< the moment it is of
   std::string conditions = {};      ///< that it depends on; empty: none but the recording's
+  bool is_confirmed = true;         ///< false: it rests on a tooth or canal that nobody has confirmed, see rests_on.h
 };
 
 /// A measure without its value.
