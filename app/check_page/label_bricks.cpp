@@ -9,10 +9,10 @@
 namespace app {
 namespace {
 
-constexpr std::uint8_t kNone = 255;
+constexpr std::uint8_t kNowhere = 255;
 
 std::uint8_t further(std::uint8_t distance) {
-  return distance == kNone ? kNone : static_cast<std::uint8_t>(std::min(distance + 1, kNone - 1));
+  return distance == kNowhere ? kNowhere : static_cast<std::uint8_t>(std::min(distance + 1, kNowhere - 1));
 }
 
 /// The least of a row's element and its neighbours.
@@ -59,7 +59,7 @@ void measure(const glm::ivec3& size, std::vector<std::uint8_t>& distance) {
 
 void LabelBricks::find(const assets::VolumeGrid& grid, const std::vector<std::uint8_t>& what) {
   size_ = (grid.size + (kEdge - 1)) / kEdge;
-  for (std::vector<std::uint8_t>& distance : distance_) distance.assign(assets::countIn(size_), kNone);
+  for (std::vector<std::uint8_t>& distance : distance_) distance.assign(assets::countIn(size_), kNowhere);
   // Nothing is shared between layers of bricks.
   tbb::parallel_for(0, size_.z, [&](int layer) {
     const int end = std::min(grid.size.z, kEdge * (layer + 1));
@@ -87,7 +87,7 @@ void LabelBricks::add(const glm::ivec3& ijk, std::uint8_t what) {
 // Outwards until a whole shell is nearer to others: then all beyond it are.
 void LabelBricks::fill(const glm::ivec3& brick, Wanted wanted) {
   std::vector<std::uint8_t>& distance = distance_[wanted];
-  for (int away = 0; away < kNone - 1; ++away) {
+  for (int away = 0; away < kNowhere - 1; ++away) {
     bool is_nearer = false;
     const glm::ivec3 low = glm::max(brick - away, glm::ivec3(0)), end = glm::min(brick + away + 1, size_);
     assets::forVoxels(low, end, [&](glm::ivec3 at) {

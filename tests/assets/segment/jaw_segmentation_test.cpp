@@ -53,14 +53,15 @@ TEST(JawSegmentation, WhatIsFoundIsShownAsItComes) {
   const tests::ArchPhantom phantom = tests::archPhantom({.spacing_mm = 0.8});
   std::vector<std::string> shown;
   std::vector<std::uint8_t> tooth;
-  const JawSegmentation jaw = segmentJaw(phantom.grid, phantom.hounsfield, {}, {}, [&](const JawSoFar& so_far) {
-    shown.emplace_back(so_far.labels != nullptr ? "labels" : so_far.teeth != nullptr ? "teeth" : "jaw");
-    if (so_far.labels != nullptr) tooth = so_far.labels->tooth;
-    ASSERT_NE(so_far.labels == nullptr, so_far.jaw == nullptr);
-  });
+  const assets::JawSegmentation jaw =
+      assets::segmentJaw(phantom.grid, phantom.hounsfield, {}, {}, [&](const assets::JawSoFar& so_far) {
+        shown.emplace_back(so_far.labels != nullptr ? "labels" : so_far.teeth != nullptr ? "teeth" : "jaw");
+        if (so_far.labels != nullptr) tooth = so_far.labels->tooth;
+        ASSERT_NE(so_far.labels == nullptr, so_far.jaw == nullptr);
+      });
   EXPECT_EQ(shown, (std::vector<std::string>{"jaw", "teeth", "teeth", "labels"}));
   EXPECT_TRUE(tooth == jaw.tooth);
-  const JawSegmentation unwatched = segmentJaw(phantom.grid, phantom.hounsfield);
+  const assets::JawSegmentation unwatched = assets::segmentJaw(phantom.grid, phantom.hounsfield);
   EXPECT_TRUE(jaw.label == unwatched.label && jaw.tooth == unwatched.tooth);
 }
 
