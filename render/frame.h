@@ -18,8 +18,10 @@
 
 namespace render {
 
-/// How tooth and bone are drawn: the surface solid = 0.5, the translucent volume, or the surface as triangles.
-enum class ViewMode { iso, dvr, mesh };
+/// How tooth and bone are drawn: the surface solid = 0.5, the translucent volume, the surface as triangles, or the
+/// volume as clear as glass with the walls of a tooth and its canals.
+enum class ViewMode { iso, dvr, mesh, clear };
+constexpr bool isTranslucent(ViewMode mode) { return mode == ViewMode::dvr || mode == ViewMode::clear; }
 
 /// Optional layers, and the opacity of the face.
 struct Layers {
@@ -32,6 +34,8 @@ struct Layers {
   bool slices = false;       ///< CT slices through the bur
   bool gap_ring = true;      ///< a ring on the bone at Frame::gap, coloured by it
   bool obstacles = true;     ///< Frame::obstacles
+  // Of a root-canal file in the hand; what the frame is made from, drawn by ViewMode::clear and Frame::magnified.
+  bool clear_tooth = false, tip_inset = false;
 };
 
 /// Larger gaps are not reported.
@@ -53,6 +57,14 @@ inline bool operator==(const RulerLine& a, const RulerLine& b) {
   return a.from_P.mm == b.from_P.mm && a.to_P.has_value() == b.to_P.has_value() &&
          (!a.to_P || a.to_P->mm == b.to_P->mm);
 }
+
+/// A place shown larger in a corner of the picture, tooth and bone as clear as glass: across `up_P`, which is upright,
+/// from the side of the eyes and from so near that nothing of face and gum is in between.
+struct Magnified {
+  calibration::Point<calibration::Patient> at_P;
+  glm::dvec3 up_P{0.0, 0.0, 1.0};  ///< unit
+  double across_mm = 2.0;
+};
 
 /// Pieces of tooth that can leave the jaw.
 inline constexpr std::size_t kMostPieces = 4;
@@ -118,6 +130,7 @@ struct Frame {
   double bur_angle_rad = 0.0;    ///< rotation of the bur
   std::optional<BoneGap> gap;    ///< of this pose; none: farther than kMaxGap_mm, or not known
   std::optional<RulerLine> ruler;
+  std::optional<Magnified> magnified;
   glm::dvec3 slices_beside_bur_P_mm{0.0};  ///< where the CT slices cross, from the bur
   bool tool_visible = true;
   bool tool_shades = true;    ///< as a bur does; forceps, elevators and hand instruments have no parts for it

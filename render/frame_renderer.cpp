@@ -1,10 +1,13 @@
 #include "render/frame_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "render/display/camera.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_image.h"
@@ -19,6 +22,8 @@ namespace {
 
 constexpr double kLegendLine = 0.023, kMaxLegendHeight = 0.3, kLegendTop = 0.28;  // of the viewer's screen
 constexpr int kLeastLegendLine_px = 11;
+constexpr double kMagnifiedHeight = 0.32, kMagnifiedTop = 0.30;  // alike, at the right
+constexpr std::array<std::uint8_t, 4> kMagnifiedRim{205, 214, 220, 255};
 
 // Where a slice lies in the viewer's pixels. `per_height`: px along x and y of the screen's height.
 PixelBox sliceBox(std::size_t n, const glm::dvec2& per_height) {
@@ -117,6 +122,34 @@ std::optional<SlicePlane> FrameRenderer::sliceAt(const Frame& frame, const glm::
   return {};
 }
 
+Image FrameRenderer::magnifiedPicture(const Frame& frame, int edge_px) {
+  constexpr double kFar_mm = 6.0;
+  const Magnified& shown = *frame.magnified;
+  const glm::dvec3 eyes_P = (frame.rig.X_WP.inverse() * eyeView(frame.rig, Eye::cyclopean).eye_W).mm - shown.at_P.mm;
+  glm::dvec3 across_P = eyes_P - glm::dot(eyes_P, shown.up_P) * shown.up_P;
+  // Seen along it, any side is as good.
+  if (glm::length(across_P) < 1e-3 * glm::length(eyes_P))
+    across_P = glm::cross(shown.up_P, std::abs(shown.up_P.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+  Frame near = frame;
+  near.rig = cameraRig({.eye_P_mm = shown.at_P.mm + kFar_mm * glm::normalize(across_P),
+                        .look_at_P_mm = shown.at_P.mm,
+                        .up_P = shown.up_P,
+                        .fov_y_rad = 2.0 * std::atan(0.5 * shown.across_mm / kFar_mm)},
+                       glm::ivec2(edge_px));
+  near.display = DisplayMode::mono;
+  near.mode = ViewMode::clear;
+  scene_->setInsets({});
+  drawEye(near, Eye::magnified, near.rig.screen.px);
+  Image picture = readEye(Eye::magnified);
+  // A rim of one pixel.
+  const auto put = [&](int x, int y) {
+    std::ranges::copy(kMagnifiedRim, &picture.rgba[4 * static_cast<std::size_t>(y * edge_px + x)]);
+  };
+  for (int n = 0; n < edge_px; ++n)
+    for (const int rim : {0, edge_px - 1}) put(n, rim), put(rim, n);
+  return picture;
+}
+
 // Slices in a column at the viewer's left, the legend at the right, upright for the viewer however the panel is
 // mounted.
 void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
@@ -134,9 +167,16 @@ void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
       const PixelBox seen = sliceBox(n, per_height);
       add(seen, slice(kSlicePlanes[n], frame, seen.size_px.y));
     }
+  if (frame.magnified) {
+    PixelBox seen;
+    seen.size_px = glm::max(glm::ivec2(kMagnifiedHeight * per_height), 8);
+    seen.corner_px = {seen_px.x - seen.size_px.x - static_cast<int>(kInsetGap * per_height.x),
+                      static_cast<int>(kMagnifiedTop * per_height.y)};
+    add(seen, magnifiedPicture(frame, std::max(seen.size_px.x, seen.size_px.y)));
+  }
   // Translucent bone shows no bands; in a small image the legend would cover what it explains.
   const bool has_room = clearanceLegendSize(kLeastLegendLine_px).y <= kMaxLegendHeight * per_height.y;
-  if (frame.layers.clearance && has_canal_ && frame.mode != ViewMode::dvr && has_room) {
+  if (frame.layers.clearance && has_canal_ && !isTranslucent(frame.mode) && has_room) {
     const int line_px = std::max(static_cast<int>(kLegendLine * per_height.y), kLeastLegendLine_px);
     const glm::dvec2 size_px = glm::dvec2(clearanceLegendSize(line_px)) * glm::dvec2(per_height.x / per_height.y, 1.0);
     PixelBox seen;

@@ -109,6 +109,7 @@ class FrameRenderer {
   };
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   void updateInsets(const Frame& frame, glm::ivec2 eye_px);
+  Image magnifiedPicture(const Frame& frame, int edge_px);
   void updateOverlay(const StereoLayout& layout, const ScreenOrientation& orientation, int output);
   void updateRuler(const Frame& frame);
   void updateBeads(const Frame& frame);
@@ -142,7 +143,7 @@ class FrameRenderer {
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;
-  std::array<RenderedEye, 3> eyes_;
+  std::array<RenderedEye, kEyes> eyes_;
   Eye composed_from_ = Eye::cyclopean;
 };
 

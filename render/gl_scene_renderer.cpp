@@ -108,7 +108,7 @@ class GlSceneRenderer final : public SceneRenderer {
   std::vector<InsetPass::GpuInset> insets_;
   PatchPass patch_pass_;
   std::array<std::vector<PatchPass::GpuPatch>, kOutputs> patches_;
-  std::array<SceneTarget, 3> canvases_;  ///< of the eyes as last drawn
+  std::array<SceneTarget, kEyes> canvases_;  ///< of the eyes as last drawn
   SceneTarget edge_samples_;
   std::array<Framebuffer, kOutputs> outputs_;
   LateImage late_;

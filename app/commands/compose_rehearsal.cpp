@@ -409,6 +409,11 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   }
   if (plan.procedure_steps && asksForThirdMolar(plan.procedure_steps->plan))
     refuseUnlessThirdMolar(plan, options.procedure);
+  // On a desk: with a measured rig hand and tooth are seen as they are.
+  if (plan.patient.canals && plan.view_can_turn && !plan.is_assessed)
+    plan.first_frame.layers.clear_tooth = plan.first_frame.layers.tip_inset = true;
+  if (plan.patient.canals && options.locator != "off")
+    plan.locator = options.locator == "exact" ? ApexLocator::Mode::exact : ApexLocator::Mode::real;
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2]};

@@ -48,7 +48,9 @@ void refuseUnlessForBlock(const RehearseOptions& options) {
 void refuseUnlessForRootCanal(const RehearseOptions& options) {
   const std::string with = " is of an extraction, leave it or --task root-canal out";
   if (!options.tooth)
-    throw UsageError("--task root-canal: which tooth? give its FDI number with --tooth, molar teeth lists them");
+    throw UsageError(
+        "--task root-canal: which tooth? give its FDI number with --tooth, molar teeth lists them, or leave --headless "
+        "out and point at it");
   if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + with);
   if (options.flap == "closed") throw UsageError("--flap closed:" + with);
   if (!options.drawn.empty()) throw UsageError("--drawn " + options.drawn + ":" + with);

@@ -6,13 +6,16 @@
 #include <utility>
 
 #include "app/case/case.h"
+#include "app/commands/choose_tooth.h"
 #include "app/commands/command.h"
 #include "app/commands/compose_rehearsal.h"
 #include "app/commands/rehearse_options.h"
+#include "app/commands/rehearsed_case.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/session/session_error.h"
 #include "app/station/patient_list.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 
 namespace app {
 namespace {
@@ -33,6 +36,12 @@ int runRehearse(RehearseOptions& options) {
         (caseList() + "\npractice blocks, to learn the hand's work:\n" + practiceList() + importedList()).c_str(),
         stdout);
     return 0;
+  }
+  // Pointed at, where there is a window to point in.
+  if (isRootCanal(options) && !options.tooth && !options.plan.headless && options.continued.empty()) {
+    options.patient = patientNamed(options.patient);
+    options.tooth = chooseTooth(options);
+    if (!options.tooth) return printMessage("no tooth was chosen"), 0;
   }
   std::optional<RehearsalPlan> plan = composeRehearsal(options);
   return plan ? rehearse(std::move(*plan)) : 0;

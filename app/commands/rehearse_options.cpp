@@ -53,6 +53,12 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .oneOf({"closed", "open"})
       .showsDefault()
       .needs(task);
+  command
+      .option("--apex-locator", options.locator,
+              "What it tells of a file's tip: real, with the errors of one; exact; off")
+      .oneOf({"real", "exact", "off"})
+      .showsDefault()
+      .needs(task);
   Option face = command.option("--face", options.face, "Face model, glTF; teeth.json beside it places the jaw")
                     .valueNamed("FILE");
   command.option("--opening", options.opening_mm, kOpeningHelp)

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<KeyMeaning, 8> kMovements = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
-    {"Wheel", "away from you: into the picture"},
+    {"Wheel", "away from you: in (root canal: along the tool)"},
     {"Shift+Wheel", "the same, five times as far"},
     {"Wheel", "on a CT slice: through the slices"},
     {"Right drag", "turn the view (on a desk)"},

@@ -41,7 +41,8 @@ enum class Control : std::uint8_t {
   sound,
   assistant,
   draw,
-  draw_next
+  draw_next,
+  clear_tooth
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -67,7 +68,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 28> kControls = {{
+inline constexpr std::array<ControlMeaning, 29> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -96,6 +97,7 @@ inline constexpr std::array<ControlMeaning, 28> kControls = {{
     {Control::assistant, "assistant", "A", "assistant holds cheek and flap aside", ControlValue::on_or_off, true},
     {Control::draw, "draw", "G", "own plan: a point of trough or section", ControlValue::none, false},
     {Control::draw_next, "draw-next", "Shift+G", "own plan: next line; then all anew", ControlValue::none, false},
+    {Control::clear_tooth, "clear-tooth", "C", "tooth as clear as glass around a file", ControlValue::on_or_off, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

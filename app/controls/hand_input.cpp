@@ -79,7 +79,7 @@ void HandInput::roll(double notches) {
     double step_mm = gap_mm_ ? std::clamp(kNotchOfGap * *gap_mm_, finest_mm, kCoarsestNotch_mm) : kCoarsestNotch_mm;
     if (shift_) step_mm *= kShiftFactor;
     step_mm *= way * std::min(left, 1.0);
-    X_WT_.translation_mm += glm::conjugate(view_) * glm::dvec3(0.0, 0.0, -step_mm);
+    X_WT_.translation_mm += (along_tool_ ? X_WT_.rotation : glm::conjugate(view_)) * glm::dvec3(0.0, 0.0, -step_mm);
     if (gap_mm_) gap_mm_ = std::max(*gap_mm_ - step_mm, 0.0);
   }
 }

@@ -1,9 +1,9 @@
 // Mouse and keyboard as a pose source: window events move and rotate the target pose of the tool, 1:1 on the screen.
 // Drag: in the plane of the screen; wheel: in depth, a notch is a part of the gap to the bone, so that steps are fine
-// near it and no notch passes it, and grows on a longer way out; with Shift five times as much; arrows, Q, E: 3 degrees
-// a press, Q and E about the line of sight or, for an elevator, about its shaft; space: the pedal. Other keys become
-// requests (control.h) in order. haptics::MouseDevice smooths the motion. Frame W of the first view, mm; where the view
-// is turned, the hand moves as it is seen. Main thread.
+// near it and no notch passes it, and grows on a longer way out, for a root canal along the tool; with Shift five times
+// as much; arrows, Q, E: 3 degrees a press, Q and E about the line of sight or, for an elevator, about its shaft;
+// space: the pedal. Other keys become requests (control.h) in order. haptics::MouseDevice smooths the motion. Frame W
+// of the first view, mm; where the view is turned, the hand moves as it is seen. Main thread.
 #pragma once
 
 #include <optional>
@@ -25,6 +25,8 @@ class HandInput {
   void setGap(std::optional<double> gap_mm) { gap_mm_ = gap_mm; }
   /// The tool is an elevator.
   void setTwisting(bool twisting) { twisting_ = twisting; }
+  /// The wheel goes along the tool, not along the line of sight: into a canal.
+  void setAlongTool(bool along) { along_tool_ = along; }
   /// From directions in W to directions on the screen.
   void setView(const glm::dquat& rotation) { view_ = rotation; }
   /// For a start elsewhere.
@@ -46,7 +48,7 @@ class HandInput {
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
   std::vector<ControlRequest> requests_;
-  bool pedal_ = false, shift_ = false, twisting_ = false;
+  bool pedal_ = false, shift_ = false, twisting_ = false, along_tool_ = false;
   std::optional<double> gap_mm_;
   int leaving_ = 0;  ///< notches out without one in
   glm::dquat view_{1.0, 0.0, 0.0, 0.0};

@@ -13,6 +13,7 @@ PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig, const as
   source.library = std::move(opened.library);
   source.device = std::move(opened.device);
   source.X_PD = rig.X_WP.inverse() * rig.X_WD;
+  source.held_by_end = true;
   if (source.library) standAsMeasured(source, rig);
   if (!source.device->capabilities().has_orientation)
     fixOrientation(source, rig, restingTool(rig, patient, cut).rotation);
@@ -55,6 +56,7 @@ PoseSource openMouse(const std::string&, const PoseSourceContext& at) {
   source.mouse = mouse.get();
   source.device = std::move(mouse);
   source.name = "mouse";
+  source.held_by_end = true;
   // The mouse's frame D is W.
   const auto X_PW = at.rig.X_WP.inverse();
   source.X_PD = {X_PW.rotation, X_PW.translation_mm};

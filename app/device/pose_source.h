@@ -36,6 +36,7 @@ struct PoseSource {
   haptics::LedHand* led = nullptr;        ///< set where a procedure leads it, frame D is P
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;
+  bool held_by_end = false;                     ///< in a person's hand: haptics::LoopSettings
   std::optional<calibration::MeasuredArm> arm;  ///< corrects the sensors; none: the driver's pose stands
   std::optional<double> duration_s, rate_Hz;    ///< where it has its own
   std::vector<TimedRequest> requests;           ///< in the order of their times

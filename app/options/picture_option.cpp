@@ -19,7 +19,8 @@ const std::map<std::string, std::optional<Backend>> kBackends{{"auto", std::null
                                                               {"gl-fragment", Backend::gl_fragment},
                                                               {"gl-compute", Backend::gl_compute},
                                                               {"cpu", Backend::cpu}};
-const std::map<std::string, ViewMode> kModes{{"iso", ViewMode::iso}, {"dvr", ViewMode::dvr}, {"mesh", ViewMode::mesh}};
+const std::map<std::string, ViewMode> kModes{
+    {"iso", ViewMode::iso}, {"dvr", ViewMode::dvr}, {"mesh", ViewMode::mesh}, {"clear", ViewMode::clear}};
 const std::map<std::string, Antialias> kAntialias{{"none", Antialias::none}, {"edges", Antialias::edges}};
 
 /// Layers that are off by default.
@@ -48,12 +49,16 @@ void PictureOption::addTo(CommandLine& command) {
               "gl-fragment, gl-compute, cpu (without OpenGL); auto: cpu where there is no graphics card")
       .oneOf(namesOf(kBackends))
       .showsDefault();
-  command.option("--mode", mode_, "Tooth and bone as iso (surface), dvr (translucent) or mesh (triangles)")
+  command
+      .option("--mode", mode_,
+              "Tooth and bone as iso (surface), dvr (translucent), clear (a tooth as glass) or mesh (triangles)")
       .oneOf(namesOf(kModes))
       .showsDefault();
   command
       .option("--layers", layers_,
-              "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT)")
+              "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT); of "
+              "a root-canal "
+              "file: clear-tooth (as glass), tip (magnified)")
       .separatedByCommas()
       .oneOf(namesOf(kLayers));
   command.option("--face-opacity", face_opacity_, "The face faded: 1 whole, 0 away").from(0.0, 1.0).showsDefault();

@@ -22,7 +22,7 @@ struct PictureLayer {
   bool render::Layers::*on;
 };
 
-inline constexpr std::array<PictureLayer, 8> kPictureLayers = {{
+inline constexpr std::array<PictureLayer, 10> kPictureLayers = {{
     {"gum", "Gum", &render::Layers::gingiva},
     {"canal", "Mandibular canal", &render::Layers::mandibular_canal},
     {"clearance", "Clearance bands", &render::Layers::clearance},
@@ -31,11 +31,14 @@ inline constexpr std::array<PictureLayer, 8> kPictureLayers = {{
     {"slices", "CT slices", &render::Layers::slices},
     {"ring", "Ring of the gap", &render::Layers::gap_ring},
     {"obstacles", "Bone in the way", &render::Layers::obstacles},
+    {"clear-tooth", "Clear tooth", &render::Layers::clear_tooth},
+    {"tip", "File's tip", &render::Layers::tip_inset},
 }};
 
 /// Layers that show what a surgeon cannot see: not in an assessment.
 constexpr bool isHelp(const PictureLayer& layer) {
-  return layer.name == "canal" || layer.name == "clearance" || layer.name == "plan" || layer.name == "obstacles";
+  return layer.name == "canal" || layer.name == "clearance" || layer.name == "plan" || layer.name == "obstacles" ||
+         layer.name == "clear-tooth" || layer.name == "tip";
 }
 
 class PictureOption {

@@ -16,6 +16,8 @@
 namespace app {
 
 inline constexpr const char* kFileEvent = "canal file";
+/// Of the access cavity (root_canal/access_watch).
+inline constexpr const char* kAccessEvent = "access cavity";
 
 class CanalLog {
  public:
@@ -24,7 +26,9 @@ class CanalLog {
   /// What happened, in order.
   std::vector<std::string> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
 
-  /// "17.2 of 20.4 mm in the distal canal, watch-winding, torque 34 %"; "free" outside.
+  const FileUse& use() const { return use_; }
+
+  /// "17.2 of 20.4 mm in the distal canal, watch-winding, torque 34 %, 0.12 mm³"; "free" outside.
   std::string line(const haptics::Tick& tick) const;
   /// "distal canal: to size 25 at 20.3 of 20.4 mm; 0.42 mm³ filed"; empty: nothing was filed.
   std::string summary() const;

@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include "app/options/picture_option.h"
+#include "app/procedure/root_canal/canal_tip.h"
+#include "app/rehearsal/file_sight.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/ruler.h"
 #include "app/session/assessment_event.h"
@@ -18,6 +20,8 @@
 #include "calibration/output_file.h"
 
 namespace app {
+
+static constexpr const char* kDrawFileOut = "draw the file out of the tooth first";
 
 ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command,
                              RunMonitor& monitor, LiveView& view, HeadUp& head_up, EventLog& event_log)
@@ -35,8 +39,14 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
 }
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
-  input_.setGap(frame.gap ? std::optional(frame.gap->mm) : std::nullopt);
   const haptics::Tool& in_hand = active_command_.inForce().tool;
+  std::optional<double> gap_mm = frame.gap ? std::optional(frame.gap->mm) : std::nullopt;
+  // A notch moves a file in its canal by 0.4 mm.
+  constexpr double kInCanal_mm = 1.0;
+  if (in_hand.isFile() && plan_.patient.canals && newest.file.stay != haptics::FileStay::none)
+    gap_mm = std::max(kInCanal_mm, fromOrifice_mm(*plan_.patient.canals, newest.file.tip_P_mm));
+  input_.setGap(gap_mm);
+  input_.setAlongTool(plan_.patient.canals.has_value());
   input_.setTwisting(in_hand.isElevator() || in_hand.isFile());
   readWindow(frame);
   executeScript(newest, frame);
@@ -66,6 +76,13 @@ glm::dvec2 ControlRouter::handOnScreen(const render::Frame& frame) {
   return placeOnScreen(frame.rig, {frame.X_PT_at_hand.translation_mm}) / static_cast<double>(std::max(1, seen_px.y));
 }
 
+/// The next instrument works where this one does: in the canal.
+bool ControlRouter::isFileInTooth() {
+  const haptics::Tick tick = equipment_.workstation().newestTick();
+  if (!equipment_.isHeldByEnd() || !plan_.patient.canals || tick.file.stay == haptics::FileStay::none) return false;
+  return tick.file.stay != haptics::FileStay::free || canalTip(*plan_.patient.canals, tick.file.tip_P_mm).has_value();
+}
+
 void ControlRouter::closeRing() {
   ring_.cancel();
   active_command_.takeHandsOff(false);
@@ -84,6 +101,7 @@ void ControlRouter::switchRing(bool open, const render::Frame& frame) {
   if (tick.dt_s == 0.0) return;  // no hand yet
   if (equipment_.led() != nullptr) return head_up_.say("the shown hand chooses its instruments itself");
   if (tools < 2) return head_up_.say("there is one tool only");
+  if (isFileInTooth()) return head_up_.say(kDrawFileOut);
   if (tools > kMostInRing) return head_up_.say("the tray holds too many tools for the ring: T changes them");
   if (tick.gripped != 0) return head_up_.say("open the forceps first");
   if (tick.lever.piece != 0) return head_up_.say("take the elevator off the tooth first");
@@ -158,11 +176,16 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (plan_.evaluation && !plan_.evaluation->allows(request))
     return head_up_.say(std::string(meaningOf(request.control).name) + ": not in this evaluation");
   if (request.control == Control::tool && ring_.isOpen()) closeRing();
+  if (request.control == Control::tool && isFileInTooth()) return head_up_.say(kDrawFileOut);
   if (active_command_.execute(request, where)) return;
   if (request.control == Control::ring)
     switchRing(request.value == kNoValue ? !ring_.isOpen() : request.value != 0, frame);
   frame.layers = layersAfter(frame.layers, request);
   changeView(request, frame);
+  if (request.control == Control::clear_tooth)
+    head_up_.say(!plan_.patient.canals      ? "it is for a root canal treatment"
+                 : frame.layers.clear_tooth ? "the tooth is clear while a file is in the hand"
+                                            : "the tooth is as the eye sees it");
   if (request.control == Control::slice_up || request.control == Control::slice_down)
     frame.slices_beside_bur_P_mm =
         scrolledSlices(frame, render::SlicePlane::axial, request.control == Control::slice_up ? 1.0 : -1.0);
@@ -185,11 +208,12 @@ bool ControlRouter::isHelpRefused(const ControlRequest& request) {
   const bool is_layer = request.control == Control::layer && request.value >= 0 &&
                         static_cast<std::size_t>(request.value) < kPictureLayers.size();
   const PictureLayer* const layer = is_layer ? &kPictureLayers[static_cast<std::size_t>(request.value)] : nullptr;
-  const std::string help = request.control == Control::undo     ? "undo"
-                           : request.control == Control::redo   ? "redo"
-                           : request.control == Control::way    ? "what keeps the tooth in"
-                           : layer != nullptr && isHelp(*layer) ? "layer " + std::string(layer->name)
-                                                                : "";
+  const std::string help = request.control == Control::undo          ? "undo"
+                           : request.control == Control::redo        ? "redo"
+                           : request.control == Control::way         ? "what keeps the tooth in"
+                           : request.control == Control::clear_tooth ? "a clear tooth"
+                           : layer != nullptr && isHelp(*layer)      ? "layer " + std::string(layer->name)
+                                                                     : "";
   if (help.empty()) return false;
   head_up_.say(help + ": not in an assessment");
   event_log_.note(kAssessmentEvent, std::string(kHelpRefused) + help);
@@ -216,9 +240,12 @@ void ControlRouter::changeView(const ControlRequest& request, render::Frame& fra
   if (request.control == Control::first_view) desk_view_.backToFirst();
   if (request.control == Control::first_view)
     head_up_.say("the first view");
-  else
+  else if (!plan_.patient.canals)
     head_up_.say(fmt::format("loupes {:.1f} times as strong as at first", desk_view_.magnified()));
   showDeskView(frame);
+  const double shown_mm = glm::distance(frame.rig.screen.lower_left.mm, frame.rig.screen.lower_right.mm);
+  if (plan_.patient.canals && request.control != Control::first_view)
+    head_up_.say(fmt::format("microscope {:.0f}×", calibration::kDeskMonitorWidth_mm / shown_mm));
 }
 
 void ControlRouter::showDeskView(render::Frame& frame) {

@@ -76,6 +76,7 @@ class ControlRouter {
   void markRuler(render::Frame& frame);
   void followToolButton(const haptics::Tick& newest, render::Frame& frame);
   void switchRing(bool open, const render::Frame& frame);
+  bool isFileInTooth();
   void closeRing();
   glm::dvec2 handOnScreen(const render::Frame& frame);
   bool isTakenByProcedure(const render::WindowEvent& event) const;

@@ -20,6 +20,7 @@ void Equipment::connect(const RehearsalPlan& plan, const haptics::Command& in_fo
                        haptics::LoopSettings{.rate_Hz = rate_Hz_,
                                              .X_PD = source_.X_PD,
                                              .X_HT = source_.X_HT,
+                                             .held_by_end = source_.held_by_end,
                                              .arm = source_.arm,
                                              .priority = plan.device_options.servo_priority,
                                              .buttons = {},

@@ -28,6 +28,8 @@ class Equipment {
   /// The device pushes: it is armed, and its motors can be switched off.
   bool hasMotors() const { return has_motors_; }
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
+  /// A person holds it: another instrument works where the one before it did.
+  bool isHeldByEnd() const { return source_.held_by_end; }
   /// Null unless the mouse is the pose source.
   haptics::MouseDevice* mouse() { return source_.mouse; }
   /// Null unless a procedure leads the hand.

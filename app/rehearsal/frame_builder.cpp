@@ -82,6 +82,8 @@ render::Layers layersAfter(const render::Layers& before, const ControlRequest& r
     bool& shown = layers.*kPictureLayers[static_cast<std::size_t>(request.value)].on;
     shown = !shown;
   }
+  if (request.control == Control::clear_tooth)
+    layers.clear_tooth = request.value == kNoValue ? !layers.clear_tooth : request.value != 0;
   if (request.control == Control::face) layers.face_opacity = static_cast<float>(request.value) / 100.0f;
   return layers;
 }

@@ -72,6 +72,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.site = values.socket;
   content.clearances = values.clearances;
   content.way = values.way;
+  content.locator = values.locator;
   content.ring = values.ring;
   if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);
 

@@ -45,6 +45,7 @@ class HeadUp {
     std::vector<HeadUpClearance> clearances = {};
     bool hints = false;     ///< says how to begin: to who works, not to who looks at it later
     std::string file = {};  ///< CanalLog::line()
+    std::optional<HeadUpLocator> locator = {};
   };
   HeadUpContent content(const Values& values, Time now);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <random>
 #include <utility>
 
 #include <fmt/core.h>
@@ -11,14 +12,18 @@
 #include "app/device/emergency_exit.h"
 #include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
+#include "app/procedure/root_canal/access_watch.h"
+#include "app/procedure/root_canal/treatment_watch.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/canal_log.h"
 #include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
+#include "app/rehearsal/file_sight.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/live_measures.h"
+#include "app/rehearsal/locator_watch.h"
 #include "app/rehearsal/operated_site.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
@@ -74,6 +79,14 @@ class Rehearsal {
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
     if (plan_.patient.canals) canal_log_.emplace(*plan_.patient.canals);
+    if (plan_.patient.canals)
+      access_.emplace(*plan_.patient.canals, isRoofOpen(*plan_.patient.canals, plan_.patient.ct));
+    if (plan_.patient.canals && pace_.isRealTime() && !plan_.is_assessed)
+      treatment_.emplace(*plan_.patient.canals, plan_.patient.ct,
+                         plan_.scanned_solid.empty() ? plan_.patient.ct.solid : plan_.scanned_solid,
+                         station().bodies());
+    if (plan_.patient.canals && plan_.locator)
+      locator_.emplace(*plan_.patient.canals, plan_.patient.ct, *plan_.locator, locatorSeed());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
     if (plan_.evaluation) plan_.evaluation->open(plan_.risks, station().recordingFile().value_or(""));
     if (equipment_.led() != nullptr) beginOperation();
@@ -181,6 +194,7 @@ class Rehearsal {
       event_log_.note(kAssessmentEvent, std::string(kAssessmentRules));
       head_up_.say("assessment: nothing helps, everything is recorded");
     }
+    if (locator_) event_log_.note(kLocatorEvent, locator_->settings());
     if (steps_) steps_->start();
     if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace(plan_.played);
   }
@@ -230,12 +244,14 @@ class Rehearsal {
     const haptics::Command& command = active_command_.inForce();
     countSoftTouches(ticks);
     site_->follow(ticks);
-    if (sound_)
-      sound_->follow(ticks, command, plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning());
+    if (sound_) sound_->follow(ticks, command, soundWarningNow());
     if (measures_) measures_->follow(ticks, command, station().commandSerial());
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
+    if (access_)
+      for (const haptics::Tick& tick : ticks)
+        if (const auto drop = access_->follow(tick, command.tool)) tellCanal(roofDropText(*drop), kAccessEvent);
     if (canal_log_)
       for (const std::string& told : canal_log_->follow(ticks, command.tool)) tellCanal(told);
     clearance_.follow(ticks, command, station().commandSerial());
@@ -248,6 +264,17 @@ class Rehearsal {
     for (const Touch& touch : touches_.follow(ticks, command.tool)) noteTouch(touch);
     if (!plan_.procedure) return;
     if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+  }
+
+  SoundWarning soundWarningNow() const {
+    SoundWarning now = plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning();
+    if (locator_ && locator_->told()) now.apex = apexTone(locator_->told()->left_mm, locator_->told()->is_apex);
+    return now;
+  }
+
+  /// Another locator, or another day, every time; a stepped rehearsal repeats itself.
+  std::uint64_t locatorSeed() const {
+    return pace_.isRealTime() ? std::random_device{}() : static_cast<std::uint64_t>(plan_.patient.canals->fdi);
   }
 
   /// Marks go into the recording, words do not.
@@ -300,6 +327,10 @@ class Rehearsal {
     frame_.marks = soft_marks_.marks();
     sight_.followHand(equipment_.secondHand(), frame_);
     frame_.pieces = movedPieces(newest_);
+    if (locator_ && locator_->follow(newest_, !active_command_.inForce().irrigating))
+      event_log_.note(kLocatorEvent, locatorText(locator_->told()));
+    if (plan_.patient.canals)
+      showFileSight(*plan_.patient.canals, newest_, active_command_.inForce().tool, plan_.first_frame.mode, frame_);
     view_.showFile(newest_, frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
@@ -313,12 +344,13 @@ class Rehearsal {
     // tooth is out they are taken.
     const bool may_loosen = !demonstration_ || demonstration_->isToothOut();
     site_->follow({changed, newest_, drawn, router_.takeWay(), demonstration_.has_value(), may_loosen}, frame_);
+    if (treatment_) treatment_->follow(changed, newest_, canal_log_->use());
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
   }
 
-  void tellCanal(const std::string& line) {
-    head_up_.say(line);
-    event_log_.note(kFileEvent, line);
+  void tellCanal(const std::string& line, const char* kind = kFileEvent) {
+    if (!plan_.is_assessed || kind == kFileEvent) head_up_.say(line);
+    event_log_.note(kind, line);
     if (plan_.headless) printMessage(fmt::format("at {:.1f} s {}", newest_.t_s, line));
   }
 
@@ -361,17 +393,21 @@ class Rehearsal {
     situation.is_crown = site_->rootStress().isCrown();
     situation.canal_mm = clearance_.canal_mm();
     situation.is_blind = !plan_.shows_clearance;
+    if (access_ && hasDepthBands(plan_.patient.canals->fdi)) situation.below_cusp_mm = access_->belowCusp_mm();
     return {situation,
             frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
             task(),
             rulerText(frame_.ruler),
             site_->isReady(),
-            site_->socketLine(),
+            treatment_ && treatment_->newest() ? treatmentLine(*treatment_->newest()) : site_->socketLine(),
             site_->wayLine(),
             ringShown(),
             plan_.shows_clearance ? clearance_.ruler(plan_.patient.proposed()) : std::vector<HeadUpClearance>(),
             true,
-            canal_log_ && newest_.file.stay != haptics::FileStay::none ? canal_log_->line(newest_) : std::string()};
+            canal_log_ && newest_.file.stay != haptics::FileStay::none ? canal_log_->line(newest_) : std::string(),
+            locator_ && locator_->told()
+                ? std::optional(HeadUpLocator{locator_->told()->left_mm, locator_->told()->is_apex})
+                : std::nullopt};
   }
 
   HeadUpRing ringShown() const {
@@ -472,6 +508,9 @@ class Rehearsal {
   std::optional<LiveSound> sound_;
   std::optional<CoachFollower> coach_;
   std::optional<CanalLog> canal_log_;  ///< of a root-canal treatment
+  std::optional<LocatorWatch> locator_;
+  std::optional<AccessWatch> access_;
+  std::optional<TreatmentWatch> treatment_;  ///< told while it goes on
   std::optional<LiveMeasures> measures_;
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};

@@ -13,6 +13,7 @@
 #include "app/evaluation/spectator.h"
 #include "app/procedure/coach/coach.h"
 #include "app/procedure/procedure.h"
+#include "app/procedure/root_canal/apex_locator.h"
 #include "app/procedure/steps/step_plan.h"
 #include "app/session/drawn_plan_event.h"
 #include "app/session/step_event.h"
@@ -79,6 +80,7 @@ struct RehearsalPlan {
   std::optional<Recording> recording;
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};
+  std::optional<ApexLocator::Mode> locator;  ///< of a root-canal treatment; none: it lies in its drawer
   double face_window_mm = 0.0;
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;

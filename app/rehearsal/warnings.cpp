@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "app/procedure/jaw_stress.h"
+#include "app/procedure/root_canal/access_outcomes.h"
 #include "app/procedure/root_stress.h"
 #include "app/rehearsal/touches.h"
 #include "assets/soft_tissue.h"
@@ -151,6 +152,16 @@ Words fileThrough(const Situation& s) {
                                                         : "";
 }
 
+Words atChamberFloor(const Situation& s) {
+  if (!s.below_cusp_mm || depthBand(*s.below_cusp_mm) != DepthBand::red) return {};
+  return fmt::format("{:.1f} mm below the cusp: the chamber's floor lies at 8", *s.below_cusp_mm);
+}
+
+Words atChamberRoof(const Situation& s) {
+  if (!s.below_cusp_mm || depthBand(*s.below_cusp_mm) != DepthBand::amber) return {};
+  return fmt::format("{:.1f} mm below the cusp: the chamber's roof lies at 6.4", *s.below_cusp_mm);
+}
+
 struct Row {
   const char* name;  ///< in the summary
   bool danger;
@@ -159,7 +170,7 @@ struct Row {
 };
 
 // The most important first.
-constexpr std::array<Row, 19> kTable = {{
+constexpr std::array<Row, 21> kTable = {{
     {"force off", true, forceIsOff},
     {"mandibular canal opened", true, canalOpened},
     {"bur on soft tissue", true, burOnSoftTissue, true},
@@ -168,9 +179,11 @@ constexpr std::array<Row, 19> kTable = {{
     {"root or crown would break", true, rootAtRisk},
     {"elevator on a neighbouring tooth", true, leveredOnTeeth},
     {"file near breaking", true, fileNearBreaking},
+    {"bur as deep as the chamber's floor", true, atChamberFloor},
     {"recording ended", true, notRecording},
     {"no force yet", false, noForceYet},
     {"within 2 mm of the nerve", false, canalNear},
+    {"bur as deep as the chamber's roof", false, atChamberRoof},
     {"jaw stressed", false, jawStressed},
     {"root or crown stressed", false, rootStressed},
     {"cutting dry", false, dry},
@@ -180,6 +193,11 @@ constexpr std::array<Row, 19> kTable = {{
     {"force limited", false, forceLimited},
     {"neck of the bur touched", false, neckTouches},
 }};
+
+/// Not told where distances are not.
+bool isDistance(Words (*words)(const Situation&)) {
+  return words == canalNear || words == atChamberRoof || words == atChamberFloor;
+}
 
 /// A tooth other than the operated one that the bur touches.
 std::optional<int> neighbourAt(const haptics::Tick& tick, const haptics::BurShape& head,
@@ -214,7 +232,7 @@ std::vector<HeadUpWarning> Warnings::update(const Situation& now) {
       state.words = std::move(words);
       state.last_s = now_s;
     }
-    if (now_s - state.last_s <= kStays_s && !(now.is_blind && kTable[n].words == canalNear))
+    if (now_s - state.last_s <= kStays_s && !(now.is_blind && isDistance(kTable[n].words)))
       shown.push_back({state.words, kTable[n].danger});
   }
   std::ranges::stable_partition(shown, &HeadUpWarning::danger);

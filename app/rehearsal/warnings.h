@@ -26,6 +26,7 @@ struct Situation {
   std::optional<double> root_N_per_mm2{};  ///< of forceps (app/procedure/root_stress)
   bool is_crown = false;                   ///< the same is of the crown
   bool is_blind = false;                   ///< distances are counted and not told
+  std::optional<double> below_cusp_mm{};   ///< of a bur in the crown of a lower molar (root_canal/access_watch)
 };
 
 /// `tick` newest. Cost: the voxels around the bur, while it touches a tooth.
@@ -55,7 +56,7 @@ class Warnings {
   std::vector<Count> counts() const;
 
  private:
-  static constexpr std::size_t kRows = 19;
+  static constexpr std::size_t kRows = 21;
   struct State {
     double last_s = -1e9;
     std::string words;

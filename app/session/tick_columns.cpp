@@ -70,11 +70,11 @@ void visitLevering(auto& lever, Visit&& visit) {
 
 template <class Visit>
 void visitFile(auto& file, Visit&& visit) {
-  // Not a column: the nodes, which a replay makes again.
+  // Not columns: nodes and links, which a replay makes again.
   auto& [stay, tip_P_mm, tip_axis_P, normal_N, torque_Nmm, torque_share, strain, strain_from_tip_mm, damage, windup_rad,
          roll_rad, axial_N_per_mm, stop_N, due_total_mm3, removed_total_mm3, broken_from_tip_mm, left_mm, keeps_bend,
-         unsettled, node_P_mm] = file;
-  static_cast<void>(node_P_mm);
+         unsettled, node_P_mm, link_share] = file;
+  static_cast<void>(node_P_mm), static_cast<void>(link_share);
   visit(Text{"file.stay", "", "", "", kFileMeaning}, stay);
   visitXyz(Text{"file.tip_P_mm", "", "mm", "P"}, tip_P_mm, visit);
   visitXyz(Text{"file.tip_axis_P", "", "", "P"}, tip_axis_P, visit);

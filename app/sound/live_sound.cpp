@@ -117,6 +117,7 @@ void LiveSound::follow(std::span<const haptics::Tick> ticks, const haptics::Comm
   for (const haptics::Tick& tick : ticks) {
     SoundControl control = player.score.of(tick, in_force);
     if (tick.drilling && control.warning.alarm == SoundAlarm::none) control.warning = warning;
+    control.warning.apex = warning.apex;
     const SoundControl before = player.gathered;
     player.gathered = control;
     player.gathered.cut = std::max(control.cut, before.cut);

@@ -22,7 +22,7 @@ class LiveSound {
   LiveSound(const LiveSound&) = delete;
   LiveSound& operator=(const LiveSound&) = delete;
 
-  /// `warning`: beats while the drill is on.
+  /// `warning`: of a structure it beats while the drill is on, of an apex locator always.
   void follow(std::span<const haptics::Tick> ticks, const haptics::Command& in_force, const SoundWarning& warning = {});
   void mute(bool muted);
   bool isMuted() const;

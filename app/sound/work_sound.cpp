@@ -40,7 +40,23 @@ struct AlarmTone {
 constexpr std::array<AlarmTone, 4> kAlarms{
     {{0.0, 0.0, 1.0}, {1175.0, 880.0, 5.0}, {988.0, 988.0, 4.0}, {740.0, 740.0, 2.5}}};
 
+struct ApexBeat {
+  double Hz, times_per_s;  ///< 0: steady
+};
+/// Of ApexTone.
+constexpr std::array<ApexBeat, 5> kApexBeats{
+    {{1400.0, 0.0}, {1400.0, 1.5}, {1400.0, 3.0}, {1400.0, 6.0}, {1900.0, 0.0}}};
+
 }  // namespace
+
+ApexTone apexTone(double left_mm, bool is_apex) noexcept {
+  constexpr double kNear_mm = 2.0, kClose_mm = 1.0, kConstriction_mm = 0.55;
+  return is_apex                       ? ApexTone::apex
+         : left_mm <= kConstriction_mm ? ApexTone::constriction
+         : left_mm <= kClose_mm        ? ApexTone::close
+         : left_mm <= kNear_mm         ? ApexTone::near
+                                       : ApexTone::none;
+}
 
 SoundWarning soundWarning(const haptics::Clearances& clearances) noexcept {
   constexpr std::array kAlarmOf{SoundAlarm::canal, SoundAlarm::lingual, SoundAlarm::second_molar, SoundAlarm::lingual};
@@ -135,6 +151,20 @@ double WorkSound::alarm() noexcept {
   return kLoudest * alarm_level_ * std::sin(kTurn * alarm_phase_);
 }
 
+/// The same of an apex locator, softer and higher.
+double WorkSound::apex() noexcept {
+  constexpr double kLoudest = 0.1;
+  const ApexBeat& sounds = kApexBeats[static_cast<std::size_t>(now_.warning.apex)];
+  const bool is_steady = sounds.times_per_s == 0.0;
+  const bool on =
+      now_.warning.apex != ApexTone::none && (is_steady || std::fmod(apex_s_ * sounds.times_per_s, 1.0) < 0.5);
+  apex_s_ = now_.warning.apex == ApexTone::none ? 0.0 : apex_s_ + 1.0 / rate_Hz_;
+  apex_level_ += glide_ * ((on ? 1.0 : 0.0) - apex_level_);
+  apex_phase_ += sounds.Hz / rate_Hz_;
+  apex_phase_ -= std::floor(apex_phase_);
+  return kLoudest * apex_level_ * std::sin(kTurn * apex_phase_);
+}
+
 void WorkSound::render(const SoundControl& control, std::span<float> samples) noexcept {
   if (control.crack_Nmm > 0.0) {
     click_ = std::max(click_, std::min(0.8, clickLevel(control.crack_Nmm)));
@@ -153,7 +183,7 @@ void WorkSound::render(const SoundControl& control, std::span<float> samples) no
       glide(part);
     const double white = noise();
     water_low_ += 0.25 * (white - water_low_);
-    const double sum = tone() + cut(white) + 0.03 * now_.water * (white - water_low_) + clicks() + alarm();
+    const double sum = tone() + cut(white) + 0.03 * now_.water * (white - water_low_) + clicks() + alarm() + apex();
     sample = static_cast<float>(std::clamp(sum, -1.0, 1.0));
   }
 }

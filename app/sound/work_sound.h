@@ -21,10 +21,16 @@ namespace app {
 
 enum class SoundAlarm : std::uint8_t { none, canal, lingual, second_molar };
 
+/// Of an apex locator: beats that come faster as the foramen nears, at it a steady tone.
+enum class ApexTone : std::uint8_t { none, near, close, constriction, apex };
+/// `left_mm`: as it tells, to the foramen.
+ApexTone apexTone(double left_mm, bool is_apex) noexcept;
+
 /// Of the structure that is nearest within its bands.
 struct SoundWarning {
   SoundAlarm alarm = SoundAlarm::none;
   bool is_red = false;  ///< else amber: slower beats
+  ApexTone apex = ApexTone::none;
 };
 SoundWarning soundWarning(const haptics::Clearances& clearances) noexcept;
 
@@ -63,6 +69,7 @@ class WorkSound {
   double cut(double white) noexcept;
   double clicks() noexcept;
   double alarm() noexcept;
+  double apex() noexcept;
 
   double rate_Hz_, glide_;
   SoundControl now_;  ///< gliding to what is wanted
@@ -71,6 +78,7 @@ class WorkSound {
   double band_ = 0.0, low_ = 0.0, water_low_ = 0.0;
   double click_ = 0.0, thud_ = 0.0, click_phase_ = 0.0, thud_phase_ = 0.0;  ///< levels that decay
   double alarm_s_ = 0.0, alarm_level_ = 0.0, alarm_phase_ = 0.0;
+  double apex_s_ = 0.0, apex_level_ = 0.0, apex_phase_ = 0.0;
 };
 
 }  // namespace app

@@ -24,6 +24,9 @@ constexpr double kBesideBur_mm = 7.0, kBesideSite_mm = 13.0;
 constexpr double kRulerWidth = 11.0, kRulerRow = 2.3;  ///< heights of the text
 constexpr double kRulerEnd_mm = 4.0;
 constexpr std::size_t kRulerRows = 3;
+constexpr int kLocatorRows = 7;                            ///< of half a millimetre, then APEX
+constexpr double kLocatorRow = 1.15, kLocatorWidth = 6.4;  ///< heights of the text
+constexpr double kLocatorTop = 0.28;                       ///< of the screen's height
 
 /// Cells of the line from left to right, and which go first where even small letters do not fit.
 enum class Cells { bur, drive, water, force, gap, ruler, time };
@@ -108,6 +111,25 @@ void drawClearance(const Drawing& to, const HeadUpClearance& near, double top, d
   to.box(corner, {length * std::clamp(near.mm / kRulerEnd_mm, near.mm <= 0.0 ? 1.0 : 0.02, 1.0), thick}, ink);
   for (int mm = 1; mm < static_cast<int>(kRulerEnd_mm); ++mm)
     to.box({corner.x + length * mm / kRulerEnd_mm - 0.5, corner.y - 0.12 * text}, {1.0, thick + 0.24 * text}, kWhite);
+}
+
+/// A column from 3.0 down to 0 and APEX, lit down to what is left.
+void drawLocator(const Drawing& to, const HeadUpLocator& shown, const glm::dvec2& size, double text) {
+  plate(to, size, 0.5 * text, kPlate);
+  const double row = kLocatorRow * text, bar = 2.6 * text, left = 0.5 * text;
+  to.text("apex", {0.5 * size.x, 0.75 * text}, 0.9 * text, kDim, Align::centre, true);
+  for (int n = 0; n <= kLocatorRows; ++n) {
+    const bool is_apex_row = n == kLocatorRows;
+    const double at_mm = 0.5 * (kLocatorRows - 1 - n), top = 1.4 * text + row * n;
+    const bool is_lit = is_apex_row ? shown.is_apex : shown.is_apex || shown.left_mm <= at_mm + 0.25;
+    const Ink ink = is_apex_row || at_mm == 0.0 ? kRedBar : at_mm <= 1.0 ? kCalm : kBlueWater;
+    to.box({left, top}, {bar, row - 0.15 * text}, is_lit ? ink : kTrough);
+    if (is_apex_row || n % 2 == 0 || at_mm == 0.5)
+      to.text(is_apex_row ? "APEX" : fmt::format("{:.1f}", at_mm), {size.x - 0.4 * text, top + 0.5 * row}, 0.8 * text,
+              is_lit ? kWhite : kDim, Align::right, true);
+  }
+  to.text(shown.is_apex ? "APEX" : fmt::format("{:.1f} mm", shown.left_mm), {0.5 * size.x, size.y - 0.9 * text},
+          1.1 * text, shown.is_apex ? kRedBar : kWhite, Align::centre, true);
 }
 
 std::string gapText(double gap_mm) { return gap_mm <= 0.0 ? "contact" : fmt::format("gap {:.1f} mm", gap_mm); }
@@ -270,6 +292,15 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
                        for (std::size_t n = 0; n < rows; ++n)
                          drawClearance(to, near[n], row_px * static_cast<double>(n), size.x, text);
                      }});
+  }
+
+  // The locator at the left edge, between the halves where text may lie.
+  if (c.locator) {
+    const glm::ivec2 size(glm::ceil(glm::dvec2(kLocatorWidth, kLocatorRow * (kLocatorRows + 1) + 3.3) * text));
+    const glm::ivec2 corner(place.reserved_left_px + static_cast<int>(edge),
+                            static_cast<int>(kLocatorTop * place.screen_px.y));
+    cells.push_back({fmt::format("locator {:.1f} {}", c.locator->left_mm, c.locator->is_apex), corner, size,
+                     [=, shown = *c.locator](const Drawing& to) { drawLocator(to, shown, size, text); }});
   }
 
   if (!c.keys.empty()) {

@@ -41,6 +41,12 @@ struct HeadUpClearance {
   bool is_confirmed = true;  ///< false: of a tooth or canal that the program proposed; grey, without a band
 };
 
+/// What an apex locator shows.
+struct HeadUpLocator {
+  double left_mm = 0.0;  ///< to the foramen, 0 to 3
+  bool is_apex = false;
+};
+
 struct HeadUpContent {
   bool line_shown = true;
   std::string bur;                          ///< "round 3.0 mm, ISO 030"
@@ -53,10 +59,11 @@ struct HeadUpContent {
   std::optional<double> gap_mm;             ///< of the bur to bone or tooth; none: too far to show
   std::string ruler;                        ///< "ruler 7.3 mm"; empty: none
   double time_s = 0.0;
-  std::string said;  ///< just now; empty: nothing
-  std::string task;  ///< of an experiment; empty: none
-  std::string site;  ///< state of the socket; empty: none
-  std::string way;   ///< what keeps the tooth in; empty: not known
+  std::string said;                      ///< just now; empty: nothing
+  std::string task;                      ///< of an experiment; empty: none
+  std::string site;                      ///< state of the socket; empty: none
+  std::string way;                       ///< what keeps the tooth in; empty: not known
+  std::optional<HeadUpLocator> locator;  ///< none: no file is in a canal
   HeadUpRing ring;
   std::vector<HeadUpClearance> clearances;                ///< the most urgent first; three are shown
   std::vector<HeadUpWarning> warnings;                    ///< the most important first; two are shown

@@ -61,7 +61,8 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
   if (tool.grips) return showForceps(renderer, kOpenBeaks_mm);
   if (const auto file = tool.file.made())
-    return renderer.setInstrument(assets::canalFile({.file = *file, .node_T_mm = {}, .stop_mm = tool.file.stop_mm}));
+    return renderer.setInstrument(
+        assets::canalFile({.file = *file, .node_T_mm = {}, .torque_share = {}, .stop_mm = tool.file.stop_mm}));
   if (tool.isElevator()) return renderer.setInstrument(assets::elevator(formOf(tool.elevator)));
   if (tool.isHandInstrument()) return renderer.setInstrument(assets::handInstrument(formOf(tool.hand_instrument)));
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
@@ -72,7 +73,8 @@ void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, c
   const auto made = file.made();
   if (!made) return;
   if (work.stay == haptics::FileStay::none)
-    return renderer.setInstrument(assets::canalFile({.file = *made, .node_T_mm = {}, .stop_mm = file.stop_mm}));
+    return renderer.setInstrument(
+        assets::canalFile({.file = *made, .node_T_mm = {}, .torque_share = {}, .stop_mm = file.stop_mm}));
   const auto X_TP = X_PT.inverse();
   std::vector<glm::vec3> node_T_mm(work.node_P_mm.size());
   std::ranges::transform(work.node_P_mm, node_T_mm.begin(), [&](const glm::vec3& node_P) {
@@ -82,7 +84,7 @@ void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, c
   renderer.setInstrument(assets::canalFile({.file = *made,
                                             .node_T_mm = node_T_mm,
                                             .whole_mm = made->length_mm,
-                                            .torque_share = work.torque_share,
+                                            .torque_share = work.link_share,
                                             .stop_mm = file.stop_mm,
                                             .roll_rad = work.windup_rad}));
 }

@@ -29,6 +29,24 @@ glm::vec4 colourOf(std::string_view name) {
   return {0.5f, 0.5f, 0.5f, 1.0f};
 }
 
+constexpr glm::vec3 kSteel{0.55f, 0.56f, 0.58f}, kAmber{0.90f, 0.42f, 0.02f}, kRed{0.80f, 0.02f, 0.01f};
+constexpr float kAmberFrom = 0.4f;
+
+/// Of the wire where it bears that share of what breaks it.
+glm::vec3 colourUnder(float share) {
+  const float s = std::clamp(share, 0.0f, 1.0f);
+  return s < kAmberFrom ? glm::mix(kSteel, kAmber, s / kAmberFrom)
+                        : glm::mix(kAmber, kRed, (s - kAmberFrom) / (1.0f - kAmberFrom));
+}
+
+float shareAt(std::span<const float> of_node, double place) {
+  if (of_node.empty()) return 0.0f;
+  const double at = std::clamp(place, 0.0, 1.0) * static_cast<double>(of_node.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  return std::lerp(of_node[low], of_node[std::min(low + 1, of_node.size() - 1)],
+                   static_cast<float>(at - static_cast<double>(low)));
+}
+
 /// The file's way, and how far each place is from its tip.
 struct Way {
   std::vector<dvec3> node_mm;
@@ -74,6 +92,18 @@ Ring section(const DrawnFile& drawn, const Way& way, double share, dvec3& side) 
   return ring;
 }
 
+/// Along the file; strained metal is no mirror, so that its colour is seen.
+void colourWire(const DrawnFile& drawn, MeshPart& wire) {
+  const float most = drawn.torque_share.empty() ? 0.0f : std::ranges::max(drawn.torque_share);
+  wire.material = {{1.0f, 1.0f, 1.0f, 1.0f}, 0.3f, 1.0f - std::clamp(2.0f * most, 0.0f, 1.0f)};
+  const auto colour = [&](std::size_t ring) {
+    return glm::vec4(colourUnder(shareAt(drawn.torque_share, static_cast<double>(ring) / kRings)), 1.0f);
+  };
+  for (std::size_t ring = 0; ring <= kRings; ++ring) wire.colour.insert(wire.colour.end(), kAround, colour(ring));
+  // The middles of both ends.
+  wire.colour.insert(wire.colour.end(), {colour(0), colour(kRings)});
+}
+
 MeshPart rod(double from_z_mm, double to_z_mm, std::span<const std::pair<double, double>> profile, const char* name) {
   std::vector<Ring> rings;
   for (const auto& [share, radius_mm] : profile)
@@ -92,10 +122,7 @@ MeshModel canalFile(const DrawnFile& drawn) {
   for (std::size_t n = 0; n <= kRings; ++n) rings.push_back(section(drawn, way, static_cast<double>(n) / kRings, side));
   MeshPart wire = closedSweep(rings);
   wire.name = "Wire";
-  const float strained = static_cast<float>(std::clamp(drawn.torque_share, 0.0, 1.0));
-  wire.material = {{glm::mix(glm::vec3(0.55f, 0.56f, 0.58f), glm::vec3(0.85f, 0.05f, 0.02f), strained), 1.0f},
-                   0.3f,
-                   1.0f - strained};
+  colourWire(drawn, wire);
 
   constexpr std::pair<double, double> kGrip[] = {
       {0.0, 0.9}, {0.0, 1.5}, {0.1, kHandleRadius_mm}, {0.3, 1.55}, {0.5, 1.75}, {0.8, 1.6}, {0.95, 1.8}, {1.0, 1.2}};

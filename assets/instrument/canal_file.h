@@ -1,5 +1,6 @@
 // A root-canal file as drawn, bent as it lies, in frame T: origin where it leaves its handle, +z along the handle away
-// from the tip. Parts "Wire" (twisted along its cutting part, tinted where it bears torque), "Handle" in the colour of
+// from the tip. Parts "Wire" (twisted along its cutting part, grey steel, amber and red as its torque
+// nears what breaks it), "Handle" in the colour of
 // ISO 3630-1 and "Stop", the rubber ring, where there is one. mm. Any thread; about 0.2 ms, so once a frame. Drawn
 // only.
 #pragma once
@@ -15,7 +16,7 @@ struct DrawnFile {
   KFile file;
   std::span<const glm::vec3> node_T_mm;  ///< from the handle to the tip, evenly spaced; fewer than two: straight
   double whole_mm = 0.0;                 ///< length before it broke; 0: as made
-  double torque_share = 0.0;             ///< of what breaks it
+  std::span<const float> torque_share;   ///< of what breaks it, at each node; empty: none
   double stop_mm = 0.0;                  ///< of the ring, from the tip; 0: none
   double roll_rad = 0.0;                 ///< of the flutes
 };

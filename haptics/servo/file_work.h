@@ -37,6 +37,7 @@ struct FileWork {
   bool unsettled = false;           ///< not at rest within a tick's steps
   /// Nodes from the handle to the tip, for the picture; a replay makes them again.
   std::array<glm::vec3, kUsualLinks + 1> node_P_mm{};
+  std::array<float, kUsualLinks + 1> link_share{};  ///< of torque over breaking torque, of the link before each node
 };
 
 }  // namespace haptics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calibration/geometry/units.h"
 #include "haptics/contact/law_limits.h"
@@ -61,11 +62,16 @@ HapticLoop::HapticLoop(Servo& servo, ServedDevice served, Latest<Command>& comma
     throw DeviceError("pose of the tool in the handle, not finite and rigid, measure it again");
 }
 
-HandSample HapticLoop::handFrom(const HandleState& measured, const TickTiming& timing) noexcept {
+HandSample HapticLoop::handFrom(const HandleState& measured, const TickTiming& timing, const Tool& tool) noexcept {
   const HandleState state = handle_.corrected(measured);
   HandSample hand;
   const auto X_PH = settings_.X_PD * state.X_DH;
-  hand.X_PT = X_PH * settings_.X_HT;
+  // Another instrument works where the one before it did: no hand is jumped, and no velocity made of it.
+  const double reach_mm = settings_.held_by_end ? tool.reach_mm() : 0.0;
+  if (reach_mm != std::exchange(reach_mm_, reach_mm)) has_arm_ = false;
+  auto X_HT = settings_.X_HT;
+  X_HT.translation_mm += X_HT.rotation * glm::dvec3(0.0, 0.0, reach_mm);
+  hand.X_PT = X_PH * X_HT;
   hand.jacobian_P_mm = glm::mat3_cast(settings_.X_PD.rotation) * state.jacobian_D_mm;
   hand.motor_heat = state.motor_heat;
   hand.gap_s = timing.gap_s;
@@ -78,7 +84,7 @@ HandSample HapticLoop::handFrom(const HandleState& measured, const TickTiming& t
   hand.device_healthy = state.healthy;
 
   // The device measures the handle's velocity; rotation moves the tool too: differenced and smoothed at 100 Hz.
-  const glm::dvec3 arm_P_mm = X_PH.rotation * settings_.X_HT.translation_mm;
+  const glm::dvec3 arm_P_mm = X_PH.rotation * X_HT.translation_mm;
   const double blend = 1.0 - std::exp(-2.0 * calibration::kPi * 100.0 / settings_.rate_Hz);
   const glm::dvec3 difference = has_arm_ ? (arm_P_mm - last_arm_P_mm_) * settings_.rate_Hz : glm::dvec3(0.0);
   arm_velocity_P_mm_per_s_ += blend * (difference - arm_velocity_P_mm_per_s_);
@@ -103,7 +109,8 @@ bool HapticLoop::drills(const HandleState& state) noexcept {
 }
 
 DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const TickTiming& timing) noexcept {
-  tick_ = servo_.step(handFrom(state, timing), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
+  const Command& command = commands_.read();
+  tick_ = servo_.step(handFrom(state, timing, command.tool), limitedTo(device(), rate_Hz(), command), 1.0 / rate_Hz());
   return {{X_DP_ * tick_.commanded_force_P_N, X_DP_ * tick_.commanded_torque_P_Nmm}, mayRunMotors(tick_.state)};
 }
 

@@ -22,11 +22,12 @@ struct LoopSettings {
   double rate_Hz = 1000.0;                                            ///< 500..10000
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< pose of the device
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< pose of the tool in the handle
-  std::optional<calibration::MeasuredArm> arm = std::nullopt;         ///< none: the driver's poses
-  std::optional<int> priority = kServoPriority;                       ///< as DeviceLoop's
-  ButtonMeanings buttons;                                             ///< of the handle's buttons
-  const FootPedal* pedal = nullptr;                                   ///< another drill pedal; borrowed
-  TickLog* second_log = nullptr;                                      ///< for a second reader; borrowed
+  bool held_by_end = false;  ///< X_HT is that of what works: a file's origin lies its length behind
+  std::optional<calibration::MeasuredArm> arm = std::nullopt;  ///< none: the driver's poses
+  std::optional<int> priority = kServoPriority;                ///< as DeviceLoop's
+  ButtonMeanings buttons;                                      ///< of the handle's buttons
+  const FootPedal* pedal = nullptr;                            ///< another drill pedal; borrowed
+  TickLog* second_log = nullptr;                               ///< for a second reader; borrowed
 };
 
 /// The command with its limits reduced to those of the device at this rate: peak force, torque and joint torques,
@@ -54,7 +55,7 @@ class HapticLoop final : public DeviceLoop {
  private:
   Answer answer(const HandleState& state, const TickTiming& timing) noexcept override;
   void answered(double work_us) noexcept override;
-  HandSample handFrom(const HandleState& measured, const TickTiming& timing) noexcept;
+  HandSample handFrom(const HandleState& measured, const TickTiming& timing, const Tool& tool) noexcept;
   bool drills(const HandleState& state) noexcept;
 
   Servo& servo_;
@@ -69,6 +70,7 @@ class HapticLoop final : public DeviceLoop {
   Tick tick_;
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
   bool has_arm_ = false;
+  double reach_mm_ = 0.0;  ///< of the tool
   PressCount press_count_;
   TripCounter ledger_;
   Fault last_faults_ = Fault::none;

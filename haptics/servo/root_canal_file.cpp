@@ -143,8 +143,12 @@ void RootCanalFile::tell(const FileTick& tick) noexcept {
   work_.left_mm = chain.length_mm();
   work_.keeps_bend = tick.set;
   work_.unsettled = tick.unsettled;
-  for (std::size_t n = 0; n <= kUsualLinks; ++n)
+  for (std::size_t n = 0; n <= kUsualLinks; ++n) {
     work_.node_P_mm[n] = glm::vec3(state.shape.node_mm[std::min(n, chain.links)]);
+    const std::size_t i = std::max<std::size_t>(n, 1);
+    const double torque_Nmm = chain.twist_Nmm_per_rad[i] * (state.roll_rad[i - 1] - state.roll_rad[i]);
+    work_.link_share[n] = i <= chain.links ? static_cast<float>(std::fabs(torque_Nmm) / chain.breaking_Nmm[i]) : 0.0f;
+  }
 }
 
 Vector<Patient> RootCanalFile::vibration(const FileTick& tick, double dt_s) noexcept {

@@ -31,6 +31,8 @@ struct Tool {
   bool luxates() const { return grips || isElevator(); }
   bool isHandInstrument() const { return hand_instrument != HandInstrument::none; }
   bool isFile() const { return file.isChosen(); }
+  /// From T's origin to what works, along -z: 0 but for a file.
+  double reach_mm() const { return isFile() && file.length_mm > 0.0 && file.length_mm <= 100.0 ? file.length_mm : 0.0; }
   /// A bur: the pedal turns it and it cuts.
   bool turns() const { return !luxates() && !isHandInstrument() && !isFile(); }
   bool operator==(const Tool&) const = default;

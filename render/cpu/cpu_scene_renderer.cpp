@@ -130,7 +130,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   std::vector<Inset> insets_;
   std::array<std::vector<OverlayPatch>, kOutputs> patches_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayTracer>> tracers_{[] { return std::make_unique<RayTracer>(); }};
-  std::array<RenderedEye, 3> eyes_;
+  std::array<RenderedEye, kEyes> eyes_;
   Enlarger enlarger_;
   std::array<Image, kOutputs> outputs_;
 };
@@ -184,8 +184,8 @@ TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
                 .spacing_mm = shade.spacing_mm,
                 .step = static_cast<float>(frame.quality.step_voxels),
                 .skip_empty_space = options_.skip_empty_space};
-  if (frame.mode == ViewMode::dvr) {
-    opacity_ = opacityTable(kRampStart, kRampFull, kOpacityPerMm, scene.cast.step * shade.spacing_mm);
+  if (isTranslucent(frame.mode)) {
+    opacity_ = opacityTable(transferOf(frame.mode), scene.cast.step * shade.spacing_mm);
     scene.opacity = &opacity_;
     scene.label = &fields_.label();
   }

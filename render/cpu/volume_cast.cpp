@@ -56,14 +56,16 @@ const CastKernels& kernels(assets::InstructionSet set) {
 
 }  // namespace
 
-OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm) {
+OpacityTable opacityTable(const Transfer& transfer, float step_mm) {
   OpacityTable table;
-  table.ramp_start = std::clamp(ramp_start, 0.5f, 0.99f);
-  table.ramp_per_solid = 1.0f / std::max(ramp_full - table.ramp_start, 0.01f);
-  table.labels = static_cast<int>(per_mm.size());
-  for (const float full : per_mm)
+  table.ramp_start = kRampStart;
+  table.ramp_per_solid = 1.0f / (transfer.full - kRampStart);
+  table.labels = static_cast<int>(transfer.inner_per_mm.size());
+  for (std::size_t label = 0; label < transfer.inner_per_mm.size(); ++label)
     for (int n = 0; n <= OpacityTable::kIntervals; ++n) {
-      const double a = static_cast<double>(std::clamp(full, 0.0f, 0.999f)) * n / OpacityTable::kIntervals;
+      const double ramp = static_cast<double>(n) / OpacityTable::kIntervals;
+      const double a =
+          std::clamp(opacityPerMm(transfer.inner_per_mm[label], transfer.wall_per_mm[label], ramp), 0.0, 0.99999);
       table.of_step.push_back(static_cast<float>(1.0 - std::pow(1.0 - a, static_cast<double>(step_mm))));
     }
   return table;

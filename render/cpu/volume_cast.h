@@ -14,6 +14,7 @@
 #include "assets/instruction_set.h"
 #include "render/cpu/mesh_points.h"
 #include "render/cpu/solid_cells.h"
+#include "render/volume/transfer_function.h"
 
 namespace render {
 
@@ -51,8 +52,8 @@ struct OpacityTable {
   std::vector<float> of_step;  ///< kIntervals + 1 for every label
 };
 
-/// alpha = 1 - (1 - a)^step of a = ramp(solid) · `per_mm` of the label; error below 1e-4 for a below 0.95.
-OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm);
+/// alpha = 1 - (1 - a)^step of a = opacityPerMm(label, ramp(solid)); error below 1e-4 for a below 0.95.
+OpacityTable opacityTable(const Transfer& transfer, float step_mm);
 
 struct CastSettings {
   glm::vec3 eye_index{0.0f};  ///< the eye as a continuous voxel index

@@ -10,7 +10,9 @@
 
 namespace render {
 
-enum class Eye { left, right, cyclopean };
+/// `magnified`: cyclopean, of a picture within the picture.
+enum class Eye { left, right, cyclopean, magnified };
+inline constexpr std::size_t kEyes = 4;
 
 struct EyeView {
   glm::dmat4 clip_from_W{1.0};  ///< OpenGL clip space, z from -1 (near) to 1 (far)

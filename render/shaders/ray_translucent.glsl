@@ -8,7 +8,7 @@
 // C++ twin: render::TransferBlock.
 layout(std140, binding = TRANSFER_BLOCK) uniform TransferBlock {
   vec4 ramp;                          // x: solid fraction where opacity begins, y: 1 over the length of the ramp
-  vec4 opacity_per_mm[TISSUE_COUNT];  // x: of the full tissue
+  vec4 opacity_per_mm[TISSUE_COUNT];  // x: of the full tissue, y: of its wall
 } transfer;
 
 struct Gathered {
@@ -18,7 +18,9 @@ struct Gathered {
 
 float opacityPerMm(vec3 position) {
   float share = clamp((solidAt(position) - transfer.ramp.x) * transfer.ramp.y, 0.0, 1.0);
-  return share > 0.0 ? share * transfer.opacity_per_mm[labelAt(position)].x : 0.0;
+  if (share <= 0.0) return 0.0;
+  vec2 per_mm = transfer.opacity_per_mm[labelAt(position)].xy;
+  return per_mm.x * share + per_mm.y * (1.0 - per_mm.x) * 4.0 * share * (1.0 - share);
 }
 
 // Light scattered by matter: lamp (evaluated once per ray) and room; without a surface all directions count alike.

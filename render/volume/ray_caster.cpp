@@ -23,11 +23,11 @@ void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, co
   block_.set(VOLUME_BLOCK,
              {.origin_P = glm::vec4(glm::vec3(grid.origin_P_mm), static_cast<float>(grid.spacing_mm)),
               .size = glm::ivec4(grid.size, skips_ ? 1 : 0),
-              .bricks = glm::ivec4(grid.bricks(), frame.mode == ViewMode::dvr ? VIEW_DVR : VIEW_ISO),
+              .bricks = glm::ivec4(grid.bricks(), isTranslucent(frame.mode) ? VIEW_DVR : VIEW_ISO),
               .ambient_size = glm::ivec4(fields.ambient().layout().size, 0),
               .march = {static_cast<float>(frame.quality.step_voxels), frame.quality.ambient_occlusion ? 1.0f : 0.0f,
                         frame.quality.lamp_shadow ? 1.0f : 0.0f, static_cast<float>(guides)}});
-  transfer_.set(TRANSFER_BLOCK, transferBlock());
+  transfer_.set(TRANSFER_BLOCK, transferBlock(transferOf(frame.mode)));
   volume.bind();
 }
 

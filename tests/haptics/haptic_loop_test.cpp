@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "calibration/geometry/units.h"
 #include "haptics/device/simulated/mouse_device.h"
 #include "haptics/device/simulated/replay_device.h"
 #include "haptics/device/simulated_device.h"
@@ -318,6 +319,38 @@ TEST(HapticLoop, PushesNobodyWhoWasNotArmedAndDrillsNothing) {
   EXPECT_EQ(bench.newest.read().state, SafetyState::ready);
   loop->stop();
   EXPECT_EQ(device.most_N, 0.0);
+}
+
+TEST(HapticLoop, TakesUpAFileWithItsTipWhereTheBurWasAndJumpsNoHand) {
+  Bench bench;
+  bench.settings.held_by_end = true;
+  bench.settings.X_HT.translation_mm = {0.0, 0.0, -40.0};
+  PressedDevice device;
+  // On its side: the instrument lies along y, off the bone.
+  device.state.X_DH = {glm::angleAxis(0.5 * calibration::kPi, glm::dvec3(1.0, 0.0, 0.0)), {1.0, 2.0, 30.0}};
+  const auto loop = bench.byHand(device);
+  loop->step(30);
+  const glm::dvec3 bur_P_mm = bench.newest.read().hand.X_PT.translation_mm;
+  Command file;
+  file.serial = 1;
+  file.tool = fileTool({.size = 20, .length_mm = 25.0});
+  bench.commands.publish(file);
+  for (int n = 0; n < 30; ++n) {
+    loop->step(1);
+    const Tick tick = bench.newest.read();
+    EXPECT_LT(glm::distance(tick.file.tip_P_mm, bur_P_mm), 1e-4);
+    EXPECT_NEAR(glm::distance(glm::dvec3(tick.file.node_P_mm.front()), bur_P_mm), 25.0, 1e-4);
+    EXPECT_LT(glm::length(tick.hand.velocity_P_mm_per_s.xyz), 1e-9) << "of no motion";
+    EXPECT_EQ(tick.faults, Fault::none);
+  }
+  // A bur again, where the tip was.
+  Command bur;
+  bur.serial = 2;
+  bench.commands.publish(bur);
+  loop->step(1);
+  EXPECT_LT(glm::distance(bench.newest.read().hand.X_PT.translation_mm, bur_P_mm), 1e-9);
+  EXPECT_EQ(device.most_N, 0.0);
+  loop->stop();
 }
 
 TEST(HapticLoop, RecordsAnEmergencyStopSoThatAReplayStopsToo) {

@@ -151,7 +151,7 @@ TEST(RayCaster, TranslucentMatterAttenuatesByThickness) {
   };
 
   // The optical thickness: 1.5 mm of full bone and half a millimetre of ramp on each side.
-  const double a = double{kOpacityPerMm[1]};
+  const double a = double{kFrosted.inner_per_mm[1]};
   double log_through = 1.5 * std::log(1.0 - a);
   for (double x = 0.0005; x < 1.0; x += 0.001) {
     const double share = std::clamp((x - kRampStart) / (kRampFull - kRampStart), 0.0, 1.0);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/geometry/units.h"
+
 namespace app {
 namespace {
 
@@ -149,6 +151,19 @@ TEST(HandInput, KeysWithModifiersMeanWhatTheTableSays) {
         std::tuple('Z', false, false), std::tuple('U', false, true), std::tuple('D', true, false)})
     hand.take(KeyPressed{render::keyOf(letter), true, false, shift, control}, 0.25);
   EXPECT_EQ(hand.takeRequests(), (std::vector<ControlRequest>{{Control::redo}, {Control::undo}, {Control::redo}}));
+}
+
+TEST(HandInput, TheWheelGoesAlongTheToolWhereItIsAskedTo) {
+  calibration::Pose<calibration::World, calibration::Tool> X_WT;
+  X_WT.rotation = glm::angleAxis(0.5 * calibration::kPi, glm::dvec3(1.0, 0.0, 0.0));
+  HandInput hand(X_WT);
+  hand.setGap(5.0);
+  hand.setAlongTool(true);
+  hand.take(render::WheelTurned{1.0}, 0.25);
+  EXPECT_LT(glm::distance(hand.X_WT().translation_mm, glm::dvec3(0.0, 2.0, 0.0)), 1e-12) << "two fifths of the gap";
+  hand.setAlongTool(false);
+  hand.take(render::WheelTurned{1.0}, 0.25);
+  EXPECT_LT(glm::distance(hand.X_WT().translation_mm, glm::dvec3(0.0, 2.0, -1.2)), 1e-12) << "into the picture";
 }
 
 }  // namespace

@@ -255,5 +255,36 @@ TEST(SoundScore, AFibreForEachTwoMillijoulesAndACrackByItsForce) {
   EXPECT_NEAR(score.of(tick, {}).crack_Nmm, 30.0, 0.1);
 }
 
+TEST(WorkSound, AnApexLocatorBeatsFasterTheNearerAndIsSteadyAtTheApex) {
+  EXPECT_EQ(apexTone(2.5, false), ApexTone::none);
+  EXPECT_EQ(apexTone(1.5, false), ApexTone::near);
+  EXPECT_EQ(apexTone(0.8, false), ApexTone::close);
+  EXPECT_EQ(apexTone(0.5, false), ApexTone::constriction);
+  EXPECT_EQ(apexTone(0.0, true), ApexTone::apex);
+  // Beginnings of a beat in 4 s, by the loudness of hundredths of a second.
+  const auto beats = [](ApexTone tone) {
+    SoundControl control;
+    control.warning.apex = tone;
+    const std::vector<float> samples = heard(control, 4.0, 0.0);
+    int count = 0;
+    bool was_on = false;
+    for (std::size_t n = 0; n + 480 <= samples.size(); n += 480) {
+      const bool is_on = loudness({samples.begin() + static_cast<std::ptrdiff_t>(n),
+                                   samples.begin() + static_cast<std::ptrdiff_t>(n + 480)}) > 0.02;
+      count += is_on && !was_on;
+      was_on = is_on;
+    }
+    return count;
+  };
+  EXPECT_EQ(beats(ApexTone::none), 0);
+  EXPECT_EQ(beats(ApexTone::near), 6);
+  EXPECT_EQ(beats(ApexTone::close), 12);
+  EXPECT_EQ(beats(ApexTone::constriction), 24);
+  EXPECT_EQ(beats(ApexTone::apex), 1);
+  SoundControl at;
+  at.warning.apex = ApexTone::apex;
+  EXPECT_NEAR(strongest_Hz(heard(at, 1.0), 800.0, 2500.0, 10.0), 1900.0, 10.0);
+}
+
 }  // namespace
 }  // namespace app

@@ -104,10 +104,39 @@ TEST_F(CpuScene, DrawsTranslucentBoneAsTheShaderDoes) {
   for (std::size_t v = 0; v < ct_.label.size(); ++v) ct_.label[v] = static_cast<std::uint8_t>((v / 37) % 6);
   open();
   both([](FrameRenderer& r) { r.setFace({{ballMesh({-4, 8, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
+  for (const ViewMode mode : {ViewMode::dvr, ViewMode::clear}) {
+    Frame f = frame();
+    f.mode = mode;
+    const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
+    EXPECT_LE(d.worst, 2);
+  }
+}
+
+TEST_F(CpuScene, MagnifiesAPlaceInACornerAsTheShadersDo) {
+  for (std::size_t v = 0; v < ct_.label.size(); ++v) ct_.label[v] = static_cast<std::uint8_t>((v / 37) % 6);
+  open();
+  both([](FrameRenderer& r) {
+    r.setFace({{ballMesh({-4, -30, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
+    r.setInstrument(assets::surgicalHandpiece({}));
+  });
   Frame f = frame();
-  f.mode = ViewMode::dvr;
+  cpu_->renderEye(f, Eye::cyclopean);
+  const Image plain = cpu_->readEye(Eye::cyclopean);
+  f.magnified = Magnified{{{-2.0, -7.0, 3.0}}, {0.0, 0.0, 1.0}, 4.0};
   const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
-  EXPECT_LE(d.worst, 2);
+  EXPECT_LE(d.beyond, 6) << "at the rims";
+  const Image shown = cpu_->readEye(Eye::cyclopean);
+  // At the right, a third of the height; nothing else has changed.
+  int left = shown.w, right = 0, top = shown.h, bottom = 0;
+  for (int y = 0; y < shown.h; ++y)
+    for (int x = 0; x < shown.w; ++x) {
+      const std::size_t at = 4 * static_cast<std::size_t>(y * shown.w + x);
+      if (std::equal(&shown.rgba[at], &shown.rgba[at] + 4, &plain.rgba[at])) continue;
+      left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+  EXPECT_GT(left, shown.w / 2);
+  EXPECT_NEAR(bottom - top + 1, 0.32 * shown.h, 2.0);
+  EXPECT_NEAR(right - left + 1, bottom - top + 1, 1.0) << "square";
 }
 
 TEST_F(CpuScene, DrawsWaterBloodDustAndSprayAsTheShadersDo) {

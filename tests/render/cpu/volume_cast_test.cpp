@@ -122,15 +122,16 @@ VolumePoints surfaceOf(const SolidCells& cells, const View& view, bool skip = tr
   return points;
 }
 
-const std::array<float, 10> kPerMm{0.3f, 0.24f, 0.05f, 0.8f, 0.92f, 0.75f, 0.5f, 0.5f, 0.0f, 0.05f};
+const Transfer kTransfer{{0.3f, 0.24f, 0.05f, 0.8f, 0.92f, 0.75f, 0.5f, 0.5f, 0.0f, 0.05f},
+                         {0.0f, 0.2f, 0.5f, 0.0f, 0.0f, 0.1f, 0.3f, 0.0f, 0.4f, 0.0f}};
 
 VolumePoints throughOf(const SolidCells& cells, const Scene& scene, const View& view, RaySums& sums, bool skip = true,
                        InstructionSet set = assets::chosenInstructionSet()) {
   VolumePoints points;
   CastSettings settings = view.settings;
   settings.skip_empty_space = skip;
-  castTranslucent(cells, settings, scene.label, opacityTable(0.5f, 0.9f, kPerMm, settings.step * settings.spacing_mm),
-                  view.rays, view.limit_mm.data(), points, sums, set);
+  castTranslucent(cells, settings, scene.label, opacityTable(kTransfer, settings.step * settings.spacing_mm), view.rays,
+                  view.limit_mm.data(), points, sums, set);
   return points;
 }
 
@@ -195,7 +196,8 @@ struct Twin {
     for (int k = 0; r.near < r.far && k * step <= r.far - r.near && sum < 0.98; ++k) {
       const glm::dvec3 place = r.entry + k * step * r.direction;
       const double share = std::clamp((solidAt(place) - 0.5) / 0.4, 0.0, 1.0);
-      const double per_mm = share * static_cast<double>(kPerMm[*scene.label.at(glm::ivec3(glm::floor(place + 0.5)))]);
+      const std::size_t label = *scene.label.at(glm::ivec3(glm::floor(place + 0.5)));
+      const double per_mm = opacityPerMm(kTransfer.inner_per_mm[label], kTransfer.wall_per_mm[label], share);
       sum += (1.0 - sum) * (1.0 - std::pow(1.0 - per_mm, step * static_cast<double>(view.settings.spacing_mm)));
     }
     return sum;

@@ -1,0 +1,51 @@
+// What a root canal treatment has come to while it goes on: treatmentOf() of a copy of the tooth that is brought up to
+// date by bricks, on a thread of its own, a moment after each stroke and every few seconds of a long one. Main thread,
+// once a frame; microseconds. The worker takes up to half a second. Frame P.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/procedure/root_canal/treatment.h"
+#include "assets/ct_volume.h"
+#include "haptics/body/bodies.h"
+
+namespace app {
+
+class TreatmentWatch {
+ public:
+  /// Borrows all. `before`: of the tooth's grid, before anything was cut.
+  TreatmentWatch(const assets::ToothCanals& tooth, const assets::CtVolume& scan, std::span<const std::uint8_t> before,
+                 const haptics::Bodies& bodies);
+  ~TreatmentWatch();
+
+  /// `bricks`: changed since the last call. True: newest() is new.
+  bool follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, const FileUse& files);
+  /// None: nothing was measured yet.
+  const std::optional<Treatment>& newest() const { return newest_; }
+  /// Of the last measurement.
+  double took_s() const { return took_s_; }
+
+ private:
+  struct Copy;
+  struct Measured {
+    Treatment treatment;
+    double took_s = 0.0;
+  };
+
+  std::unique_ptr<Copy> copy_;  ///< the worker reads it
+  const haptics::Bodies& bodies_;
+  std::vector<glm::ivec3> changed_;
+  std::future<Measured> measuring_;
+  double busy_s_ = -1e9, measured_s_ = -1e9, took_s_ = 0.0;
+  std::optional<Treatment> newest_;
+};
+
+/// For the surgeon: "distal: 0.42 mm³, 61 % of its wall untouched, least dentine 0.92 mm; roof 83 % open". Canals that
+/// nothing was taken of are left out; empty: nothing was cut.
+std::string treatmentLine(const Treatment& treatment);
+
+}  // namespace app
