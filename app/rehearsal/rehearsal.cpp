@@ -169,6 +169,11 @@ class Rehearsal {
   /// A mouse's tool begins a little off the bone, and its user is told which way is in.
   void placeMouse() {
     if (equipment_.mouse() == nullptr) return;
+    if (plan_.patient.canals) {
+      const calibration::Point<calibration::Patient> over{startOverCrown_P_mm(*plan_.patient.canals)};
+      router_.placeHandAt((plan_.rig.X_WP * over).mm);
+      return head_up_.say("over the crown: the wheel goes in along the instrument");
+    }
     render::Frame held = frame_;
     held.X_PT.rotation = plan_.rig.X_WP.inverse().rotation * restingTool(plan_.rig, plan_.patient, plan_.cut).rotation;
     held.tool_visible = true;

@@ -78,4 +78,14 @@ std::optional<glm::dvec3> startBeforePlan(const render::Frame& frame, const asse
   return best;
 }
 
+glm::dvec3 startOverCrown_P_mm(const assets::ToothCanals& tooth) {
+  glm::dvec2 middle(0.0);
+  for (const glm::dvec2& p : tooth.chamber.outline_mm)
+    middle += p / static_cast<double>(tooth.chamber.outline_mm.size());
+  double highest_mm = tooth.chamber.roof_mm;
+  for (const assets::ToothCanal& canal : tooth.canals)
+    highest_mm = std::max(highest_mm, tooth.frame.local(canal.reference_P_mm).z);
+  return tooth.frame.inP({middle, highest_mm + kStartGap_mm});
+}
+
 }  // namespace app

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "assets/planned_cut.h"
+#include "assets/tooth_canals.h"
 #include "render/frame.h"
 
 namespace app {
@@ -22,5 +23,8 @@ std::optional<glm::dvec3> startBeforeBone(const render::Frame& frame, const glm:
 /// The same in front of the cut: the nearest bone is part of it, or as near to it as 8 mm to any side allow.
 std::optional<glm::dvec3> startBeforePlan(const render::Frame& frame, const assets::PlannedCut& cut,
                                           const GapOf& gap_of);
+
+/// Over the middle of a tooth's pulp chamber, kStartGap_mm above its highest cusp: in P.
+glm::dvec3 startOverCrown_P_mm(const assets::ToothCanals& tooth);
 
 }  // namespace app

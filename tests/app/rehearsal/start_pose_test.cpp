@@ -72,5 +72,19 @@ TEST(StartPose, LiesBesideTheLineWhereAnotherToothWouldBeNearest) {
 
 TEST(StartPose, IsNotKnownWhereNoBoneIsNear) { EXPECT_FALSE(startBeforeBone(turnedPatient(), {}, boneAt(-1000.0))); }
 
+TEST(StartPose, IsFiveMillimetresOverTheHighestCuspAboveTheChambersMiddle) {
+  assets::ToothCanals tooth;
+  tooth.frame.cervix_P_mm = {10.0, 20.0, 30.0};
+  // Occlusal is y of P.
+  tooth.frame.axes_P = glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  tooth.chamber.outline_mm = {{-1.0, 1.0}, {3.0, 1.0}};
+  for (const double cusp_mm : {6.0, 7.5}) {
+    assets::ToothCanal canal;
+    canal.reference_P_mm = tooth.frame.inP({2.0, 3.0, cusp_mm});
+    tooth.canals.push_back(canal);
+  }
+  EXPECT_LT(glm::distance(startOverCrown_P_mm(tooth), glm::dvec3(11.0, 32.5, 31.0)), 1e-12);
+}
+
 }  // namespace
 }  // namespace app
