@@ -99,6 +99,13 @@ struct Obstacles {
   bool operator==(const Obstacles&) const = default;
 };
 
+/// The flat glass of a mirror in the second hand: a disc about the origin of its instrument, in the part "Glass".
+struct MirrorGlass {
+  glm::dvec3 out_O{0.0, 0.0, 1.0};  ///< unit, out of the glass
+  double radius_mm = 0.0;
+  double fog = 0.0;  ///< 0..1, of breath and spray, drawn as a grey veil
+};
+
 enum class Antialias { none, edges };
 
 /// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
@@ -137,7 +144,8 @@ struct Frame {
   bool has_handpiece = true;  ///< behind the bur; it shades, too
   calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< the second instrument
   bool second_visible = false;
-  MovedPieces pieces;           ///< X_PQ of FrameRenderer::setPiece()
+  std::optional<MirrorGlass> second_glass;  ///< reflects the scene; none: as its material
+  MovedPieces pieces;                       ///< X_PQ of FrameRenderer::setPiece()
   double face_window_mm = 0.0;  ///< the face is cut away within this distance of the line eye-to-site; 0: never
   calibration::Point<calibration::Patient> site_P;
   SurgicalField field;

@@ -90,6 +90,10 @@ class GlSceneRenderer final : public SceneRenderer {
   SceneTarget& canvasOf(Eye eye) { return canvases_[static_cast<std::size_t>(eye)]; }
   enum class Where { everywhere, edges };
   void drawScene(const Frame& frame, Eye eye, glm::ivec2 size, SceneTarget& canvas, Where where = Where::everywhere);
+  /// What is seen in the second hand's mirror, in the pixels that can show it, for the shaders of its glass.
+  void drawReflected(const Frame& frame, const EyeView& view, glm::ivec2 size, Where where);
+  /// Into a bound and cleared target.
+  void drawView(const Frame& frame, const EyeBlock& block, bool mirrored, SceneTarget& canvas);
 
   int samples_;
   const VolumeFields& fields_;
@@ -110,6 +114,7 @@ class GlSceneRenderer final : public SceneRenderer {
   std::array<std::vector<PatchPass::GpuPatch>, kOutputs> patches_;
   std::array<SceneTarget, kEyes> canvases_;  ///< of the eyes as last drawn
   SceneTarget edge_samples_;
+  std::array<SceneTarget, 2> reflected_;  ///< of the eye that is drawn, and of its edges
   std::array<Framebuffer, kOutputs> outputs_;
   LateImage late_;
 };
@@ -131,19 +136,44 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
   Framebuffer& target = canvas.target;
   target.fit(size, kSceneTargets, true);
   const EyeView view = eyeView(frame.rig, eye);
-  eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
   tool_block_.set(TOOL_BLOCK, toolBlock(frame));
   soft_block_.set(SOFT_BLOCK, softBlock(frame.marks));
   caster_.bind(fields_, volume_, frame);
+  drawReflected(frame, view, size, where);
   target.bind();
   target.clear();
   if (where == Where::edges) edges_.rejectInterior(target);
+  drawView(frame, eyeBlock(frame, view), view.mirrored, canvas);
+}
+
+void GlSceneRenderer::drawReflected(const Frame& frame, const EyeView& view, glm::ivec2 size, Where where) {
+  const std::optional<EyeBlock> there = reflectedEyeBlock(frame, view);
+  if (!there) return;
+  SceneTarget& canvas = reflected_[where == Where::edges ? 1 : 0];
+  Framebuffer& target = canvas.target;
+  target.fit(size, kSceneTargets, true);
+  target.bind();
+  target.block();
+  if (const GlassBox box = glassBox(frame, view, size); box.size_px.x > 0) {
+    setScissor(box.corner_px, box.size_px);
+    target.clear();
+    if (where == Where::edges) edges_.rejectInterior(target);
+    drawView(frame, *there, !view.mirrored, canvas);
+    setScissor({}, {});
+  }
+  target.colour(COLOUR_TARGET).bind(REFLECTED_LIGHT_UNIT);
+  target.colour(DISTANCE_TARGET).bind(REFLECTED_DISTANCE_UNIT);
+}
+
+void GlSceneRenderer::drawView(const Frame& frame, const EyeBlock& block, bool mirrored, SceneTarget& canvas) {
+  Framebuffer& target = canvas.target;
+  eye_block_.set(EYE_BLOCK, block);
   drawScreen(background_, {.depth_write = false, .allow_equal_depth = true, .write_distance = false});
 
   const Placements placements = placementsIn(frame);
   const auto draw = [&](std::span<const Model> models, MeshPass::Parts parts) {
     for (const Model model : models)
-      meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], view.mirrored);
+      meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], mirrored);
   };
   constexpr std::array kOutside{Model::face, Model::instrument, Model::second_instrument};
   constexpr std::array kInside{Model::gingiva, Model::flap,   Model::mandibular_canal, Model::ruler, Model::beads,
@@ -160,7 +190,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
   draw(kOverlay, MeshPass::Parts::transparent);
   draw(kInside, MeshPass::Parts::opaque);
   if (frame.mode == ViewMode::mesh)
-    bone_mesh_->draw(view.mirrored);
+    bone_mesh_->draw(mirrored);
   else
     caster_.draw(canvas.layer, target);
   if (!any_transparent) return;

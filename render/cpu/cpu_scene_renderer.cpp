@@ -112,6 +112,7 @@ class CpuSceneRenderer final : public SceneRenderer {
  private:
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   TraceScene sceneFor(const Frame& frame, Eye eye);
+  TraceScene sceneOf(const Frame& frame, const EyeBlock& eye);
   void draw(const TraceScene& scene, int samples, EyeImage& image, KeptHits* static_hits);
   void drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayTracer& tracer,
                 EyeImage& image, const StaticHits& kept);
@@ -130,6 +131,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   std::vector<Inset> insets_;
   std::array<std::vector<OverlayPatch>, kOutputs> patches_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayTracer>> tracers_{[] { return std::make_unique<RayTracer>(); }};
+  TraceScene in_glass_;  ///< of the eye that is drawn
   std::array<RenderedEye, kEyes> eyes_;
   Enlarger enlarger_;
   std::array<Image, kOutputs> outputs_;
@@ -151,13 +153,23 @@ void CpuSceneRenderer::prepare(const Frame& frame, const FieldChanges& changes) 
 }
 
 TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
+  const EyeView view = eyeView(frame.rig, eye);
+  TraceScene scene = sceneOf(frame, eyeBlock(frame, view));
+  if (const std::optional<EyeBlock> there = reflectedEyeBlock(frame, view)) {
+    in_glass_ = sceneOf(frame, *there);
+    scene.reflected = &in_glass_;
+  }
+  return scene;
+}
+
+TraceScene CpuSceneRenderer::sceneOf(const Frame& frame, const EyeBlock& eye) {
   const assets::VolumeGrid& grid = fields_.grid();
   TraceScene scene;
   scene.meshes = &meshes_;
   scene.cells = &cells_;
   scene.kernels = &kernels_;
   ShadeScene& shade = scene.shade;
-  shade.eye = eyeBlock(frame, eyeView(frame.rig, eye));
+  shade.eye = eye;
   shade.tool = toolBlock(frame);
   shade.soft = softBlock(frame.marks);
   shade.right_axis_P = glm::normalize(glm::vec3(shade.eye.right_edge_P));
@@ -198,6 +210,7 @@ void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   to.is_enlarged = false;
   to.edges = frame.quality.smooth_enlarged_edges ? Enlarger::Edges::smooth : Enlarger::Edges::even;
   const TraceScene scene = sceneFor(frame, eye);
+  to.image.seen_mm.resize(scene.reflected != nullptr ? to.image.distance_mm.size() : 0);
   arena_.execute([&] {
     draw(scene, options_.samples, to.image, options_.samples == 1 ? &to.hitsOf(px) : nullptr);
     if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.image);
@@ -257,6 +270,7 @@ void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2
     const std::size_t at = image.at(first.x + p % kTile, first.y + p / kTile);
     image.r[at] += share * tracer.r[i], image.g[at] += share * tracer.g[i], image.b[at] += share * tracer.b[i];
     image.distance_mm[at] = tracer.distance_mm[i];
+    if (!image.seen_mm.empty()) image.seen_mm[at] = tracer.seen_mm()[i];
   }
 }
 

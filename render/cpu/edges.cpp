@@ -22,7 +22,7 @@ void findEdges(const EyeImage& image, int first_row, int end_row, std::vector<st
   std::vector<float> rows[3];
   for (std::vector<float>& row : rows) row.resize(static_cast<std::size_t>(w) + 2);
   const auto load = [&](std::vector<float>& row, int y) {
-    const float* const from = &image.distance_mm[image.at(0, y)];
+    const float* const from = &image.silhouettes_mm()[image.at(0, y)];
     for (int x = 0; x < w; ++x) row[static_cast<std::size_t>(x) + 1] = inverse(from[x]);
     row[0] = w > 1 ? 2.0f * row[1] - row[2] : row[1];
     row[static_cast<std::size_t>(w) + 1] =

@@ -12,6 +12,7 @@ struct EyeImage {
   glm::ivec2 px{0};
   std::vector<float> r, g, b;
   std::vector<float> distance_mm;  ///< along the ray through the pixel centre, 0: nothing hit
+  std::vector<float> seen_mm;      ///< the same, on beyond a mirror's glass; empty: there is none
 
   void resize(glm::ivec2 size) {
     if (size == px) return;
@@ -20,6 +21,8 @@ struct EyeImage {
     // Kernels may read beyond the last value.
     for (std::vector<float>* plane : {&r, &g, &b, &distance_mm}) plane->assign(count + 16, 0.0f);
   }
+  /// Where silhouettes are looked for.
+  const std::vector<float>& silhouettes_mm() const { return seen_mm.empty() ? distance_mm : seen_mm; }
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(px.x) + static_cast<std::size_t>(x);
   }

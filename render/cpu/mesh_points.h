@@ -19,6 +19,7 @@ struct RayBatch {
   int count = 0;
   alignas(64) float x[kMaxRays] = {}, y[kMaxRays] = {}, z[kMaxRays] = {};  ///< unit directions
   alignas(64) float near_mm[kMaxRays] = {}, far_mm[kMaxRays] = {};         ///< range in which a mesh can be hit
+  alignas(64) float begin_mm[kMaxRays] = {};                               ///< where it begins: 0, or at a glass
 };
 
 /// The first mesh along every ray; attributes are looked up later, only where the hit is visible.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "render/shaders/light_constants.glsl"
+#include "render/shaders/shared_constants.glsl"
+
 namespace render {
 namespace {
 
@@ -22,6 +25,12 @@ void RayTracer::scatter(const Light& light, const std::int32_t* ray, int count) 
 }
 
 void RayTracer::trace(const TraceScene& scene, int count, const StaticHits& kept) {
+  traceLight(scene, count, kept);
+  scene.kernels->shoulder({r, g, b}, count);
+}
+
+void RayTracer::traceLight(const TraceScene& scene, int count, const StaticHits& kept) {
+  has_glass_ = false;
   rays_.count = count;
   scene.kernels->aim(scene.shade.eye, uv_x, uv_y, rays_);
   if (!kept.are_valid) scene.meshes->staticHits(rays_, kept.opaque != nullptr ? *kept.opaque : hits_);
@@ -36,8 +45,10 @@ void RayTracer::trace(const TraceScene& scene, int count, const StaticHits& kept
     traceSurface(scene);
   else
     traceTranslucent(scene);
+  // Translucent matter before the glass hides its image.
+  for (int i = 0; has_glass_ && i < count; ++i)
+    if (image_mm_[i] < 0.0f || distance_mm[i] != hits_.distance_mm[i]) image_mm_[i] = distance_mm[i];
   layers(scene, kept);
-  scene.kernels->shoulder({r, g, b}, count);
 }
 
 // The surface is opaque: only visible points are shaded.
@@ -87,7 +98,41 @@ void RayTracer::meshes(const TraceScene& scene, const float* seen_mm) {
   if (seen_.count == 0) return;
   const Light light = roomFor(seen_.count);
   scene.kernels->meshes(scene.shade, rays_, seen_, light);
+  if (scene.reflected != nullptr) inGlass(scene, light);
   scatter(light, seen_.ray, seen_.count);
+}
+
+// Where the eye sees the glass: the same points of the image once more, from behind it. glass.glsl.
+void RayTracer::inGlass(const TraceScene& scene, const Light& light) {
+  const auto reflects = [this](int n) { return seen_.finish[n] == FINISH_GLASS && seen_.faces_eye[n] != 0; };
+  if (!reflected_) {
+    bool any = false;
+    for (int n = 0; n < seen_.count && !any; ++n) any = reflects(n);
+    if (!any) return;
+    reflected_ = std::make_unique<RayTracer>();
+  }
+  RayTracer& there = *reflected_;
+  int count = 0;
+  for (int n = 0; n < seen_.count; ++n) {
+    if (!reflects(n)) continue;
+    there.uv_x[count] = uv_x[seen_.ray[n]];
+    there.uv_y[count++] = uv_y[seen_.ray[n]];
+  }
+  if (count == 0) return;
+  there.traceLight(*scene.reflected, count, {});
+
+  has_glass_ = true;
+  std::fill_n(image_mm_, rays_.count, -1.0f);
+  constexpr float kFog[] = {GLASS_FOG_COLOUR};
+  const float fog = scene.shade.eye.glass.y;
+  const auto through = [&](float seen, float veil) { return GLASS_KEEPS * (seen + fog * (veil - seen)); };
+  for (int n = 0, m = 0; n < seen_.count; ++n) {
+    if (!reflects(n)) continue;
+    light.r[n] = through(there.r[m], kFog[0]);
+    light.g[n] = through(there.g[m], kFog[1]);
+    light.b[n] = through(there.b[m], kFog[2]);
+    image_mm_[seen_.ray[n]] = there.distance_mm[m++];
+  }
 }
 
 // The layers of each ray are sorted back to front.

@@ -3,6 +3,7 @@
 // The scene is shared by all threads, a tracer belongs to one. Frame P, mm.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "render/cpu/mesh_points.h"
@@ -22,6 +23,7 @@ struct TraceScene {
   const BorderedField<std::uint8_t>* label = nullptr;
   ShadeScene shade;
   const ShadeKernels* kernels = nullptr;
+  const TraceScene* reflected = nullptr;  ///< what the eye sees in the second hand's mirror; null: nothing
 };
 
 /// First hits on what stands still, kept from frame to frame while the eye does too.
@@ -45,6 +47,8 @@ class RayTracer {
   // Results.
   alignas(64) float r[kMaxRays + kLanePadding] = {}, g[kMaxRays + kLanePadding] = {}, b[kMaxRays + kLanePadding] = {};
   alignas(64) float distance_mm[kMaxRays + kLanePadding] = {};  ///< 0: nothing hit
+  /// The same, but what is seen in the glass as far as its image lies behind it.
+  const float* seen_mm() const { return has_glass_ ? image_mm_ : distance_mm; }
 
  private:
   Light roomFor(int count);
@@ -53,6 +57,8 @@ class RayTracer {
   void traceTranslucent(const TraceScene& scene);
   void background(const TraceScene& scene);
   void meshes(const TraceScene& scene, const float* seen_mm);
+  void inGlass(const TraceScene& scene, const Light& light);
+  void traceLight(const TraceScene& scene, int count, const StaticHits& kept);
   void layers(const TraceScene& scene, const StaticHits& kept);
 
   RayBatch rays_;
@@ -61,6 +67,9 @@ class RayTracer {
   VolumePoints volume_;
   RaySums sums_;
   std::vector<float> light_;
+  std::unique_ptr<RayTracer> reflected_;  ///< from the first ray that meets a glass
+  bool has_glass_ = false;
+  alignas(64) float image_mm_[kMaxRays + kLanePadding] = {};
   alignas(64) float limit_mm_[kMaxRays + kLanePadding] = {};
 };
 

@@ -59,14 +59,18 @@ inline void put(const Light& light, int at, const Float3& value) {
 
 void aim(const EyeBlock& eye, const float* uv_x, const float* uv_y, RayBatch& rays) {
   rays.origin_P.x = eye.eye_P.x, rays.origin_P.y = eye.eye_P.y, rays.origin_P.z = eye.eye_P.z;
-  const Float3 corner = splat(eye.lower_left_P) - splat(eye.eye_P);
+  const Float3 corner = splat(eye.lower_left_P) - splat(eye.eye_P), out = splat(eye.begin_P);
   for (int i = 0; i < rays.count; i += kLanes) {
     const Float3 to_screen = corner + load(uv_x + i) * splat(eye.right_edge_P) + load(uv_y + i) * splat(eye.up_edge_P);
     const Float reach = length(to_screen), inverse = 1.0f / reach;
-    store(rays.x + i, inverse * to_screen.x);
-    store(rays.y + i, inverse * to_screen.y);
-    store(rays.z + i, inverse * to_screen.z);
-    store(rays.near_mm + i, static_cast<float>(kNearOfScreen) * reach);
+    const Float3 direction = inverse * to_screen;
+    store(rays.x + i, direction.x);
+    store(rays.y + i, direction.y);
+    store(rays.z + i, direction.z);
+    // rayBegin of eye_block.glsl.
+    const Float begin = eye.begin_P.w == 0.0f ? splat(0.0f) : eye.begin_P.w / maximum(dot(direction, out), 1e-6f);
+    store(rays.begin_mm + i, begin);
+    store(rays.near_mm + i, maximum(static_cast<float>(kNearOfScreen) * reach, begin));
     store(rays.far_mm + i, static_cast<float>(kFarOfScreen) * reach);
   }
 }
@@ -121,7 +125,8 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     s.roughness = clamp(load(points.roughness + i), MIN_ROUGHNESS, 1.0f);
     s.albedo = (1.0f - metallic) * base;
     s.scatter = s.albedo;
-    const Mask skin = finish == FINISH_SKIN, gingiva = finish == FINISH_GINGIVA, steel = finish == FINISH_INSTRUMENT;
+    const Mask skin = finish == FINISH_SKIN, gingiva = finish == FINISH_GINGIVA,
+               steel = (finish == FINISH_INSTRUMENT) | (finish == FINISH_GLASS);
     const Float f0 = select(skin, splat(SKIN_F0), splat(MESH_F0));
     s.f0 = select(gingiva, vec3(GINGIVA_F0, GINGIVA_F0, GINGIVA_F0), mix(vec3(f0), base, metallic));
     s.wrap = select(skin, splat(SKIN_WRAP), select(gingiva, splat(GINGIVA_WRAP), splat(0.0f)));

@@ -36,6 +36,7 @@ CastJob jobOf(const SolidCells& cells, const CastSettings& settings, const RayBa
   job.x = &rays.x[0];
   job.y = &rays.y[0];
   job.z = &rays.z[0];
+  job.begin_mm = &rays.begin_mm[0];
   job.limit_mm = limit_mm;
   job.count = rays.count;
   job.voxels_per_mm = 1.0f / settings.spacing_mm;

@@ -33,13 +33,13 @@ inline Position positionAt(const Rays& rays, Float t) {
           multiplyAdd(t, rays.direction.z, rays.entry.z)};
 }
 
-/// Rays from directions and limits in mm.
-inline Rays aimed(const CastJob& job, Float x, Float y, Float z, Float limit_mm) {
+/// Rays from directions, beginnings and limits in mm.
+inline Rays aimed(const CastJob& job, Float x, Float y, Float z, Float begin_mm, Float limit_mm) {
   Rays rays;
   rays.direction = {x, y, z};
   rays.inverse = {inverseOf(x), inverseOf(y), inverseOf(z)};
   const Float* const inverse[3] = {&rays.inverse.x, &rays.inverse.y, &rays.inverse.z};
-  Float near = splat(0.0f), far = limit_mm * job.voxels_per_mm;
+  Float near = begin_mm * job.voxels_per_mm, far = limit_mm * job.voxels_per_mm;
   for (int a = 0; a < 3; ++a) {
     const Float p = (kEdge - 1.0f - job.eye[a]) * *inverse[a], q = (job.size[a] + kEdge - job.eye[a]) * *inverse[a];
     near = maximum(near, minimum(p, q));
@@ -246,7 +246,7 @@ inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Vi
 /// Rays of the batch by index.
 inline Rays chosen(const CastJob& job, Int number, Mask wanted) {
   return aimed(job, gather(job.x, number, wanted), gather(job.y, number, wanted), gather(job.z, number, wanted),
-               gather(job.limit_mm, number, wanted));
+               gather(job.begin_mm, number, wanted), gather(job.limit_mm, number, wanted));
 }
 
 /// Calls cast(first, from) for every kLanes rays that can hit something; they are empty up to `from`.
@@ -267,8 +267,8 @@ inline void surfaceBy(CastJob& job) {
   alignas(64) float number[kMaxRays + kLanes];
   int hits = 0;
   forPackets(job, [&](int first, float from) {
-    const Rays rays =
-        aimed(job, load(job.x + first), load(job.y + first), load(job.z + first), load(job.limit_mm + first));
+    const Rays rays = aimed(job, load(job.x + first), load(job.y + first), load(job.z + first),
+                            load(job.begin_mm + first), load(job.limit_mm + first));
     Mask found = splat(0);
     Float at = splat(0.0f);
     march<kSkip>(job, rays, firstLanes(job.count - first), firstSample(job, rays, from),
@@ -311,8 +311,8 @@ inline void translucentBy(CastJob& job) {
   }
   const float start = job.ramp_start * kFull, per_value = job.ramp_per_solid * 256.0f / kFull;
   forPackets(job, [&](int first, float from) {
-    const Rays rays =
-        aimed(job, load(job.x + first), load(job.y + first), load(job.z + first), load(job.limit_mm + first));
+    const Rays rays = aimed(job, load(job.x + first), load(job.y + first), load(job.z + first),
+                            load(job.begin_mm + first), load(job.limit_mm + first));
     Float sum = splat(0.0f), reach = splat(-1.0f);
     march<kSkip>(job, rays, firstLanes(job.count - first), firstSample(job, rays, from),
                  [&](Mask wanted, Float value, const Position& position, Float k) {

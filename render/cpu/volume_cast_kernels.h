@@ -16,7 +16,7 @@ struct CastJob {
   float size[3];
   // The rays; arrays are readable to the next multiple of 16.
   float eye[3];  ///< from the corner of the cells' border, as all positions here
-  const float *x, *y, *z, *limit_mm;
+  const float *x, *y, *z, *begin_mm, *limit_mm;
   std::int32_t count;
   float voxels_per_mm, step;
   bool skip;

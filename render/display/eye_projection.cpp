@@ -37,4 +37,24 @@ EyeView eyeView(const calibration::Rig& rig, Eye eye) {
           .mirrored = mirrored};
 }
 
+EyeView reflected(const EyeView& view, const calibration::Plane<calibration::World>& glass_W, double begins_mm) {
+  const glm::dvec3& n = glass_W.normal;
+  glm::dmat4 reflection(glm::dmat3(1.0) - 2.0 * glm::outerProduct(n, n));
+  reflection[3] = glm::dvec4(2.0 * glass_W.offset_mm * n, 1.0);
+  const auto turned = [&n](const calibration::Vector<calibration::World>& v) {
+    return calibration::Vector<calibration::World>{v.xyz - 2.0 * glm::dot(n, v.xyz) * n};
+  };
+
+  // Clip z from -w at the glass; the far plane lies behind all that is nearer to the axis than 75 degrees.
+  constexpr double kLeastCosine = 0.25;
+  glm::dmat4 clip = glm::transpose(view.clip_from_W * reflection);
+  clip[2] = 2.0 * kLeastCosine * glm::dvec4(n, -glass_W.offset_mm - begins_mm) - clip[3];
+  return {.clip_from_W = glm::transpose(clip),
+          .eye_W = glass_W.reflect(view.eye_W),
+          .lower_left_W = glass_W.reflect(view.lower_left_W),
+          .right_edge_W = turned(view.right_edge_W),
+          .up_edge_W = turned(view.up_edge_W),
+          .mirrored = !view.mirrored};
+}
+
 }  // namespace render

@@ -5,6 +5,7 @@
 // towards the eye.
 #pragma once
 
+#include "calibration/geometry/plane.h"
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
 
@@ -27,5 +28,10 @@ struct EyeView {
 inline constexpr double kNearOfScreen = 0.1, kFarOfScreen = 20.0;
 
 EyeView eyeView(const calibration::Rig& rig, Eye eye);
+
+/// What the eye sees in a flat mirror in front of it: the eye and its screen reflected, so that a pixel of this view is
+/// the reflected ray of the same pixel, and shows a point where the eye's view shows its mirror image. Its near plane
+/// is the glass, or lies in front of it by `begins_mm`.
+EyeView reflected(const EyeView& view, const calibration::Plane<calibration::World>& glass_W, double begins_mm = 0.0);
 
 }  // namespace render

@@ -33,6 +33,11 @@ void apply(const DrawState& state) {
 
 void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corner.y, size.x, size.y); }
 
+void setScissor(glm::ivec2 corner, glm::ivec2 size) {
+  size.x > 0 ? glEnable(GL_SCISSOR_TEST) : glDisable(GL_SCISSOR_TEST);
+  if (size.x > 0) glScissor(corner.x, corner.y, size.x, size.y);
+}
+
 void finishStorageWrites() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); }
 
 void finishTargetWrites() { glTextureBarrier(); }

@@ -26,6 +26,9 @@ void apply(const DrawState& state);
 /// Restricts the following draws to a rectangle of the bound framebuffer, px from its lower left.
 void setViewport(glm::ivec2 corner, glm::ivec2 size);
 
+/// Fragments and clears outside the rectangle are dropped, until the next call; a size of 0: everything is drawn.
+void setScissor(glm::ivec2 corner, glm::ivec2 size);
+
 /// Makes shader writes to buffers and images visible to the next draw.
 void finishStorageWrites();
 

@@ -61,6 +61,15 @@ void Framebuffer::clear() {
   }
 }
 
+void Framebuffer::block() {
+  const std::array<float, 4> touching{1e-6f, 0.0f, 0.0f, 0.0f};
+  const float nearest = 1.0f;
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearNamedFramebufferfv(name_.get(), GL_COLOR, static_cast<GLint>(colours_.size()) - 1, touching.data());
+  glDepthMask(GL_TRUE);
+  glClearNamedFramebufferfv(name_.get(), GL_DEPTH, 0, &nearest);
+}
+
 void Framebuffer::scaleInto(Framebuffer& to, bool turned_over) const {
   const GLint low = turned_over ? to.size_.y : 0, high = turned_over ? 0 : to.size_.y;
   glNamedFramebufferReadBuffer(name_.get(), GL_COLOR_ATTACHMENT0);

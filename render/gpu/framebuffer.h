@@ -21,6 +21,8 @@ class Framebuffer {
   void bind() const;
   /// Colour 0, distances 0, depth far (reverse-Z).
   void clear();
+  /// Nearest depth and distance everywhere, so that nothing is drawn there and no ray is cast.
+  void block();
   const Texture& colour(int attachment) const { return colours_[static_cast<std::size_t>(attachment)]; }
   glm::ivec2 size() const { return size_; }
 

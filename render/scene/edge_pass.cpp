@@ -14,6 +14,7 @@ constexpr std::array kMaskTargets{TexelFormat::r8ui};
 
 void EdgePass::find(const Framebuffer& image) {
   mask_.fit(image.size(), kMaskTargets, false);
+  image.colour(COLOUR_TARGET).bind(LAYER_LIGHT_UNIT);
   image.colour(DISTANCE_TARGET).bind(SCENE_DISTANCE_UNIT);
   mask_.bind();
   drawScreen(find_, {.depth_test = false, .depth_write = false});

@@ -10,7 +10,8 @@ namespace render {
 
 class EdgePass {
  public:
-  /// Marks the edges of an image whose distances are drawn.
+  /// Marks the edges of an image whose distances are drawn; in a mirror's glass those of the reflected view, bound to
+  /// REFLECTED_DISTANCE_UNIT.
   void find(const Framebuffer& image);
   /// After find(): rejects by depth all but the edges in the cleared `samples`, 2x2 samples to a pixel.
   void rejectInterior(const Framebuffer& samples);

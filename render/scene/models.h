@@ -43,7 +43,8 @@ enum class Finish {
   guide = FINISH_GUIDE,
   tooth = FINISH_TOOTH,
   piece = FINISH_PIECE,
-  obstacle = FINISH_OBSTACLE
+  obstacle = FINISH_OBSTACLE,
+  glass = FINISH_GLASS
 };
 
 constexpr Finish finishOf(Model model) {
@@ -58,12 +59,16 @@ constexpr Finish finishOf(Model model) {
 inline constexpr char kMarksPart[] = "Marks", kChipsPart[] = "Chips", kFolliclePart[] = "Follicle",
                       kStitchesPart[] = "Stitches", kDrawnPart[] = "Drawn plan";
 
+/// Of Model::second_instrument: what reflects (Frame::second_glass).
+inline constexpr char kGlassPart[] = "Glass";
+
 /// Teeth of the face are shaded as the enamel of the volume; beads (bead_mesh.h) each as what they are.
 inline Finish finishOf(Model model, std::string_view part) {
   if (model == Model::beads)
     return part == kMarksPart || part == kDrawnPart ? Finish::guide
            : part == kFolliclePart                  ? Finish::skin
                                                     : Finish::tooth;
+  if (model == Model::second_instrument && part == kGlassPart) return Finish::glass;
   return model == Model::face && part.ends_with("Teeth") ? Finish::tooth : finishOf(model);
 }
 

@@ -6,9 +6,15 @@
 #include "light_constants.glsl"
 
 layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;
+layout(binding = LAYER_LIGHT_UNIT) uniform sampler2D scene_light;
+layout(binding = REFLECTED_DISTANCE_UNIT) uniform sampler2D reflected_distance;
 layout(location = 0) out uint is_edge;
 
-float distanceAt(ivec2 pixel) { return texelFetch(scene_distance, pixel, 0).r; }
+// In a mirror's glass: as far as the image lies behind it.
+float distanceAt(ivec2 pixel) {
+  bool is_glass = texelFetch(scene_light, pixel, 0).a > 0.75 * GLASS_ALPHA;
+  return is_glass ? texelFetch(reflected_distance, pixel, 0).r : texelFetch(scene_distance, pixel, 0).r;
+}
 
 // For a pixel and two opposite neighbours, mm along their rays, 0 where nothing is hit.
 bool bends(float before, float here, float after) {

@@ -64,6 +64,10 @@
 #define INSIDE_AMBIENT 0.45f        // back faces
 #define INSIDE_LAMP 0.35f
 
+// The glass of a dental mirror: front-surface silver; breath and spray on it.
+#define GLASS_KEEPS 0.93f
+#define GLASS_FOG_COLOUR 0.42f, 0.45f, 0.48f
+
 // Background.
 #define BACKGROUND_FLOOR 0.010f, 0.0115f, 0.013f
 #define BACKGROUND_SKY 0.040f, 0.044f, 0.048f

@@ -74,7 +74,7 @@ vec4 meshColour() {
     return vec4(base.rgb * mix(GUIDE_DARKEST, 1.0, facing), base.a);
   }
   Visibility visibility = visibilityFromVolume(p_P + MESH_LIFT * normal, normal);
-  if (finish == FINISH_INSTRUMENT) {
+  if (finish == FINISH_INSTRUMENT || finish == FINISH_GLASS) {
     // Steel in a cavity still reflects the opening.
     visibility.ambient = mix(STEEL_MIN_AMBIENT, 1.0, visibility.ambient);
     visibility.lamp = mix(STEEL_MIN_LAMP, 1.0, visibility.lamp);

@@ -4,9 +4,10 @@
 const float kIso = 0.5;
 const int kBisections = 6;
 
-// Length along the unit direction to the surface, negative if there is none before `limit`.
-float castRay(vec3 origin, vec3 direction, float limit) {
+// Length along the unit direction to the surface, negative if there is none between `begin` and `limit`.
+float castRay(vec3 origin, vec3 direction, float begin, float limit) {
   vec2 span = spanInVolume(origin, direction);
+  span.x = max(span.x, begin);
   span.y = min(span.y, limit);
   if (span.x >= span.y) return -1.0;
   float step = volume.march.x;

@@ -37,11 +37,11 @@ vec3 scattered(vec3 position, vec3 to_lamp, vec3 lamp_light) {
   return underRing(light, p_P);
 }
 
-Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {
+Gathered gatherAlong(vec3 origin, vec3 direction, float begin, float limit) {
   Gathered gathered = Gathered(vec4(0.0), -1.0);
   vec2 span = spanInVolume(origin, direction);
   vec3 middle_P = volume.origin_P.xyz + (origin + 0.5 * (span.x + span.y) * direction) * volume.origin_P.w;
-  span.y = min(span.y, limit);
+  span = vec2(max(span.x, begin), min(span.y, limit));
   if (span.x >= span.y) return gathered;
   float step = volume.march.x;
   float step_mm = step * volume.origin_P.w;

@@ -28,11 +28,14 @@
 #define EDGE_MASK_UNIT 11
 #define GUIDE_UNIT 12
 #define INSET_UNIT 13
+#define REFLECTED_LIGHT_UNIT 14
+#define REFLECTED_DISTANCE_UNIT 15
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1
 #define COLOUR_ATTRIBUTE 2
 
+#define GLASS_ALPHA 2.0          // of a pixel that shows a mirror's glass; less by what lies over it
 #define COLOUR_TARGET 0          // outputs of every scene pass
 #define DISTANCE_TARGET 1
 
@@ -43,6 +46,7 @@
 #define FINISH_TOOTH 4
 #define FINISH_PIECE 5
 #define FINISH_OBSTACLE 6
+#define FINISH_GLASS 7           // of a mirror: steel where it reflects nothing
 #define PART_CUT_BY_WINDOW 1     // bits: traits of a mesh part
 #define PART_VEIL 2              // of the faded face only the nearest surface is drawn
 

@@ -128,5 +128,58 @@ TEST(Camera, RefusesAnInvalidView) {
   EXPECT_THROW(cameraRig({.eye_P_mm = {NAN, 0, 9}}, {64, 48}), GpuError);
 }
 
+// A plane between the eye and the screen's middle, out towards the eye.
+calibration::Plane<World> glassBefore(const EyeView& view, Random& random) {
+  const glm::dvec3 middle = view.lower_left_W.mm + 0.5 * (view.right_edge_W.xyz + view.up_edge_W.xyz);
+  const glm::dvec3 to_eye = glm::normalize(view.eye_W.mm - middle);
+  const glm::dvec3 out = glm::normalize(to_eye + 0.7 * random.direction());
+  return {out, glm::dot(out, middle + random.inCube(30.0))};
+}
+
+TEST(ReflectedView, RayOfAPixelIsTheReflectedRayOfThatPixel) {
+  Random random(11);
+  double worst = 0.0;
+  for (int n = 0; n < 5000; ++n) {
+    const EyeView view = eyeView(randomRig(random, n % 2 == 1), Eye::left);
+    const calibration::Plane<World> glass = glassBefore(view, random);
+    const EyeView there = reflected(view, glass);
+    const double u = random.between(0.0, 1.0), v = random.between(0.0, 1.0);
+    const auto ray = [&](const EyeView& of) {
+      return glm::normalize(of.lower_left_W.mm + u * of.right_edge_W.xyz + v * of.up_edge_W.xyz - of.eye_W.mm);
+    };
+    const glm::dvec3 d = ray(view), e = view.eye_W.mm;
+    const glm::dvec3 bounced = d - 2.0 * glm::dot(d, glass.normal) * glass.normal;
+    worst = std::max(worst, glm::length(ray(there) - bounced));
+    // It comes from the reflected eye through the place where the ray meets the glass.
+    const glm::dvec3 hit = e - glass.distance_mm(view.eye_W) / glm::dot(d, glass.normal) * d;
+    worst = std::max(worst, glm::length(glm::cross(bounced, glm::normalize(hit - there.eye_W.mm))));
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST(ReflectedView, ShowsAPointInThePixelOfItsMirrorImageAndEndsAtTheGlass) {
+  Random random(12);
+  double worst_px = 0.0;
+  int before = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const Rig rig = randomRig(random, n % 2 == 1);
+    const EyeView view = eyeView(rig, Eye::right);
+    const calibration::Plane<World> glass = glassBefore(view, random);
+    const double begins_mm = n % 3 == 0 ? 0.05 : 0.0;
+    const EyeView there = reflected(view, glass, begins_mm);
+    EXPECT_NE(there.mirrored, view.mirrored);
+    const Point<World> p = pointNearVirtualScreen(rig, random), image = glass.reflect(p);
+    const glm::dvec3 seen = ndc(there, p), straight = ndc(view, image);
+    if (glm::length(glm::dvec2(straight)) > 4.0) continue;
+    worst_px = std::max(worst_px, 0.5 * 1920.0 * glm::length(glm::dvec2(seen) - glm::dvec2(straight)));
+    const bool is_before = glass.distance_mm(p) > begins_mm;
+    before += is_before ? 1 : 0;
+    EXPECT_EQ(seen.z > -1.0, is_before);
+    EXPECT_LT(seen.z, 1.0);
+  }
+  EXPECT_LT(worst_px, 1e-8);
+  EXPECT_GT(before, 1000);
+}
+
 }  // namespace
 }  // namespace render
