@@ -53,7 +53,8 @@ class FrameRenderer {
                         std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
   /// Canal and planned cut, shown by Frame::layers.
   void setGuides(const Guides& guides);
-  /// Grey values and canal for the CT slices, as scanned. Throws GpuError if they do not fit the volume.
+  /// Grey values and canal for the CT slices, as scanned; its voxels are borrowed. Throws GpuError if they do not fit
+  /// the volume.
   void setScan(CtScan scan);
   /// Over every image that render() composes from now on, in this order; not over readEye(). Cheap when most panels
   /// keep their serial.

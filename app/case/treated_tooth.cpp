@@ -137,7 +137,7 @@ assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCa
 }
 
 assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
-                             bool is_open, const std::string& option) {
+                             bool is_open, const std::string& option, double spacing_mm) {
   const std::vector<CanalTooth> teeth = jaw ? canalTeeth(*jaw) : canalTeeth(whole.ct);
   const auto found = std::ranges::find(teeth, fdi, &CanalTooth::fdi);
   if (found == teeth.end())
@@ -147,7 +147,7 @@ assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<a
   if (!found->canals || (jaw && !found->remark.empty()))
     throw UsageError(fmt::format("{} {}: {}, choose another, see molar teeth", option, fdi, found->remark));
   try {
-    const auto fine = fineTooth(withoutNeighbours(whole.ct, fdi), jaw, *found->canals, kTreatedVoxel_mm);
+    const auto fine = fineTooth(withoutNeighbours(whole.ct, fdi), jaw, *found->canals, spacing_mm);
     return treatedTooth(whole, *found->canals, *fine, is_open);
   } catch (const assets::LoadError& error) {
     throw UsageError(fmt::format("{} {}: {}", option, fdi, error.what()));

@@ -141,7 +141,7 @@ int carve(const CarveOptions& options) {
   refuseControls(poses, options.poses);
   refuseLongRun(poses, options.poses);
   const SolidVolume volume = options.volume.load();
-  haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
+  haptics::CarvedBone bone(volume.grid, volume.solid, volume.label, haptics::BlockStorage::dense);
   Carving carving(bone, cut);
   carving.along(poses);
   const haptics::CarveResult& removed = carving.removed();

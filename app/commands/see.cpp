@@ -136,7 +136,7 @@ int see(const SeeOptions& options) {
     renderer.setGingiva(patient.gingiva);
   }
   if (frame.layers.slices)
-    renderer.setScan({std::move(patient.ct.hounsfield), volume.solid, std::move(patient.mandibular_canal_P_mm),
+    renderer.setScan({patient.ct.hounsfield, volume.solid, std::move(patient.mandibular_canal_P_mm),
                       patient.mandibular_canal_radius_mm});
   renderer.renderEye(frame, eye);
   const render::Image image = renderer.readEye(eye);

@@ -259,6 +259,8 @@ class Rehearsal {
         if (const auto drop = access_->follow(tick, command.tool)) tellCanal(roofDropText(*drop), kAccessEvent);
     if (canal_log_)
       for (const std::string& told : canal_log_->follow(ticks, command.tool)) tellCanal(told);
+    if (station().bodies().jaw().cutsWholeBlocks() && !std::exchange(tells_blocks_, true))
+      tellCanal("the tooth's memory is full: where it is still whole it is now cut in steps of four voxels");
     clearance_.follow(ticks, command, station().commandSerial());
     if (steps_) steps_->follow(ticks, command, site_->bridge_mm(), site_->socket(), site_->flapFacts());
     if (coach_)
@@ -516,6 +518,7 @@ class Rehearsal {
   std::optional<LocatorWatch> locator_;
   std::optional<AccessWatch> access_;
   std::optional<TreatmentWatch> treatment_;  ///< told while it goes on
+  bool tells_blocks_ = false;                ///< that the live tooth is cut by whole blocks
   std::optional<LiveMeasures> measures_;
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};

@@ -44,7 +44,9 @@ SessionMoments::SessionMoments(const std::string& path, const Options& options)
 void SessionMoments::keepFirst() {
   const std::span<haptics::CarvedBone> bones = bodies_.bones();
   const haptics::CarvedBone& jaw = bones.front();
-  first_solid_.assign(jaw.field().solid, jaw.field().solid + jaw.blocks() * haptics::kBlockVoxels);
+  const haptics::SolidField first = jaw.field();
+  first_solid_.assign(first.solid, first.solid + jaw.slots() * haptics::kBlockVoxels);
+  if (first.slot_of != nullptr) first_slot_of_.assign(first.slot_of, first.slot_of + jaw.blocks());
   for (std::size_t bone = 0; bone < bones.size(); ++bone) {
     blocks_.emplace_back(sizeof(haptics::BlockState), bones[bone].blocks());
     is_kept_.emplace_back(bones[bone].blocks());
@@ -97,9 +99,11 @@ haptics::BlockState SessionMoments::keptState(std::size_t bone, std::size_t bloc
   const std::span<const std::byte> kept = blocks_[bone].at(block, version);
   if (!kept.empty())
     state = stateFrom(kept);
-  else if (bone == 0)
-    std::copy_n(first_solid_.begin() + static_cast<std::ptrdiff_t>(block * haptics::kBlockVoxels),
-                haptics::kBlockVoxels, state.solid.begin());
+  else if (bone == 0) {
+    const std::size_t slot = first_slot_of_.empty() ? block : first_slot_of_[block];
+    std::copy_n(first_solid_.begin() + static_cast<std::ptrdiff_t>(slot * haptics::kBlockVoxels), haptics::kBlockVoxels,
+                state.solid.begin());
+  }
   return state;
 }
 

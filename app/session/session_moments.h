@@ -116,7 +116,8 @@ class SessionMoments {
   std::uint64_t recorded_digest_ = 0;  ///< of the bone after the newest tick that index() ran
 
   std::vector<Keyframe> keyframes_;
-  std::vector<std::uint8_t> first_solid_;              ///< of the jaw, block by block
+  std::vector<std::uint8_t> first_solid_;              ///< of the jaw, slot by slot
+  std::vector<std::uint32_t> first_slot_of_;           ///< by block; empty: every block's is its own number
   std::vector<PageVersions> blocks_;                   ///< BlockState by bone and block
   std::vector<std::vector<std::size_t>> kept_blocks_;  ///< by bone: those with a version
   std::vector<std::vector<bool>> is_kept_;

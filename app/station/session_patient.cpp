@@ -16,7 +16,7 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
   if (start.setup.canals) {
     // Labels are the same, whatever was cut of the crown before.
     const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
-    patient = treatedTooth(patient, built_in, start.setup.canals->fdi, false, "--tooth");
+    patient = treatedTooth(patient, built_in, start.setup.canals->fdi, false, "--tooth", start.grid.spacing_mm);
     patient.ct.solid = start.solid;
   }
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;

@@ -22,9 +22,9 @@ Bodies::Bodies(const assets::VolumeGrid& grid, std::span<const std::uint8_t> sol
     bones_.emplace_back(grid, solid, label);
   } else {
     const assets::ToothDivision divided = assets::divideByTooth(grid, solid, label, is_tooth);
-    bones_.emplace_back(grid, divided.jaw.solid, divided.jaw.label);
+    bones_.emplace_back(grid, divided.jaw.solid, divided.jaw.label, BlockStorage::dense);
     if (!divided.tooth.solid.empty()) {
-      bones_.emplace_back(divided.tooth.grid, divided.tooth.solid, divided.tooth.label);
+      bones_.emplace_back(divided.tooth.grid, divided.tooth.solid, divided.tooth.label, BlockStorage::dense);
       while (bones_.size() < kMaxBodies)
         bones_.push_back(CarvedBone::emptied(divided.tooth.grid, divided.tooth.solid, divided.tooth.label));
     }

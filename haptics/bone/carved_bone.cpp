@@ -24,13 +24,12 @@ std::size_t tissueOf(const SolidField& field, std::size_t place) {
 }  // namespace
 
 CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                       std::span<const std::uint8_t> label)
-    : grid_(grid), cubelets_(grid, solid, label), dirty_(grid.bricks()) {
+                       std::span<const std::uint8_t> label, BlockStorage storage)
+    : grid_(grid), cubelets_(grid, solid, label, storage), dirty_(grid.bricks()) {
   const SolidField at = field();
-  const std::size_t blocks = at.blockAt({0, 0, at.blocks.z});
   const History uncut{};
   std::size_t with_bone = 0;
-  for (std::size_t block = 0; block < blocks; ++block) {
+  for (std::size_t block = 0; block < blocks(); ++block) {
     const std::size_t slot = at.slotOf(block);
     if (at.weight[slot] == 0) continue;
     ++with_bone;
@@ -38,10 +37,11 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
     addToDigest(calibration::mixedBits(block + 1),
                 blockDigest(at.solid + slot * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
   }
-  history_of_.assign(blocks, 0);
-  written_.assign((blocks + 63) / 64, 0);
-  const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks));
-  histories_most_ = std::min(with_bone, std::max(share, kMinHistories));
+  history_of_.assign(cubelets_.slots(), 0);
+  written_.assign((blocks() + 63) / 64, 0);
+  const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks()));
+  const std::size_t most = storage == BlockStorage::dense ? std::max(share, kMinHistories) : kMinHistories;
+  histories_most_ = std::min(with_bone, most);
   histories_.resize(histories_most_);
 }
 
@@ -53,28 +53,31 @@ void CarvedBone::addToDigest(std::uint64_t block_key, const BlockDigest& change)
 }
 
 CarvedBone::History* CarvedBone::historyOf(std::size_t block) {
-  if (history_of_[block] == 0) {
+  const SolidField at = field();
+  const std::size_t slot = at.slotOf(block);
+  if (history_of_[slot] == 0) {
     if (histories_used_ == histories_most_) return nullptr;
     History& fresh = histories_[histories_used_++];
-    history_of_[block] = static_cast<std::uint32_t>(histories_used_);
-    const SolidField at = field();
-    const std::uint8_t* solid = at.solid + at.slotOf(block) * kBlockVoxels;
+    history_of_[slot] = static_cast<std::uint32_t>(histories_used_);
+    const std::uint8_t* solid = at.solid + slot * kBlockVoxels;
     std::copy(solid, solid + kBlockVoxels, fresh.first.begin());
     fresh.reach.fill(0);
     fresh.dose.fill(0);
   }
-  return &histories_[history_of_[block] - 1];
+  return &histories_[history_of_[slot] - 1];
 }
 
 bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
                           std::array<std::int64_t, assets::kTissueCount>& steps, StrokeHistory* strokes) {
   const SolidField at = field();
-  const std::size_t block = at.blockAt(block_ijk), slot = at.slotOf(block), start = slot * kBlockVoxels;
+  const std::size_t block = at.blockAt(block_ijk);
+  if (!meetsBlock(at.solid + at.slotOf(block) * kBlockVoxels, cut.coverage.data())) return false;
+  if (!cubelets_.own(block)) return cutWhole(block_ijk, cut, steps, strokes);
+  const std::size_t slot = at.slotOf(block), start = slot * kBlockVoxels;
   const std::uint8_t* const before = at.solid + start;
   const std::uint64_t key = calibration::mixedBits(block + 1);
   const bool mixed_labels = at.only_label[slot] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
-  if (!meetsBlock(before, cut.coverage.data())) return false;
   saveTo(strokes, block);
   markWritten(block);
 
@@ -115,6 +118,34 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   return true;
 }
 
+bool CarvedBone::meetsGiven(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given) const {
+  const SolidField at = field();
+  const std::uint8_t* const solid = at.solid + at.slotOf(block) * kBlockVoxels;
+  bool meets = false;
+  for (std::size_t n = 0; n < kBlockVoxels; ++n) meets = meets || (solid[n] != 0 && given[n] != 0);
+  return meets;
+}
+
+/// Without a slot of its own an even block goes whole, in a tick that comes as often as its loss is large.
+bool CarvedBone::cutWhole(glm::ivec3 block_ijk, const BlockCut& cut,
+                          std::array<std::int64_t, assets::kTissueCount>& steps, StrokeHistory* strokes) {
+  const SolidField at = field();
+  const std::size_t block = at.blockAt(block_ijk), start = at.slotOf(block) * kBlockVoxels,
+                    tissue = tissueOf(at, start);
+  std::uint64_t covered = 0, exposed = 0;
+  for (std::size_t n = 0; n < kBlockVoxels; ++n) covered += cut.coverage[n], exposed += cut.exposure[n];
+  if (2 * covered < std::uint64_t{kFullDose} * kBlockVoxels) return false;
+  const std::uint64_t loss = exposed * cut.loss_q32[tissue] / covered;  // as if it were covered whole
+  const std::uint32_t due = static_cast<std::uint32_t>(calibration::mixedBits(block + 1) >> 32) +
+                            static_cast<std::uint32_t>(cut.tick) * 0x9E3779B9u;
+  if (due >= loss) return false;
+  __atomic_store_n(&cuts_whole_, true, __ATOMIC_RELAXED);
+  saveTo(strokes, block);
+  const std::int64_t lost = -restoreBlock(block, {});
+  steps[tissue] += lost;
+  return lost != 0;
+}
+
 void CarvedBone::saveTo(StrokeHistory* strokes, std::size_t block) const {
   if (strokes != nullptr && strokes->needsSaving(first_block_ + block))
     strokes->save(first_block_ + block, stateOf(block));
@@ -122,7 +153,7 @@ void CarvedBone::saveTo(StrokeHistory* strokes, std::size_t block) const {
 
 CarvedBone CarvedBone::emptied(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                                std::span<const std::uint8_t> label) {
-  CarvedBone empty(grid, solid, label);
+  CarvedBone empty(grid, solid, label, BlockStorage::dense);
   const SolidField at = empty.field();
   for (std::size_t block = 0; block < empty.blocks(); ++block) {
     if (at.weight[at.slotOf(block)] == 0) continue;
@@ -138,18 +169,17 @@ CarvedBone CarvedBone::emptied(const assets::VolumeGrid& grid, std::span<const s
 
 void CarvedBone::moveBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given, CarvedBone& to,
                            StrokeHistory* strokes) {
+  if (!meetsGiven(block, given) || !cubelets_.own(block) || !to.cubelets_.own(block)) return;
   BlockState from_state = stateOf(block), to_state = to.stateOf(block);
   const History* const history = historyOf(block);
-  const bool to_has_history = to.history_of_[block] != 0;
+  const std::uint32_t to_history = to.history_of_[to.field().slotOf(block)];
   const auto key = static_cast<std::uint32_t>(calibration::mixedBits(block + 1) >> 32);
-  bool moves = false;
   for (std::size_t n = 0; n < kBlockVoxels; ++n) {
     const std::uint8_t whole = from_state.solid[n], moved = std::min(given[n], whole);
     if (moved == 0) continue;
-    moves = true;
     const auto received = static_cast<std::uint8_t>(std::min(255, to_state.solid[n] + moved));
-    if (to_has_history) {
-      const std::uint8_t first = to.histories_[to.history_of_[block] - 1].first[n];
+    if (to_history != 0) {
+      const std::uint8_t first = to.histories_[to_history - 1].first[n];
       const bool is_all = received == whole && history != nullptr && first == history->first[n];
       to_state.dose[n] = is_all ? from_state.dose[n] : doseLeaving(first, received, key, static_cast<std::uint32_t>(n));
       to_state.reach[n] = std::max(to_state.reach[n], from_state.reach[n]);
@@ -159,7 +189,6 @@ void CarvedBone::moveBlock(std::size_t block, std::span<const std::uint8_t, kBlo
     if (history != nullptr)
       from_state.dose[n] = doseLeaving(history->first[n], from_state.solid[n], key, static_cast<std::uint32_t>(n));
   }
-  if (!moves) return;
   saveTo(strokes, block);
   to.saveTo(strokes, block);
   restoreBlock(block, from_state);
@@ -168,19 +197,17 @@ void CarvedBone::moveBlock(std::size_t block, std::span<const std::uint8_t, kBlo
 
 std::int64_t CarvedBone::loseBlock(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
                                    StrokeHistory* strokes) {
+  if (!meetsGiven(block, given) || !cubelets_.own(block)) return 0;
   BlockState state = stateOf(block);
   const History* const history = historyOf(block);
   const auto key = static_cast<std::uint32_t>(calibration::mixedBits(block + 1) >> 32);
-  bool loses = false;
   for (std::size_t n = 0; n < kBlockVoxels; ++n) {
     const std::uint8_t taken = std::min(given[n], state.solid[n]);
     if (taken == 0) continue;
-    loses = true;
     state.solid[n] = static_cast<std::uint8_t>(state.solid[n] - taken);
     if (history != nullptr)
       state.dose[n] = doseLeaving(history->first[n], state.solid[n], key, static_cast<std::uint32_t>(n));
   }
-  if (!loses) return 0;
   saveTo(strokes, block);
   return -restoreBlock(block, state);
 }
@@ -188,10 +215,11 @@ std::int64_t CarvedBone::loseBlock(std::size_t block, std::span<const std::uint8
 BlockState CarvedBone::stateOf(std::size_t block) const {
   BlockState state;
   const SolidField at = field();
-  const std::uint8_t* const solid = at.solid + at.slotOf(block) * kBlockVoxels;
+  const std::size_t slot = at.slotOf(block);
+  const std::uint8_t* const solid = at.solid + slot * kBlockVoxels;
   std::copy(solid, solid + kBlockVoxels, state.solid.begin());
-  if (history_of_[block] != 0) {
-    const History& history = histories_[history_of_[block] - 1];
+  if (history_of_[slot] != 0) {
+    const History& history = histories_[history_of_[slot] - 1];
     state.reach = history.reach;
     state.dose = history.dose;
   }
@@ -199,21 +227,23 @@ BlockState CarvedBone::stateOf(std::size_t block) const {
 }
 
 std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state) {
-  markWritten(block);
   const BlockState now = stateOf(block);
+  // Only a part of a block without a slot of its own cannot come or go where none is left.
+  if (state.solid != now.solid && !cubelets_.setBlock(block, state.solid)) return 0;
+  markWritten(block);
   const BlockDigest from = blockDigest(now.solid.data(), now.reach.data(), now.dose.data());
   const BlockDigest to = blockDigest(state.solid.data(), state.reach.data(), state.dose.data());
   addToDigest(calibration::mixedBits(block + 1), {to.low - from.low, to.high - from.high});
+  const SolidField at = field();
+  const std::size_t slot = at.slotOf(block), start = slot * kBlockVoxels;
   // A history that began later began with the restored content: `first` stays valid.
-  if (history_of_[block] != 0) {
-    History& history = histories_[history_of_[block] - 1];
+  if (history_of_[slot] != 0) {
+    History& history = histories_[history_of_[slot] - 1];
     history.reach = state.reach;
     history.dose = state.dose;
   }
   if (state.solid == now.solid) return 0;
 
-  const SolidField at = field();
-  const std::size_t start = at.slotOf(block) * kBlockVoxels;
   std::int64_t steps = 0;
   for (std::size_t n = 0; n < kBlockVoxels; ++n) {
     const int more = state.solid[n] - now.solid[n];
@@ -221,7 +251,6 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
     steps += more;
   }
   solid_steps_ += steps;
-  cubelets_.setBlock(block, state.solid);
   const int at_x = static_cast<int>(block % static_cast<std::size_t>(at.blocks.x));
   const auto rows = static_cast<int>(block / static_cast<std::size_t>(at.blocks.x));
   dirty_.mark(glm::ivec3(at_x, rows % at.blocks.y, rows / at.blocks.y) * kBlockEdge / assets::kBrickVoxels);
@@ -255,7 +284,10 @@ std::vector<std::uint8_t> CarvedBone::labelInGridOrder() const {
   const SolidField at = field();
   if (at.label == nullptr) return {};
   std::vector<std::uint8_t> label(grid_.voxelCount());
-  assets::forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) { label[v] = at.labelAt(ijk); });
+  assets::forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
+    const std::size_t slot = cubelets_.slotSeen(at.blockAt(SolidField::blockOf(ijk)));
+    label[v] = at.label[slot * kBlockVoxels + SolidField::within(ijk)];
+  });
   return label;
 }
 
@@ -267,11 +299,14 @@ void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_
     for (int j = 0; j < assets::kBrickVoxels; ++j)
       for (int i = 0; i < assets::kBrickVoxels; ++i, ++out) {
         const glm::ivec3 ijk = corner + glm::ivec3(i, j, k);
+        if (!grid_.contains(ijk)) {
+          solid_out[out] = 0;
+          continue;
+        }
+        const std::size_t slot = cubelets_.slotSeen(at.blockAt(SolidField::blockOf(ijk)));
         // The atomic view needs a mutable reference; nothing is written through it.
-        solid_out[out] = grid_.contains(ijk)
-                             ? std::atomic_ref<std::uint8_t>(const_cast<std::uint8_t&>(at.solid[at.offsetOf(ijk)]))
-                                   .load(std::memory_order_relaxed)
-                             : std::uint8_t{0};
+        auto& byte = const_cast<std::uint8_t&>(at.solid[slot * kBlockVoxels + SolidField::within(ijk)]);
+        solid_out[out] = std::atomic_ref<std::uint8_t>(byte).load(std::memory_order_relaxed);
       }
 }
 
@@ -290,10 +325,7 @@ std::vector<std::uint8_t> CarvedBone::copyBox(glm::ivec3 first_brick, glm::ivec3
 }
 
 std::size_t CarvedBone::bytes() const {
-  const SolidField at = field();
-  const std::size_t blocks = history_of_.size(), fields = at.label == nullptr ? 1 : 2;
-  constexpr std::size_t kSums = 4 * sizeof(std::uint16_t) + sizeof(std::uint32_t) + sizeof(std::uint8_t);
-  return blocks * (fields * kBlockVoxels + kSums + sizeof(std::uint32_t)) + histories_most_ * sizeof(History);
+  return cubelets_.bytes() + history_of_.size() * sizeof(std::uint32_t) + histories_most_ * sizeof(History);
 }
 
 }  // namespace haptics

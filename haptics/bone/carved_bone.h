@@ -1,8 +1,9 @@
 // The bone while it is carved: the solid fraction of every voxel and the history of every block that was cut. Frame P,
 // mm, grid of the scan. One writer, the servo; other threads copy dirty bricks.
-// Construction allocates; every other call is bounded and never allocates, locks or throws. At most 4 bytes a voxel.
-// In blocks cut after the histories are used up only voxels covered by half or more lose, at the same rate.
-// Reset is a copy of the scan (assets::CtVolume). Shape of a cut: bone/carve.
+// Construction allocates; every other call is bounded and never allocates, locks or throws. Dense: at most 4 bytes a
+// voxel; sparse: bone/cubelets. In blocks cut after the histories are used up only voxels covered by half or more lose,
+// at the same rate; of a sparse bone whose slots are used up only whole blocks covered by half or more, at the same
+// rate. Reset is a copy of the scan (assets::CtVolume). Shape of a cut: bone/carve.
 #pragma once
 
 #include <array>
@@ -36,10 +37,12 @@ struct BlockState {
 };
 static_assert(sizeof(BlockState) == 256);
 
-/// Memory layout, next to the arrays of bone/cubelets; b = block number (SolidField::blockAt), v = voxel within:
+/// Memory layout, next to the arrays of bone/cubelets; b = block number (SolidField::blockAt), s = its slot, v = voxel
+/// within:
 ///
-///   history_of_  u32 per block, at 4 b: 0 = never cut, else 1 + index h into histories_
-///   histories_   256 bytes per cut block, at 256 h; capacity min(blocks with bone, max(42 % of blocks, 16384)):
+///   history_of_  u32 per slot, at 4 s: 0 = never cut, else 1 + index h into histories_
+///   histories_   256 bytes per cut block, at 256 h; capacity min(blocks with bone, max(42 % of blocks, 16384)), sparse
+///                min(slots, 16384):
 ///
 ///     offset  0 ............ 63 | 64 ........... 127 | 128 .................... 255
 ///             first  u8 [64]    | reach  u8 [64]     | dose  u16 [64]
@@ -56,15 +59,18 @@ class CarvedBone {
  public:
   /// `solid` and `label` in the order of `grid`; label may be empty (all unlabelled). Copies both.
   /// Spans must fit the grid (assert).
-  CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label);
+  CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label)
+      : CarvedBone(grid, solid, label, usualStorage(grid)) {}
+  CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
+             BlockStorage storage);
 
-  /// The same with nothing left, as if all had been cut away: what is left of the other can be moved to it.
+  /// Dense, with nothing left, as if all had been cut away: what is left of the other can be moved to it.
   static CarvedBone emptied(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                             std::span<const std::uint8_t> label);
 
   const assets::VolumeGrid& grid() const { return grid_; }
   bool isEmpty() const { return solid_steps_ == 0; }
-  std::size_t blocks() const { return history_of_.size(); }
+  std::size_t blocks() const { return cubelets_.blocks(); }
   /// The number of block 0 in a StrokeHistory of several bones. Before the first cut.
   void setFirstBlock(std::size_t number) { first_block_ = number; }
   SolidField field() const { return cubelets_.field(); }
@@ -121,13 +127,23 @@ class CarvedBone {
   /// Memory used, and the number of histories left.
   std::size_t bytes() const;
   std::size_t blocksLeft() const { return histories_most_ - histories_used_; }
+  /// Of a sparse bone, for even blocks that are cut; and whether there were none left for one, so that it was cut
+  /// whole. Any thread.
+  std::size_t slotsLeft() const { return cubelets_.slotsLeft(); }
+  bool cutsWholeBlocks() const { return __atomic_load_n(&cuts_whole_, __ATOMIC_RELAXED); }
+  /// Distinct by slotOf().
+  std::size_t slots() const { return cubelets_.slots(); }
 
  private:
   struct History {
     std::array<std::uint8_t, kBlockVoxels> first, reach;
     std::array<std::uint16_t, kBlockVoxels> dose;
   };
+  /// Of a block with a slot of its own.
   History* historyOf(std::size_t block);
+  bool cutWhole(glm::ivec3 block_ijk, const BlockCut& cut, std::array<std::int64_t, assets::kTissueCount>& steps,
+                StrokeHistory* strokes);
+  bool meetsGiven(std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given) const;
   void markWritten(std::size_t block) { written_[block / 64] |= std::uint64_t{1} << block % 64; }
   void saveTo(StrokeHistory* strokes, std::size_t block) const;
   void addToDigest(std::uint64_t block_key, const BlockDigest& change);
@@ -141,6 +157,7 @@ class CarvedBone {
   std::array<std::int64_t, assets::kTissueCount> removed_steps_{};
   std::int64_t solid_steps_ = 0;
   std::uint64_t digest_ = 0;
+  bool cuts_whole_ = false;
   DirtyBricks dirty_;
   std::vector<std::uint64_t> written_;
 };

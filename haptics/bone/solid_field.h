@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kMixedLabels = 255;
 struct SolidField {
   assets::VolumeGrid grid;
   glm::ivec3 blocks{0};                    ///< along i, j, k
-  const std::uint32_t* slot_of = nullptr;  ///< by block; null: every block's slot is its own number
+  const std::uint32_t* slot_of = nullptr;  ///< by block, and one value more; null: every block's slot is its number
   const std::uint8_t* solid = nullptr;     ///< 0..255 = fraction of the voxel that is solid
   const std::uint8_t* label = nullptr;     ///< assets::Tissue, same order; null: unlabelled
   const std::uint16_t *weight = nullptr, *weight_x = nullptr, *weight_y = nullptr, *weight_z = nullptr;

@@ -13,7 +13,7 @@ inline constexpr int kRays = 16;
 
 /// Blocks of 4x4x4 bytes as bone/cubelets stores them.
 struct WallVoxels {
-  const std::uint32_t* slot_of;  ///< by block; null: the block's number
+  const std::uint32_t* slot_of;  ///< by block, and one value more; null: the block's number
   const std::uint8_t* solid;
   int size[3], blocks[3];
 };

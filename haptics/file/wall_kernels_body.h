@@ -29,18 +29,43 @@ inline Floats loaded(const float* from) {
 }
 inline void kept(const Floats& v, float* to) { std::memcpy(to, &v, sizeof v); }
 
-inline void gather(const void* from, const Ints& word, Words& out) {
+inline void gather(const std::uint8_t* bytes, const Ints& word, Words& out) {
 #if defined(__AVX512F__)
-  out = reinterpret_cast<Words>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(word), from, 4));
+  out = reinterpret_cast<Words>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(word), bytes, 4));
 #elif defined(__AVX2__)
+  const void* const from = bytes;
   out = reinterpret_cast<Words>(
       _mm256_i32gather_epi32(static_cast<const int*>(from), reinterpret_cast<__m256i>(word), 4));
 #else
   for (int n = 0; n < kWide; ++n) {
     std::uint32_t one;
-    std::memcpy(&one, static_cast<const std::uint8_t*>(from) + 4 * static_cast<std::size_t>(word[n]), 4);
+    std::memcpy(&one, bytes + 4 * static_cast<std::size_t>(word[n]), 4);
     out[n] = one;
   }
+#endif
+}
+
+/// Of two neighbours in memory, by one load each.
+inline void gatherPairs(const std::uint32_t* from, const Ints& index, Words& here, Words& next) {
+#if defined(__AVX512F__)
+  const __m512i at = reinterpret_cast<__m512i>(index);
+  const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(at), from, 4),
+                high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(at, 1), from, 4);
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  here = reinterpret_cast<Words>(_mm512_permutex2var_epi32(low, even, high));
+  next = reinterpret_cast<Words>(_mm512_permutex2var_epi32(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high));
+#elif defined(__AVX2__)
+  const __m256i at = reinterpret_cast<__m256i>(index);
+  const void* const first = from;
+  const auto* const pairs = static_cast<const long long*>(first);
+  const __m256 low = _mm256_castsi256_ps(_mm256_i32gather_epi64(pairs, _mm256_castsi256_si128(at), 4)),
+               high = _mm256_castsi256_ps(_mm256_i32gather_epi64(pairs, _mm256_extracti128_si256(at, 1), 4));
+  const __m256i even = _mm256_castps_si256(_mm256_shuffle_ps(low, high, 0x88)),
+                odd = _mm256_castps_si256(_mm256_shuffle_ps(low, high, 0xDD));
+  here = reinterpret_cast<Words>(_mm256_permute4x64_epi64(even, 0xD8));
+  next = reinterpret_cast<Words>(_mm256_permute4x64_epi64(odd, 0xD8));
+#else
+  for (int n = 0; n < kWide; ++n) here[n] = from[index[n]], next[n] = from[index[n] + 1];
 #endif
 }
 
@@ -92,21 +117,35 @@ inline Floats weighed(const Floats* weight, const Floats& before, const Floats& 
 /// The slope of the slopes d: 1 -2 1.
 inline Floats bend(const Floats& before, const Floats& at, const Floats& after) { return before - 2.0f * at + after; }
 
-/// The first words of the eight blocks, at most, in which the 27 voxels about a place lie: by side along k, j, i.
-struct Around {
-  Ints word[2][2][2];
+/// The first words of the blocks in which the 3 x 3 rows of voxels about a place begin and end, by k and j: of eight
+/// blocks at most, as the outer rows lie in the outer blocks and the middle one in either.
+struct RowBlocks {
+  Ints first[3][3], last[3][3];
 };
 
-inline void wordsAround(const WallVoxels& wall, const Ints& i, const Ints& j, const Ints& k, Around& out) {
-  for (int c = 0; c < 2; ++c)
-    for (int b = 0; b < 2; ++b)
-      for (int a = 0; a < 2; ++a) {
-        const Ints block = (((k + (2 * c - 1)) >> 2) * wall.blocks[1] + ((j + (2 * b - 1)) >> 2)) * wall.blocks[0] +
-                           ((i + (2 * a - 1)) >> 2);
-        Words slot;
-        gather(wall.slot_of, block, slot);
-        out.word[c][b][a] = reinterpret_cast<Ints>(slot) * 16;
-      }
+inline void rowBlocksAt(const WallVoxels& wall, const Ints& i, const Ints& j, const Ints& k, RowBlocks& out) {
+  const Ints first_i = (i - 1) >> 2, is_one = ((i - 1) & 3) < 2;
+#pragma GCC unroll 2
+  for (int c = 0; c < 3; c += 2)
+#pragma GCC unroll 2
+    for (int b = 0; b < 3; b += 2) {
+      const Ints row = (((k + (c - 1)) >> 2) * wall.blocks[1] + ((j + (b - 1)) >> 2)) * wall.blocks[0];
+      Words first, next;
+      gatherPairs(wall.slot_of, row + first_i, first, next);
+      out.first[c][b] = reinterpret_cast<Ints>(first << 4);
+      out.last[c][b] = is_one ? out.first[c][b] : reinterpret_cast<Ints>(next << 4);
+    }
+  const Ints is_low_j = (j & 3) != 0, is_low_k = (k & 3) != 0;
+#pragma GCC unroll 2
+  for (int c = 0; c < 3; c += 2) {
+    out.first[c][1] = is_low_j ? out.first[c][0] : out.first[c][2];
+    out.last[c][1] = is_low_j ? out.last[c][0] : out.last[c][2];
+  }
+#pragma GCC unroll 3
+  for (int b = 0; b < 3; ++b) {
+    out.first[1][b] = is_low_k ? out.first[0][b] : out.first[2][b];
+    out.last[1][b] = is_low_k ? out.last[0][b] : out.last[2][b];
+  }
 }
 
 template <bool kIndexed>
@@ -119,26 +158,20 @@ inline void smoothAt(const WallVoxels& wall, const Floats& fx, const Floats& fy,
   const Ints low_word = (first >> 2) * 16, high_word = (last >> 2) * 16;
   const Words shift = reinterpret_cast<Words>((first & 3) * 8);
   const int row = 16 * wall.blocks[0], layer = row * wall.blocks[1];
-  Around around;
-  if constexpr (kIndexed) wordsAround(wall, i.nearest, j.nearest, k.nearest, around);
+  RowBlocks blocks;
+  if constexpr (kIndexed) rowBlocksAt(wall, i.nearest, j.nearest, k.nearest, blocks);
   Floats value[3], x[3], y[3], xx[3], xy[3], yy[3];
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) {
-    const Ints at_k = k.nearest + (c - 1), beyond_k = (at_k >> 2) != ((k.nearest - 1) >> 2);
+    const Ints at_k = k.nearest + (c - 1);
     Floats along[3], slope[3], curve[3];
 #pragma GCC unroll 3
     for (int b = 0; b < 3; ++b) {
       const Ints at_j = j.nearest + (b - 1), within = (at_k & 3) * 4 + (at_j & 3);
       Words low, high;
       if constexpr (kIndexed) {
-        const Ints beyond_j = (at_j >> 2) != ((j.nearest - 1) >> 2);
-        const auto wordOn = [&](int side) {
-          const Ints near = beyond_j ? around.word[0][1][side] : around.word[0][0][side];
-          const Ints far = beyond_j ? around.word[1][1][side] : around.word[1][0][side];
-          return (beyond_k ? far : near) + within;
-        };
-        gather(wall.solid, wordOn(0), low);
-        gather(wall.solid, wordOn(1), high);
+        gather(wall.solid, blocks.first[c][b] + within, low);
+        gather(wall.solid, blocks.last[c][b] + within, high);
       } else {
         const Ints base = (at_k >> 2) * layer + (at_j >> 2) * row + within;
         gather(wall.solid, base + low_word, low);

@@ -105,7 +105,7 @@ struct Voxels {
 };
 
 template <class T>
-Voxels<T> inGridOrder(const assets::VolumeGrid& grid, const std::vector<T>& values, float outside) {
+Voxels<T> inGridOrder(const assets::VolumeGrid& grid, std::span<const T> values, float outside) {
   return {values.data(), {1, grid.size.x, std::int64_t{grid.size.x} * grid.size.y}, outside};
 }
 

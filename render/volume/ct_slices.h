@@ -3,8 +3,9 @@
 // bur and, with its layer, planned cut, a cross at the centre, plane, sides, a scale of 5 mm, the way from bur to
 // canal, and the ruler where it passes through. Radiological views: axial from below, coronal from in front, sagittal
 // from the patient's left. Frame P (LPS), mm. Plain CPU code; one thread at a time. Cost: below 1 ms a plane of 160 px
-// (two or three voxel rows are mixed once per pixel row). Memory: 3 bytes a voxel. Grey value: level 500, width 2500
-// HU, the usual bone window. Carved: the loss of solid fraction. Not for measuring: the scan is sampled trilinearly.
+// (two or three voxel rows are mixed once per pixel row). The scan's voxels are borrowed. Grey value: level 500, width
+// 2500 HU, the usual bone window. Carved: the loss of solid fraction. Not for measuring: the scan is sampled
+// trilinearly.
 #pragma once
 
 #include <array>
@@ -26,10 +27,10 @@ struct PlacedFields;
 enum class SlicePlane { axial, coronal, sagittal };
 inline constexpr std::array kSlicePlanes{SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal};
 
-/// The scan, as far as the slices need it.
+/// The scan, as far as the slices need it; its voxels are borrowed.
 struct CtScan {
-  std::vector<std::int16_t> hounsfield;           ///< in the order of the grid
-  std::vector<std::uint8_t> solid;                ///< solid fraction before carving
+  std::span<const std::int16_t> hounsfield;       ///< in the order of the grid
+  std::span<const std::uint8_t> solid;            ///< solid fraction before carving
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, or empty
   double mandibular_canal_radius_mm = 1.4;
 };

@@ -1,10 +1,55 @@
-// A built-in first molar at 0.04 mm, block by block: CPU time of all threads, how many blocks have to be filled, and a
-// point of the pulp's distance.
+// Built-in teeth on a fine grid, block by block: CPU time of all threads, how many blocks have to be filled, the live
+// bone made of it, dense and sparse, and a point of the pulp's distance.
 #include <cstdio>
 #include <random>
 
 #include "assets/synthetic/built_in_teeth.h"
+#include "haptics/bone/stroke_history.h"
 #include "tests/bench/cpu_time.h"
+
+namespace {
+
+struct Voxels {
+  std::vector<std::uint8_t> solid, label;
+};
+
+Voxels voxelsOf(const assets::ToothSampler& tooth) {
+  const assets::VolumeGrid& grid = tooth.grid();
+  Voxels out{std::vector<std::uint8_t>(grid.voxelCount()), std::vector<std::uint8_t>(grid.voxelCount())};
+  const auto put = [&](glm::ivec3 block, const auto& solid_of, const auto& label_of) {
+    for (int v = 0; v < assets::ToothSampler::kVoxels; ++v) {
+      const std::size_t at = grid.index(block * assets::ToothSampler::kEdge + glm::ivec3(v & 3, v >> 2 & 3, v >> 4));
+      out.solid[at] = solid_of(static_cast<std::size_t>(v)), out.label[at] = label_of(static_cast<std::size_t>(v));
+    }
+  };
+  assets::forBlocks(
+      tooth,
+      [&](glm::ivec3 block, assets::ToothSampler::Same one) {
+        put(
+            block, [&](std::size_t) { return one.solid; }, [&](std::size_t) { return one.label; });
+      },
+      [&](glm::ivec3 block, const auto& solid, const auto& label) {
+        put(
+            block, [&](std::size_t v) { return solid[v]; }, [&](std::size_t v) { return label[v]; });
+      });
+  return out;
+}
+
+/// The live bone, and what undo keeps of it, in MB.
+void live(const assets::ToothSampler& tooth) {
+  const Voxels voxels = voxelsOf(tooth);
+  for (const auto storage : {haptics::BlockStorage::dense, haptics::BlockStorage::sparse}) {
+    const double began_ms = bench::cpu_ms();
+    const haptics::CarvedBone bone(tooth.grid(), voxels.solid, voxels.label, storage);
+    std::printf("  live, %s: %7zu slots, %6zu of them in reserve, %6.1f MB, undo %.1f MB, made in %4.0f ms, %016llx\n",
+                storage == haptics::BlockStorage::dense ? "dense " : "sparse", bone.slots(), bone.slotsLeft(),
+                static_cast<double>(bone.bytes()) / 1e6,
+                static_cast<double>(haptics::StrokeHistory(bone).bytes()) / 1e6, bench::cpu_ms() - began_ms,
+                static_cast<unsigned long long>(bone.digest()));
+  }
+}
+
+}  // namespace
 
 int main() {
   assets::JawParameters jaw;
@@ -24,6 +69,7 @@ int main() {
       std::printf("%-6d %8.2f %10zu %8zu %7.1f%% %8.1f %8.1f  (%zu)\n", fdi, spacing_mm, same + filled, filled,
                   100.0 * static_cast<double>(filled) / static_cast<double>(same + filled), made_ms - began_ms,
                   ended_ms - made_ms, sum % 10);
+      live(*sampler);
     }
 
   const assets::ToothCanals canals = assets::canalsOf(assets::builtInTooth(jaw, 46));

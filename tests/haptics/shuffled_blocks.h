@@ -18,7 +18,7 @@ class ShuffledBlocks {
     std::vector<std::uint32_t> order(slots - 1);
     std::iota(order.begin(), order.end(), 1U);
     std::shuffle(order.begin(), order.end(), std::mt19937(seed));
-    slot_of_.assign(blocks, 0);
+    slot_of_.assign(blocks + 1, 0);
     solid_.assign(slots * kBlockVoxels, 0), label_.assign(slots * kBlockVoxels, 0), only_label_.assign(slots, 0);
     for (auto& sums : sums_) sums.assign(slots, 0);
     grey_.assign(slots, 0);

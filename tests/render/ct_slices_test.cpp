@@ -33,6 +33,7 @@ Rgb pixelAt(const Image& image, double right_mm, double down_mm) {
 
 struct Scene {
   assets::CtVolume ct;
+  std::vector<std::uint8_t> scanned;
   CtScan scan;
   Frame frame;
 
@@ -44,10 +45,11 @@ struct Scene {
       for (int j = 0; j < size.y; ++j)
         for (int i = 0; i < size.x; ++i) {
           const double hu = hounsfield(grid.centre_P_mm({i, j, k}));
-          scan.hounsfield.push_back(static_cast<std::int16_t>(std::lround(hu)));
-          scan.solid.push_back(hu >= 300.0 ? 255 : 0);
+          ct.hounsfield.push_back(static_cast<std::int16_t>(std::lround(hu)));
+          ct.solid.push_back(hu >= 300.0 ? 255 : 0);
         }
-    ct.solid = scan.solid;
+    scan.hounsfield = ct.hounsfield;
+    scan.solid = scanned = ct.solid;
     frame.bur_radius_mm = 2.0;
   }
   Image image(SlicePlane plane) const {
@@ -303,8 +305,9 @@ TEST(CtSlices, ShowAirOutsideTheVolume) {
 
 TEST(CtSlices, RefuseAScanOfAnotherSize) {
   const assets::VolumeGrid grid = testing::smallGrid({8, 8, 8});
-  EXPECT_THROW(CtSlices(grid, CtScan{std::vector<std::int16_t>(511), std::vector<std::uint8_t>(512), {}, 1.0}),
-               GpuError);
+  const std::vector<std::int16_t> hounsfield(511);
+  const std::vector<std::uint8_t> solid(512);
+  EXPECT_THROW(CtSlices(grid, CtScan{hounsfield, solid, {}, 1.0}), GpuError);
 }
 
 }  // namespace

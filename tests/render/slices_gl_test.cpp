@@ -22,13 +22,16 @@ class SlicesInTheImage : public ::testing::TestWithParam<Backend> {
  protected:
   const OffscreenContext context_;
   const assets::CtVolume ct_ = ballVolume(smallGrid(), {{{0.3, -0.2, 0.1}, 9.0}});
+  const std::vector<std::int16_t> hounsfield_ = [&] {
+    std::vector<std::int16_t> hounsfield;
+    for (const std::uint8_t solid : ct_.solid) hounsfield.push_back(static_cast<std::int16_t>(8 * solid - 700));
+    return hounsfield;
+  }();
 
   std::unique_ptr<FrameRenderer> renderer(int samples = 1) const {
     auto made = std::make_unique<FrameRenderer>(ct_.grid, ct_.solid, ct_.label,
                                                 RenderOptions{.backend = GetParam(), .samples = samples});
-    std::vector<std::int16_t> hounsfield;
-    for (const std::uint8_t solid : ct_.solid) hounsfield.push_back(static_cast<std::int16_t>(8 * solid - 700));
-    made->setScan({hounsfield, ct_.solid, {}, 1.0});
+    made->setScan({hounsfield_, ct_.solid, {}, 1.0});
     return made;
   }
   static Frame frame(bool slices) {
