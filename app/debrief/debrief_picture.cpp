@@ -5,8 +5,10 @@
 
 #include "app/case/patient_placement.h"
 #include "app/options/picture_option.h"
+#include "app/rehearsal/file_sight.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/loose_site.h"
+#include "app/session/locator_event.h"
 #include "app/view/patient_renderer.h"
 
 namespace app {
@@ -53,6 +55,7 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
   frame_.face_window_mm = face_window_mm;
   frame_.mode = choice.mode;
   frame_.layers = choice.layers;
+  if (run_.patient().canals) showFileSight(*run_.patient().canals, tick, command.tool, choice.mode, frame_);
   if (choice.other_ghost && other_tick != nullptr && other_tick->dt_s > 0.0) {
     frame_.layers.ghost_tool = true;
     frame_.X_PT_at_hand = {other_tick->heldRotation(), other_tick->proxy_P.mm};
@@ -80,6 +83,11 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
                           "",
                           tick.site == haptics::SiteAnswer::ready,
                           ""};
+    for (const SessionEvent& event : moments.events())
+      if (event.kind == kLocatorEvent && event.tick <= tick.index) {
+        const auto told = locatorFrom(event.text);
+        values.locator = told ? std::optional(HeadUpLocator{told->left_mm, told->is_apex}) : std::nullopt;
+      }
     values.clearances = clearance_.ruler(run_.patient().proposed());
     line_.update(head_up_.content(values, std::chrono::steady_clock::now()),
                  headUpPlace(frame_.rig, frame_.display, frame_));

@@ -32,6 +32,12 @@ std::string meetsText(const haptics::Tick& tick) {
   return fmt::format("on {}", assets::properties(tick.soft.tissue).name);
 }
 
+/// Of a file's line what has room in the cell; all of it then stands above.
+std::string fileText(const std::string& line) {
+  constexpr std::size_t kFits = 14;
+  return line.size() <= kFits ? line : "in the tooth";
+}
+
 }  // namespace
 
 bool HeadUp::execute(const ControlRequest& request) {
@@ -52,7 +58,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   const double rpm = std::abs(haptics::rpmOf(tick.spindle_rad_per_s));
   content.drive = command.tool.luxates()            ? luxationText(tick, command.tool, values.pieces_ready)
                   : command.tool.isHandInstrument() ? meetsText(tick)
-                  : command.tool.isFile()           ? values.file
+                  : command.tool.isFile()           ? fileText(values.file)
                                                     : driveText(rpm, command.drill_enabled && !command.hands_off);
   content.turning = rpm >= kTurning_rpm;
   content.irrigating = command.irrigating;
@@ -71,7 +77,7 @@ HeadUpContent HeadUp::content(const Values& values, Time now) {
   content.ruler = values.ruler;
   content.site = values.socket;
   content.clearances = values.clearances;
-  content.way = values.way;
+  content.way = command.tool.isFile() && fileText(values.file) != values.file ? values.file : values.way;
   content.locator = values.locator;
   content.ring = values.ring;
   if (tick.dt_s > 0.0) content.warnings = warnings_.update(values.situation);

@@ -460,6 +460,9 @@ class Rehearsal {
       plan_.evaluation->finish();
       for (const std::string& mark : plan_.evaluation->takeMarks()) event_log_.note(kEvaluationEvent, mark);
     }
+    if (treatment_ && treatment_->times() > 0)
+      event_log_.note(kAccessEvent,
+                      fmt::format("measured {} times, {:.2f} s at most", treatment_->times(), treatment_->longest_s()));
     if (steps_) steps_->finish();
     site_->finish(view_.takeChangedBricks(), station().newestTick());
     if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())

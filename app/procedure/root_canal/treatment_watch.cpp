@@ -1,5 +1,6 @@
 #include "app/procedure/root_canal/treatment_watch.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -12,7 +13,7 @@
 namespace app {
 namespace {
 
-constexpr double kRest_s = 0.4, kBetween_s = 1.0, kBetweenAtWork_s = 3.0;
+constexpr double kRest_s = 0.4, kBetween_s = 1.0, kBetweenAtWork_s = 10.0;
 constexpr double kLeast_mm3 = 0.005;
 
 /// Blocks want whole ones: the grid grown with air.
@@ -64,7 +65,8 @@ bool TreatmentWatch::follow(std::span<const glm::ivec3> bricks, const haptics::T
     if (measuring_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     Measured measured = measuring_.get();
     newest_ = std::move(measured.treatment);
-    took_s_ = measured.took_s;
+    longest_s_ = std::max(longest_s_, measured.took_s);
+    ++times_;
     is_new = true;
   }
   const double now_s = newest.t_s;

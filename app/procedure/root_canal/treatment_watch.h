@@ -1,5 +1,5 @@
 // What a root canal treatment has come to while it goes on: treatmentOf() of a copy of the tooth that is brought up to
-// date by bricks, on a thread of its own, a moment after each stroke and every few seconds of a long one. Main thread,
+// date by bricks, on a thread of its own, a moment after each stroke and every ten seconds of a long one. Main thread,
 // once a frame; microseconds. The worker takes up to half a second. Frame P.
 #pragma once
 
@@ -26,8 +26,9 @@ class TreatmentWatch {
   bool follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, const FileUse& files);
   /// None: nothing was measured yet.
   const std::optional<Treatment>& newest() const { return newest_; }
-  /// Of the last measurement.
-  double took_s() const { return took_s_; }
+  /// How often it was measured, and the longest of it.
+  int times() const { return times_; }
+  double longest_s() const { return longest_s_; }
 
  private:
   struct Copy;
@@ -40,7 +41,8 @@ class TreatmentWatch {
   const haptics::Bodies& bodies_;
   std::vector<glm::ivec3> changed_;
   std::future<Measured> measuring_;
-  double busy_s_ = -1e9, measured_s_ = -1e9, took_s_ = 0.0;
+  double busy_s_ = -1e9, measured_s_ = -1e9, longest_s_ = 0.0;
+  int times_ = 0;
   std::optional<Treatment> newest_;
 };
 

@@ -34,6 +34,23 @@ TEST(HeadUp, ShowsWhatTheForcepsDoWhereADrillHasItsSpeed) {
   EXPECT_EQ(picture.at(milliseconds(0)).drive, "torn 42 %");
 }
 
+TEST(HeadUp, AFilesLineStandsAboveTheOthersWhereItsCellHasNoRoom) {
+  Picture picture;
+  picture.command.tool = haptics::fileTool({.size = 15});
+  const auto with = [&](const std::string& file) {
+    HeadUp::Values values{{picture.tick, picture.command}, {}, "", "", false, "", "another way"};
+    values.file = file;
+    values.locator = HeadUpLocator{0.5, false};
+    return picture.head_up.content(values, picture.now);
+  };
+  EXPECT_EQ(with("on the tooth").drive, "on the tooth");
+  EXPECT_EQ(with("on the tooth").way, "another way");
+  EXPECT_EQ(with("17.2 of 20.4 mm in the distal canal").drive, "in the tooth");
+  EXPECT_EQ(with("17.2 of 20.4 mm in the distal canal").way, "17.2 of 20.4 mm in the distal canal");
+  ASSERT_TRUE(with("free").locator);
+  EXPECT_EQ(with("free").locator->left_mm, 0.5);
+}
+
 TEST(HeadUp, ShowsTheTorqueOfAnElevatorInsteadOfTheForce) {
   Picture picture;
   EXPECT_FALSE(picture.at(milliseconds(0)).torque_Nmm);

@@ -82,7 +82,8 @@ TEST(TreatmentWatch, MeasuresAMomentAfterAStrokeWhatIsMeasuredAtOnce) {
   for (std::size_t v = 0; v < now.size(); ++v)
     lost_mm3 += (block.ct.solid[v] - now[v]) / 255.0 * block.ct.grid.voxelVolume_mm3();
   EXPECT_NEAR(found.canals[0].outcomes.removed_mm3, lost_mm3, 1e-9);
-  EXPECT_LT(watch.took_s(), 60.0);
+  EXPECT_EQ(watch.times(), 1);
+  EXPECT_GT(watch.longest_s(), 0.0);
   const std::string line = treatmentLine(found);
   EXPECT_NE(line.find("first 0."), std::string::npos) << line;
   EXPECT_EQ(line.find("second"), std::string::npos) << line;
