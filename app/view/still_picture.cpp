@@ -51,6 +51,12 @@ bool areSameMarks(const render::SoftMarks& a, const render::SoftMarks& b) {
   return std::ranges::equal(a.cuts, b.cuts, is_same_cut) && std::ranges::equal(a.reddened, b.reddened, is_alike);
 }
 
+bool isSameGlass(const std::optional<render::MirrorGlass>& a, const std::optional<render::MirrorGlass>& b) {
+  constexpr double kSeen = 0.1;
+  return a.has_value() == b.has_value() &&
+         (!a || (a->out_O == b->out_O && a->radius_mm == b->radius_mm && std::abs(a->fog - b->fog) < kSeen));
+}
+
 }  // namespace
 
 bool showSameScene(const render::Frame& a, const render::Frame& b) {
@@ -58,8 +64,8 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
                                 length, shaft, angle, gap, ruler, magnified, slices, tool, shades, handpiece, X_PO,
-                                second, pieces, window, site, field, marks, beads, obstacles, flap, gum, flap_serial,
-                                gum_serial] = a;
+                                second, glass, pieces, window, site, field, marks, beads, obstacles, flap, gum,
+                                flap_serial, gum_serial] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
       a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
     return false;
@@ -78,7 +84,7 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
     return false;
   if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
   if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;
-  if (a.second_visible && !isAtRest(a.X_PO, b.X_PO)) return false;
+  if (a.second_visible && (!isAtRest(a.X_PO, b.X_PO) || !isSameGlass(a.second_glass, b.second_glass))) return false;
   for (std::size_t n = 0; n < a.pieces.size(); ++n)
     if (a.pieces[n].has_value() != b.pieces[n].has_value() || (a.pieces[n] && !isAtRest(*a.pieces[n], *b.pieces[n])))
       return false;
