@@ -39,6 +39,14 @@ bool areSameFields(const render::SurgicalField& a, const render::SurgicalField& 
          std::abs(a.dust - b.dust) < kSeen && std::abs(a.spray - b.spray) < kSeen;
 }
 
+// Fog gathers for seconds.
+bool areSameGlasses(const std::optional<render::MirrorGlass>& a, const std::optional<render::MirrorGlass>& b) {
+  constexpr double kSeen = 0.05;
+  [[maybe_unused]] const auto& [out, radius, fog] = a.value_or(render::MirrorGlass{});
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->out_O == b->out_O && a->radius_mm == b->radius_mm && std::abs(a->fog - b->fog) < kSeen;
+}
+
 // Redness fades for seconds.
 bool areSameMarks(const render::SoftMarks& a, const render::SoftMarks& b) {
   constexpr double kSeen = 0.1;
@@ -60,8 +68,8 @@ bool isSameGlass(const std::optional<render::MirrorGlass>& a, const std::optiona
 }  // namespace
 
 bool showSameScene(const render::Frame& a, const render::Frame& b) {
-  // A new member does not compile until it is compared; quality and display are not the scene's, field
-  // and marks have their own comparison.
+  // A new member does not compile until it is compared; quality and display are not the scene's; field,
+  // glass and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
                                 length, shaft, angle, gap, ruler, magnified, slices, tool, shades, handpiece, X_PO,
                                 second, glass, pieces, window, site, field, marks, beads, obstacles, flap, gum,
@@ -98,11 +106,13 @@ FrameDrawing StillPicture::next(const render::Frame& frame, bool changed, Time n
     return newest_ = FrameDrawing::live;
   }
   const bool is_refined = newest_ != FrameDrawing::live;
-  if (is_refined && areSameFields(still_->field, frame.field) && areSameMarks(still_->marks, frame.marks))
+  if (is_refined && areSameFields(still_->field, frame.field) &&
+      areSameGlasses(still_->second_glass, frame.second_glass) && areSameMarks(still_->marks, frame.marks))
     return newest_ = FrameDrawing::kept;
   if (!is_refined && now - since_ < kStillFor) return newest_ = FrameDrawing::live;
   still_->field = frame.field;
   still_->marks = frame.marks;
+  still_->second_glass = frame.second_glass;
   return newest_ = FrameDrawing::refined;
 }
 
