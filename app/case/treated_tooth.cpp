@@ -80,6 +80,16 @@ std::int16_t greyOf(std::uint8_t solid, std::uint8_t label) {
 
 }  // namespace
 
+bool isRoofOpen(const assets::ToothCanals& tooth, const assets::CtVolume& ct) {
+  constexpr double kOverRoof_mm = 0.5;
+  glm::dvec2 middle(0.0);
+  for (const glm::dvec2& p : tooth.chamber.outline_mm)
+    middle += p / static_cast<double>(tooth.chamber.outline_mm.size());
+  const glm::dvec3 p_P = tooth.frame.inP({middle, tooth.chamber.roof_mm + kOverRoof_mm});
+  const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(p_P)));
+  return !ct.grid.contains(ijk) || ct.solid[ct.grid.index(ijk)] < assets::kHalfSolid;
+}
+
 double access_mm(const assets::PulpChamber& chamber, const glm::dvec3& p_mm) {
   const double over_mm = p_mm.z - chamber.roof_mm;
   const double beside_mm = toOutline_mm(chamber.outline_mm, {p_mm.x, p_mm.y}) - chamber.round_mm;

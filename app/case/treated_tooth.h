@@ -23,6 +23,9 @@ assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCa
 assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
                              bool is_open, const std::string& option, double spacing_mm = kTreatedVoxel_mm);
 
+/// No tooth over the middle of the chamber's roof.
+bool isRoofOpen(const assets::ToothCanals& tooth, const assets::CtVolume& ct);
+
 /// Signed distance to the access cavity of a tooth, negative inside, in the tooth's frame: the chamber's outline, drawn
 /// out towards the bite and a little wider there.
 double access_mm(const assets::PulpChamber& chamber, const glm::dvec3& p_mm);

@@ -253,6 +253,9 @@ void chooseCommand(RehearseOptions& options) {
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
   if (isRootCanal(options)) chooseHighSpeed(options);
+  plan.command.wear.law = options.wear == "counters"           ? haptics::WearLaw::counters
+                          : options.wear == "counters-helical" ? haptics::WearLaw::counters_helical
+                                                               : haptics::WearLaw::wear;
   applyTo(plan.command, options.settings);
   refuseBeyondServoLimits(plan.command);
   refuseUnlessAdmitted(plan.command);
@@ -414,6 +417,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
     plan.first_frame.layers.clear_tooth = plan.first_frame.layers.tip_inset = true;
   if (plan.patient.canals && options.locator != "off")
     plan.locator = options.locator == "exact" ? ApexLocator::Mode::exact : ApexLocator::Mode::real;
+  if (plan.patient.canals) refuseTooWide(plan);
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2]};

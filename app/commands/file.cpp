@@ -188,7 +188,7 @@ void addFile(CommandLine& molar) {
   command.option("--nodes", o->nodes, "Links")
       .wholeFrom(static_cast<int>(haptics::kFewestLinks), static_cast<int>(haptics::kMostLinks))
       .showsDefault();
-  Option canal = command.option("--canal", o->canal, "Pushed into: " + canalForms() + " (" + builtInCanalNames() + ")");
+  Option canal = command.option("--canal", o->canal, "Pushed into: " + canalForms() + ", of molar teeth --case usual");
   command.option("--depth", o->depth_mm, "How far the tip goes in, mm; else to 0.5 mm from the apex").needs(canal);
   command.option("--working-length", o->working_mm, "A rubber stop that far from the tip meets the orifice's plane, mm")
       .from(1.0, 30.0)

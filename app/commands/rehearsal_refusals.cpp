@@ -1,5 +1,9 @@
 #include "app/commands/rehearsal_refusals.h"
 
+#include <algorithm>
+
+#include <fmt/core.h>
+
 #include "app/device/pose_source_table.h"
 #include "app/session/session_folder.h"
 #include "app/session/session_reader.h"
@@ -57,8 +61,19 @@ void refuseUnlessForRootCanal(const RehearseOptions& options) {
   if (!options.case_name.empty() && assets::practiceTaskOf(options.case_name))
     throw UsageError("--case " + options.case_name +
                      ": a practice block has no tooth, leave it or --task root-canal out");
-  if (options.plan.device == "scripted" && options.access == "closed")
-    throw UsageError("--device scripted: its hand works with files alone, add --access open");
+}
+
+void refuseTooWide(const RehearsalPlan& plan) {
+  const assets::ToothCanals& tooth = *plan.patient.canals;
+  double widest_mm = 0.0;
+  for (const assets::ToothCanal& canal : tooth.canals)
+    widest_mm = std::max(widest_mm, 2.0 * std::min(canal.places.front().narrow_mm, canal.places.front().wide_mm));
+  for (const haptics::Tool& tool : plan.other_tools)
+    if (tool.isFile() && 0.01 * static_cast<double>(tool.file.size) > widest_mm)
+      throw UsageError(
+          fmt::format("--tool k-file:{},{:g}: its tip is wider than the widest orifice of tooth {}, {:.2f} mm, choose "
+                      "a smaller one",
+                      tool.file.size, tool.file.length_mm, tooth.fdi, widest_mm));
 }
 
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {

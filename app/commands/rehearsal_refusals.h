@@ -17,6 +17,8 @@ void refuseUnlessSteppable(const RehearseOptions& options);
 void refuseUnlessForBlock(const RehearseOptions& options);
 /// Of what an extraction alone has, and without a tooth.
 void refuseUnlessForRootCanal(const RehearseOptions& options);
+/// A file on the tray that no orifice of the patient's tooth takes.
+void refuseTooWide(const RehearsalPlan& plan);
 /// Lines of another case lie anywhere.
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct);
 /// Whatever would help, or leave something unrecorded.

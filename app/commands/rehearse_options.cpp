@@ -59,6 +59,13 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .oneOf({"real", "exact", "off"})
       .showsDefault()
       .needs(task);
+  command
+      .option("--wear", options.wear,
+              "How files take from a root canal: rate, by force and slip; or, for comparison, the published counters "
+              "along the file or along its flutes, without force")
+      .oneOf({"rate", "counters", "counters-helical"})
+      .showsDefault()
+      .needs(task);
   Option face = command.option("--face", options.face, "Face model, glTF; teeth.json beside it places the jaw")
                     .valueNamed("FILE");
   command.option("--opening", options.opening_mm, kOpeningHelp)

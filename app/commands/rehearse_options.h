@@ -24,7 +24,7 @@ struct RehearseOptions {
   std::string pace = "real";
   std::string side = "right", second_tool = "mirror", case_name, procedure, guidance, predict, drawn, coach,
               flap = "raised";
-  std::string task = "extraction", access = "closed", locator = "real";
+  std::string task = "extraction", access = "closed", locator = "real", wear = "rate";
   std::optional<int> tooth;  ///< of a root-canal treatment
   bool list_cases = false, assess = false;
   PictureOption picture;

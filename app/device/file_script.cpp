@@ -6,12 +6,15 @@
 
 #include <fmt/core.h>
 
+#include "app/device/access_script.h"
+
 namespace app {
 namespace {
 
 constexpr int kSizes[] = {10, 15, 20, 25};
 constexpr double kAbove_mm = 9.0;  ///< the tip over the orifice, out of the crown, between two files
 constexpr double kIn_mm_per_s = 4.0, kOut_mm_per_s = 12.0, kStroke_mm_per_s = 8.0;
+constexpr double kDrill_mm_per_s = 8.0;
 constexpr double kStroke_mm = 1.5;
 constexpr int kStrokes = 6;
 constexpr double kLeadsBy_mm = 0.3;  ///< the hand ahead of the file at length: what presses it in
@@ -44,6 +47,17 @@ class Hand {
   void wait(double s) {
     t_s_ += s;
     put();
+  }
+  /// Along the tooth, the bur's middle from place to place, turning.
+  void drill(const std::vector<glm::dvec3>& way_P, const assets::ToothFrame& tooth) {
+    in_ = -tooth.axes_P[2];
+    rotation_ = heldAlong(in_);
+    script_.requests.push_back({t_s_, kAccessBur, "", "scripted hand"});
+    t_s_ += kChange_s;
+    for (std::size_t n = 0; n < way_P.size(); ++n) {
+      if (n > 0) t_s_ += glm::distance(way_P[n - 1], way_P[n]) / kDrill_mm_per_s + 1e-3;
+      script_.poses.push_back({t_s_, {rotation_, way_P[n]}, n + 2 < way_P.size(), 0u});
+    }
   }
   void ask(int size) {
     script_.requests.push_back({t_s_, fmt::format("k-file:{},{:g}", size, length_mm_), "", "scripted hand"});
@@ -79,10 +93,11 @@ class Hand {
 
 }  // namespace
 
-FileScript fileScript(const assets::ToothCanals& tooth, double length_mm) {
+FileScript fileScript(const assets::ToothCanals& tooth, bool opens, double length_mm) {
   constexpr double kShortOfForamen_mm = 0.5;
   FileScript script;
   Hand hand(script);
+  if (opens) hand.drill(accessWay_P(tooth), tooth.frame);
   for (const assets::ToothCanal& canal : tooth.canals) {
     if (canal.joins) continue;
     const double deep_mm = canal.length_mm() - kShortOfForamen_mm;

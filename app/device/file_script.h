@@ -1,6 +1,7 @@
-// What a scripted hand does with root-canal files: size after size into every canal that has a foramen of its own, to
-// its working length with small turns to and fro, filed there with strokes, and out again. Frame P; mm, s. Start-up
-// only. The hand plans from the canals as they are known, and feels nothing: a demonstration and a test, no master.
+// What a scripted hand does in a root-canal treatment: the access cavity with a bur where the crown is whole, then size
+// after size into every canal that has a foramen of its own, to its working length with small turns to and fro, filed
+// there with strokes, and out again. Frame P; mm, s. Start-up only. The hand plans from the canals as they are known,
+// and feels nothing: a demonstration and a test, no master.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,7 @@ struct FileScript {
   std::vector<TimedRequest> requests;           ///< of the tools
 };
 
-/// `length_mm`: of the files.
-FileScript fileScript(const assets::ToothCanals& tooth, double length_mm = 25.0);
+/// `opens`: the access too, else it is open. `length_mm`: of the files.
+FileScript fileScript(const assets::ToothCanals& tooth, bool opens = false, double length_mm = 25.0);
 
 }  // namespace app

@@ -1,3 +1,4 @@
+#include "app/case/treated_tooth.h"
 #include "app/device/file_script.h"
 #include "app/device/phantom_work_cycle.h"
 #include "app/device/pose_sources.h"
@@ -35,7 +36,7 @@ PoseSource openScript(const std::string& rest, const PoseSourceContext& at) {
     return hand;
   }
   if (at.patient.canals) {
-    FileScript script = fileScript(*at.patient.canals);
+    FileScript script = fileScript(*at.patient.canals, !isRoofOpen(*at.patient.canals, at.patient.ct));
     auto posed = std::make_unique<haptics::PoseListDevice>(std::move(script.poses));
     hand.duration_s = posed->duration_s() + 1e-6;
     hand.device = std::move(posed);

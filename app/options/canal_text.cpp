@@ -1,5 +1,6 @@
 #include "app/options/canal_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -10,6 +11,8 @@
 #include "app/text/list.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
+#include "assets/synthetic/built_in_teeth.h"
+#include "assets/tooth.h"
 
 namespace app {
 namespace {
@@ -43,23 +46,38 @@ std::vector<double> canalMeasures(const std::string& text, const std::string& li
   return values;
 }
 
+std::vector<int> builtInCanalTeeth() {
+  std::vector<int> teeth;
+  for (const bool right : {false, true}) {
+    assets::JawParameters jaw;
+    jaw.right_side = right;
+    for (const int fdi : assets::builtInTeeth(jaw)) teeth.push_back(fdi);
+  }
+  return teeth;
+}
+
 }  // namespace
 
 std::string canalForms() { return "straight:D[,L], arc:R,ANGLE[,D] or builtin:TOOTH:NAME"; }
-
-std::string builtInCanalNames() {
-  return joined(assets::builtInCanals(),
-                [](const assets::BuiltInCanal& one) { return std::string(one.tooth) + ":" + std::string(one.name); });
-}
 
 assets::RootCanal canalFrom(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon), rest = colon == std::string::npos ? "" : text.substr(colon + 1);
   assets::RootCanal canal;
   if (kind == "builtin") {
-    for (const assets::BuiltInCanal& one : assets::builtInCanals())
-      if (rest == std::string(one.tooth) + ":" + std::string(one.name)) return one.canal;
-    throw UsageError("--canal " + text + ": there is no such canal, choose " + builtInCanalNames());
+    const std::size_t name = rest.find(':');
+    const auto fdi = parseNumber<int>(rest.substr(0, name));
+    const std::vector<int> teeth = builtInCanalTeeth();
+    if (name == std::string::npos || !fdi || !std::ranges::count(teeth, *fdi))
+      throw UsageError(fmt::format("--canal {}: give builtin:TOOTH:NAME with tooth {}", text,
+                                   joined(teeth, [](int tooth) { return std::to_string(tooth); })));
+    assets::JawParameters jaw;
+    jaw.right_side = assets::isRight(*fdi);
+    const auto canals = assets::roundCanals(assets::builtInTooth(jaw, *fdi));
+    for (const assets::RoundCanal& one : canals)
+      if (rest.substr(name + 1) == one.name) return one.canal;
+    throw UsageError(fmt::format("--canal {}: tooth {} has no such canal, choose {}", text, *fdi,
+                                 joined(canals, [](const assets::RoundCanal& one) { return one.name; })));
   }
   if (kind == "straight") {
     const auto values = canalMeasures(text, rest, {kBore, kTubeLength}, 1);

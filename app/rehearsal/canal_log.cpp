@@ -43,6 +43,7 @@ std::string CanalLog::line(const haptics::Tick& tick) const {
   const assets::ToothCanal& canal = use_.tooth().canals[place->canal];
   std::string text =
       fmt::format("{:.1f} of {:.1f} mm in the {} canal", depth_mm(tick, canal), canal.workingLength_mm(), canal.name);
+  if (wear_ != haptics::WearLaw::wear) text += fmt::format(", wear by {}", nameOf(wear_));
   if (const auto motion = use_.motion().now()) text += fmt::format(", {}", nameOf(*motion));
   if (tick.file.torque_share >= 0.05) text += fmt::format(", torque {:.0f} %", 100.0 * tick.file.torque_share);
   if (tick.file.removed_total_mm3 >= 0.005) text += fmt::format(", {:.2f} mm³", tick.file.removed_total_mm3);

@@ -21,7 +21,8 @@ inline constexpr const char* kAccessEvent = "access cavity";
 
 class CanalLog {
  public:
-  explicit CanalLog(const assets::ToothCanals& tooth) : use_(tooth) {}
+  explicit CanalLog(const assets::ToothCanals& tooth, haptics::WearLaw wear = haptics::WearLaw::wear)
+      : use_(tooth), wear_(wear) {}
 
   /// What happened, in order.
   std::vector<std::string> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
@@ -37,6 +38,7 @@ class CanalLog {
   double depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const;
 
   FileUse use_;
+  haptics::WearLaw wear_;
 };
 
 }  // namespace app

@@ -1,4 +1,5 @@
 #include "app/rehearsal/rehearsal.h"
+#include "app/case/treated_tooth.h"
 
 #include <algorithm>
 #include <csignal>
@@ -78,7 +79,7 @@ class Rehearsal {
     site_.emplace(OperatedSite::Links{plan_, station(), active_command_, head_up_, event_log_, !pace_.isRealTime()});
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
-    if (plan_.patient.canals) canal_log_.emplace(*plan_.patient.canals);
+    if (plan_.patient.canals) canal_log_.emplace(*plan_.patient.canals, plan_.command.wear.law);
     if (plan_.patient.canals)
       access_.emplace(*plan_.patient.canals, isRoofOpen(*plan_.patient.canals, plan_.patient.ct));
     if (plan_.patient.canals && pace_.isRealTime() && !plan_.is_assessed)

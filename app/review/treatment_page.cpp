@@ -165,9 +165,10 @@ std::string films(const TreatmentFilms& films) {
          "Attenuations are ratios, no dose is modelled.</p>\n";
 }
 
-std::string files(const Treatment& all) {
+std::string files(const Treatment& all, haptics::WearLaw wear) {
   const std::string motions = motionWords(all);
-  return tableMarkup({}, {{"dentine filed", fixedText(all.filed_mm3, 3) + " mm³"},
+  return tableMarkup({}, {{"law of wear", std::string(nameOf(wear))},
+                          {"dentine filed", fixedText(all.filed_mm3, 3) + " mm³"},
                           {"time against the wall", fixedText(all.filing_s, 0) + " s"},
                           {"moved, share of that time", motions.empty() ? "hardly" : motions},
                           {"largest torque", fixedText(100.0 * all.torque_share, 0) + " % of what breaks a file"},
@@ -184,7 +185,7 @@ void addTreatment(HtmlPage& page, const TreatmentReview& review) {
   page.section("Canals", canals(all));
   page.section("Shape of each canal", shapes(review.of));
   page.section("Radiographs", films(review.films));
-  page.section("Files", files(all));
+  page.section("Files", files(all, review.of.wear));
 }
 
 }  // namespace app

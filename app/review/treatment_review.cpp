@@ -31,6 +31,8 @@ std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, con
                                                      std::span<const std::uint8_t> solid_after) {
   if (!start.setup.canals) return {};
   TreatmentOfSession of{*start.setup.canals, {}};
+  if (const std::vector<SessionCommand> commands = session.commands(); !commands.empty())
+    of.wear = commands.back().command.wear.law;
   const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
   const DenseSolid after(start.grid, solid_after);
   of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth));

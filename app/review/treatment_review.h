@@ -16,6 +16,7 @@ namespace app {
 struct TreatmentOfSession {
   assets::ToothCanals tooth;
   Treatment treatment;
+  haptics::WearLaw wear = haptics::WearLaw::wear;  ///< at the end
 };
 
 /// None: the session is of another operation, or its bone at the end is not known.

@@ -81,7 +81,8 @@ std::string treatmentJson(const TreatmentOfSession& of) {
                                          {"floor_gouged_mm3", all.lost.floor_mm3},
                                          {"deepest_below_cusp_mm", all.lost.deepest_mm}}},
                                        {"files",
-                                        {{"filed_mm3", all.filed_mm3},
+                                        {{"wear_law", nameOf(of.wear)},
+                                         {"filed_mm3", all.filed_mm3},
                                          {"filing_s", all.filing_s},
                                          {"largest_torque_share", all.torque_share},
                                          {"motion_s", motions},
@@ -116,6 +117,7 @@ std::string treatmentTable(const TreatmentOfSession& of) {
       100.0 * all.roof.removed, all.lost.enamel_mm3, all.lost.dentine_mm3, all.lost.floor_mm3);
   text += fmt::format("files: {:.3f} mm3 in {:.0f} s, at most {:.0f} % of the torque that breaks one, {} broken\n",
                       all.filed_mm3, all.filing_s, 100.0 * all.torque_share, all.broken_files);
+  if (of.wear != haptics::WearLaw::wear) text += fmt::format("worn by {}, for comparison\n", nameOf(of.wear));
   if (const std::string motions = motionWords(all); !motions.empty()) text += "moved: " + motions + "\n";
   for (const Perforation& hole : all.perforations)
     text += fmt::format("perforation: {}, {:.2f} mm2\n", nameOf(hole.kind), hole.area_mm2);

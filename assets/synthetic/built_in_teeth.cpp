@@ -279,6 +279,22 @@ ToothCanals canalsOf(const BuiltInTooth& tooth) {
   return all;
 }
 
+std::vector<RoundCanal> roundCanals(const BuiltInTooth& tooth) {
+  const PulpPlan& plan = planOf(tooth.placed.position);
+  const ToothParameters& form = lowerToothParameters(tooth.placed.position);
+  const std::vector<glm::dvec3> surface = tooth.placed.shape.surfacePoints_mm();
+  std::vector<RoundCanal> canals;
+  for (const CanalPlan& one : plan.canals) {
+    if (one.joins_mm > 0.0) continue;
+    const glm::dvec3 apex = apexOf(surface, form.roots[one.root]);
+    RootCanal line = courseBetween({one.orifice_mm, plan.floor_mm}, foramenOf(tooth.placed.shape, apex, one), one).line;
+    line.orifice_radius_mm = std::sqrt(one.narrow_mm * one.wide_mm);
+    line.apex_radius_mm = kConstrictionRadius_mm;
+    canals.push_back({one.name, line});
+  }
+  return canals;
+}
+
 std::unique_ptr<ToothSampler> fineBuiltInTooth(const BuiltInTooth& tooth, const CtVolume& ct, double spacing_mm) {
   return fineTooth(std::make_unique<BuiltInShell>(tooth), canalsOf(tooth), ct, spacing_mm);
 }

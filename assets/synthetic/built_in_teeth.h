@@ -7,10 +7,12 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "assets/scan/fine_tooth.h"
 #include "assets/synthetic/jaw.h"
+#include "assets/synthetic/root_canal.h"
 #include "assets/synthetic/tooth_row.h"
 #include "assets/tooth_canals.h"
 
@@ -30,6 +32,14 @@ std::vector<int> builtInTeeth(const JawParameters& jaw);
 BuiltInTooth builtInTooth(const JawParameters& jaw, int fdi);
 
 ToothCanals canalsOf(const BuiltInTooth& tooth);
+
+/// One of these canals alone, round: sections are circles as large as its ellipses, dentine 1 mm around.
+struct RoundCanal {
+  std::string name;
+  RootCanal canal;
+};
+/// Those with a foramen of their own.
+std::vector<RoundCanal> roundCanals(const BuiltInTooth& tooth);
 
 /// `ct`: the jaw's, of the built-in patient of the same parameters.
 std::unique_ptr<ToothSampler> fineBuiltInTooth(const BuiltInTooth& tooth, const CtVolume& ct,

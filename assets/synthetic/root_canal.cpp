@@ -78,19 +78,4 @@ CanalField canalField(const RootCanal& canal, double spacing_mm) {
   return field;
 }
 
-const std::vector<BuiltInCanal>& builtInCanals() {
-  // Orifice to the straight part's end, arc, apical part; radii at orifice and constriction.
-  static const std::vector<BuiltInCanal> kCanals{
-      {"36", "mesiobuccal", {8.0, 6.0, degrees(40.0), 1.6, 0.30, 0.10}},
-      {"36", "mesiolingual", {8.5, 8.0, degrees(30.0), 1.5, 0.30, 0.10}},
-      {"36", "distal", {9.0, 10.0, degrees(14.0), 2.0, 0.40, 0.15}},
-      {"46", "mesiobuccal", {8.0, 6.0, degrees(40.0), 1.6, 0.30, 0.10}},
-      {"46", "mesiolingual", {8.5, 8.0, degrees(30.0), 1.5, 0.30, 0.10}},
-      {"46", "distal", {9.0, 10.0, degrees(14.0), 2.0, 0.40, 0.15}},
-      {"31", "single", {11.0, 10.0, degrees(10.0), 1.5, 0.30, 0.13}},
-      {"35", "single", {11.5, 10.0, degrees(12.0), 2.0, 0.40, 0.15}},
-  };
-  return kCanals;
-}
-
 }  // namespace assets

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "assets/volume_grid.h"
@@ -41,12 +40,5 @@ struct CanalField {
 
 /// Solid fractions of the root on a grid that holds it, with air around.
 CanalField canalField(const RootCanal& canal, double spacing_mm);
-
-/// A canal of the built-in teeth: sizes, curvature and length of the means in the literature (reference/sisters 3.2).
-struct BuiltInCanal {
-  std::string_view tooth, name;  ///< FDI number, and which of its canals
-  RootCanal canal;
-};
-const std::vector<BuiltInCanal>& builtInCanals();
 
 }  // namespace assets

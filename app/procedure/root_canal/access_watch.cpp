@@ -18,16 +18,6 @@ bool hasDepthBands(int fdi) {
   return (quadrant == 3 || quadrant == 4) && number >= 6;
 }
 
-bool isRoofOpen(const assets::ToothCanals& tooth, const assets::CtVolume& ct) {
-  constexpr double kOverRoof_mm = 0.5;
-  glm::dvec2 middle(0.0);
-  for (const glm::dvec2& p : tooth.chamber.outline_mm)
-    middle += p / static_cast<double>(tooth.chamber.outline_mm.size());
-  const glm::dvec3 p_P = tooth.frame.inP({middle, tooth.chamber.roof_mm + kOverRoof_mm});
-  const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(p_P)));
-  return !ct.grid.contains(ijk) || ct.solid[ct.grid.index(ijk)] < assets::kHalfSolid;
-}
-
 std::string roofDropText(const RoofDrop& drop) {
   return fmt::format("the roof of the chamber is open: {:.1f} N before, then {:.0f} mm/s, {:.1f} mm below it",
                      drop.force_N, drop.speed_mm_per_s, drop.plunge_mm);

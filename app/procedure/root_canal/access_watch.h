@@ -26,9 +26,6 @@ std::string roofDropText(const RoofDrop& drop);
 /// Lower molars have the bands of depthBand(); of other teeth nothing is told.
 bool hasDepthBands(int fdi);
 
-/// No tooth over the middle of the chamber's roof.
-bool isRoofOpen(const assets::ToothCanals& tooth, const assets::CtVolume& ct);
-
 class AccessWatch {
  public:
   /// `is_open`: there is no roof to go through.

@@ -11,6 +11,7 @@ namespace {
 constexpr double kStep_mm = 0.25;          ///< between sections
 constexpr double kOrifice_mm = 1.0;        ///< no section so near to the chamber
 constexpr double kOpenEnds_mm = 0.3;       ///< and to the foramen
+constexpr int kAxisEnds = 1;               ///< sections more, where a foramen opens aside
 constexpr double kThinApex_mm = 2.0;       ///< every root is thin so near to its foramen
 constexpr double kBeside_mm = 2.5;         ///< a voxel farther from every axis is not of a canal
 constexpr double kWorkingLength_mm = 0.5;  ///< short of the foramen
@@ -58,7 +59,7 @@ void extend(std::vector<glm::dvec3>& axis_P) {
     return end + mm * glm::normalize(end - inner);
   };
   axis_P.insert(axis_P.begin(), beyond(axis_P[0], axis_P[1], kOrifice_mm));
-  axis_P.push_back(beyond(axis_P.back(), axis_P[axis_P.size() - 2], kOpenEnds_mm));
+  axis_P.push_back(beyond(axis_P.back(), axis_P[axis_P.size() - 2], kOpenEnds_mm + kAxisEnds * kStep_mm));
 }
 
 double schneiderOf(const std::vector<glm::dvec3>& axis_P) {
@@ -108,7 +109,7 @@ CanalOutcomes canalOutcomes(const ToothBlocks& before, const FineSolid& after,
   const auto steps = static_cast<int>(std::floor((canal.length_mm() - kOrifice_mm - kOpenEnds_mm) / kStep_mm));
   for (int n = steps; n >= 0; --n) {
     const CanalSection section = section_at(kOpenEnds_mm + n * kStep_mm);
-    if (std::ranges::all_of(section.before_mm, [](double mm) { return std::isfinite(mm); })) {
+    if (n >= kAxisEnds && std::ranges::all_of(section.before_mm, [](double mm) { return std::isfinite(mm); })) {
       out.axis_before_P_mm.push_back(placeOf(section, centroid_mm(section.before_mm)));
       out.axis_after_P_mm.push_back(placeOf(section, centroid_mm(section.after_mm)));
     }

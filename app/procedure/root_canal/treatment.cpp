@@ -8,6 +8,17 @@
 #include "app/procedure/root_canal/canal_tip.h"
 
 namespace app {
+std::string_view nameOf(haptics::WearLaw law) {
+  switch (law) {
+    case haptics::WearLaw::counters:
+      return "counters";
+    case haptics::WearLaw::counters_helical:
+      return "counters-helical";
+    case haptics::WearLaw::wear:
+      break;
+  }
+  return "rate";
+}
 
 FileUse::FileUse(const assets::ToothCanals& tooth) : tooth_(tooth) {
   for (const assets::ToothCanal& canal : tooth_.canals) canals_.push_back({TipTrack(canal.length_mm())});

@@ -6,15 +6,20 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/procedure/root_canal/access_outcomes.h"
 #include "app/procedure/root_canal/canal_outcomes.h"
 #include "app/procedure/root_canal/file_motion.h"
 #include "app/procedure/root_canal/perforation.h"
+#include "haptics/file/canal_wear.h"
 #include "haptics/servo/tick.h"
 
 namespace app {
+
+/// For people and for files: "rate", "counters", "counters-helical".
+std::string_view nameOf(haptics::WearLaw law);
 
 /// A foramen whose wall moved farther was transported (reference/sisters 2.3, our default).
 inline constexpr double kForamenMoved_mm = 0.1;

@@ -75,6 +75,8 @@ TEST_F(FileCommand, RefusesWhatThereIsNot) {
   expectRefusal("file --canal straight:nan", "not a number");
   expectRefusal("file --canal arc:5", "angle");
   expectRefusal("file --canal builtin:36:palatal", "mesiobuccal");
+  expectRefusal("file --canal builtin:11:single", "34");
+  expectRefusal("file --canal builtin:36", "TOOTH:NAME");
   expectRefusal("file --canal tube:3", "straight:D");
   expectRefusal("file --size 15 --canal arc:5,45 --depth 80", "--depth");
   expectRefusal("file --size 15 --canal arc:5,45 --depth nan", "--depth");

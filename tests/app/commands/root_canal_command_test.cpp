@@ -56,6 +56,23 @@ TEST_F(RootCanalCommand, FilesACanalAndTellsWhatItHasComeTo) {
   EXPECT_EQ(page.find("lingual plate"), std::string::npos) << "of an extraction";
 }
 
+TEST_F(RootCanalCommand, DrillsTheAccessItselfAndFilesByCounters) {
+  const ProgramOutput said = treat("--device scripted --pace fast --wear counters --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+  const ProgramOutput measured = molar("metrics " + at("s.molar") + " --json");
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const auto of = nlohmann::json::parse(measured.out).at("root_canals");
+  const auto& access = of.at("access");
+  EXPECT_GT(access.at("roof_removed_share").get<double>(), 0.9);
+  EXPECT_GT(access.at("enamel_lost_mm3").get<double>(), 1.0);
+  EXPECT_LT(access.at("floor_gouged_mm3").get<double>(), 0.05);
+  EXPECT_EQ(of.at("gates").at("perforation"), false);
+  EXPECT_EQ(of.at("files").at("wear_law"), "counters");
+  EXPECT_GT(of.at("files").at("filed_mm3").get<double>(), 0.0);
+  EXPECT_GT(of.at("files").at("motion_s").at("filing").get<double>(), 1.0);
+}
+
 TEST_F(RootCanalCommand, GoesOnWhereItEnded) {
   ASSERT_EQ(treat("--access open --device scripted --pace fast --seconds 12 --record " + at("s.molar")).status, 0);
   const ProgramOutput said = molar("rehearse --continue " + at("s.molar") +
@@ -76,9 +93,11 @@ TEST_F(RootCanalCommand, RefusesInOneLine) {
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   };
   refused("--task root-canal --device scripted", "which tooth?");
-  refused("--task root-canal --tooth 45 --device scripted", "add --access open");
+  refused("--task root-canal --tooth 45 --device scripted --wear grinding", "counters-helical");
   refused("--task root-canal --tooth 45 --flap closed --device scripted --access open", "is of an extraction");
   refused("--task root-canal --tooth 45 --case block-ball --device scripted --access open", "has no tooth");
+  refused("--task root-canal --tooth 45 --device scripted --tool round:1.2 --tool k-file:140,25", "widest orifice");
+  refused("--task root-canal --tooth 11 --device scripted", "no such tooth");
   refused("--device scripted --tool round:1.0 --tool k-file:7,25", "no such file is made");
   refused("--device scripted --tool round:1.0 --tool k-file:25,25,bent:130", "0 to 90 degrees");
   refused("--device scripted --tool round:1.0 --tool k-file:25,x", "'x' is not understood");

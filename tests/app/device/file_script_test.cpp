@@ -1,5 +1,6 @@
 // A scripted hand with root-canal files.
 #include "app/device/file_script.h"
+#include "app/device/access_script.h"
 
 #include <algorithm>
 
@@ -46,6 +47,28 @@ TEST(FileScript, MovesNoFasterThanAHandAndToTheWorkingLength) {
     }
     EXPECT_NEAR(deepest_mm, canal.length_mm() - 0.5, 0.5) << canal.name;
   }
+}
+
+TEST(AccessScript, KeepsTheBurWithinTheChambersOutlineAndOffItsFloor) {
+  const assets::ToothCanals tooth = firstMolar();
+  const std::vector<glm::dvec3> way_P = accessWay_P(tooth);
+  double lowest_mm = 100.0, widest_mm = -100.0;
+  for (const glm::dvec3& at_P : way_P) {
+    const glm::dvec3 p = tooth.frame.local(at_P);
+    lowest_mm = std::min(lowest_mm, p.z - kAccessBurRadius_mm);
+    const double over_mm = std::max(0.0, p.z - tooth.chamber.roof_mm);
+    widest_mm = std::max(widest_mm, assets::outlineDistance_mm(tooth.chamber.outline_mm, {p.x, p.y}) +
+                                        kAccessBurRadius_mm - tooth.chamber.round_mm - 0.1 * over_mm);
+  }
+  EXPECT_LT(lowest_mm, tooth.chamber.roof_mm) << "through the roof";
+  EXPECT_GT(lowest_mm, tooth.chamber.floor_mm + 0.2);
+  EXPECT_LT(widest_mm, 0.5) << "a chamber narrower than the bur is no reason to stay out";
+  const FileScript script = fileScript(tooth, true);
+  EXPECT_EQ(script.requests[0].tool, kAccessBur);
+  EXPECT_TRUE(script.poses[1].pedal);
+  EXPECT_EQ(script.requests[1].tool, "k-file:10,25");
+  for (const haptics::TimedHandlePose& pose : script.poses)
+    EXPECT_FALSE(pose.pedal && pose.t_s >= script.requests[1].t_s) << pose.t_s;
 }
 
 }  // namespace
