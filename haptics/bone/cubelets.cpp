@@ -75,30 +75,30 @@ void Cubelets::fillSparse(std::span<const std::uint8_t> solid, std::span<const s
   const SolidField at = field();
   std::vector<std::uint32_t> slot_of(blocks_count_ + 1, kNone), slot_of_kind(1U << 16, kNone);
   std::vector<std::array<std::uint8_t, 2>> kinds;
-  const auto slotOfKind = [&](std::uint8_t byte, std::uint8_t tissue) {
+  const auto shared_slot_of = [&](std::uint8_t byte, std::uint8_t tissue) {
     std::uint32_t& slot = slot_of_kind[static_cast<std::size_t>(byte) << 8 | tissue];
     if (slot == kNone) slot = static_cast<std::uint32_t>(kinds.size()), kinds.push_back({byte, tissue});
     return slot;
   };
   Bytes bytes, labels;
   std::size_t own = 0, even_solid = 0;
-  const auto forBlocks = [&](const auto& visit) {
+  const auto for_blocks = [&](const auto& visit) {
     assets::forVoxels(glm::ivec3(0), (blocks_ + (kCube - 1)) / kCube, [&](glm::ivec3 cube) {
       assets::forVoxels(cube * kCube, glm::min((cube + 1) * kCube, blocks_),
                         [&](glm::ivec3 block) { visit(block, at.blockAt(block)); });
     });
   };
-  forBlocks([&](glm::ivec3 block, std::size_t number) {
+  for_blocks([&](glm::ivec3 block, std::size_t number) {
     takeBlock(grid_, solid, block, bytes);
     takeBlock(grid_, label, block, labels);
     if (!isEven(bytes) || !isEven(labels) || labels[0] == kMixedLabels) {
       ++own;
       return;
     }
-    slot_of[number] = slotOfKind(bytes[0], labels[0]);
+    slot_of[number] = shared_slot_of(bytes[0], labels[0]);
     if (bytes[0] == 0) return;
     // What becomes of it when it is cut whole.
-    slotOfKind(0, labels[0]);
+    shared_slot_of(0, labels[0]);
     ++even_solid;
   });
 
@@ -111,7 +111,7 @@ void Cubelets::fillSparse(std::span<const std::uint8_t> solid, std::span<const s
     only_label_[slot] = kinds[slot][1];
   }
   std::size_t next = shared_;
-  forBlocks([&](glm::ivec3 block, std::size_t number) {
+  for_blocks([&](glm::ivec3 block, std::size_t number) {
     if (slot_of[number] != kNone) return;
     slot_of[number] = static_cast<std::uint32_t>(next);
     takeBlock(grid_, solid, block, bytes);

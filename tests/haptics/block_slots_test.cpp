@@ -1,6 +1,7 @@
 // What is felt does not depend on where a block lies in memory: to the bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
