@@ -164,6 +164,7 @@ void addMetrics(CommandLine& molar) {
       if (!isConfirmed("root_canals", metrics.proposed)) json["not_confirmed"]["keys"].push_back("root_canals");
       text = json.dump(2) + "\n";
     } else if (treated) {
+      if (!isConfirmed("root_canals", metrics.proposed)) text += "of the root canals (not confirmed):\n";
       text += treatmentTable(*treated);
     }
     std::fputs(text.c_str(), stdout);

@@ -335,7 +335,7 @@ std::string reviewHtml(const SessionReview& review, const HeldAgainst& against) 
   HtmlPage page("Rehearsal: " + review.metrics.patient_title, below);
   page.section("The case", caseSection(review));
   if (review.treatment)
-    addTreatment(page, *review.treatment);
+    addTreatment(page, *review.treatment, !review.metrics.proposed.tooth);
   else
     page.section("Errors", errorsSection(review));
   if (reference != nullptr) page.section("Against the reference", againstSection(review, *reference));

@@ -177,12 +177,17 @@ std::string files(const Treatment& all, haptics::WearLaw wear) {
 
 }  // namespace
 
-void addTreatment(HtmlPage& page, const TreatmentReview& review) {
+void addTreatment(HtmlPage& page, const TreatmentReview& review, bool is_confirmed) {
   const Treatment& all = review.of.treatment;
-  page.section("Errors", gates(all));
-  page.section("Tooth and canals", canalsOf(review.of.tooth));
-  page.section("Access cavity", access(all));
-  page.section("Canals", canals(all));
+  const auto marked = [is_confirmed](const std::string& content_markup) {
+    return is_confirmed || content_markup.empty()
+               ? content_markup
+               : "<div class=\"unconfirmed\">\n<p>Not confirmed.</p>\n" + content_markup + "</div>\n";
+  };
+  page.section("Errors", marked(gates(all)));
+  page.section("Tooth and canals", marked(canalsOf(review.of.tooth)));
+  page.section("Access cavity", marked(access(all)));
+  page.section("Canals", marked(canals(all)));
   page.section("Shape of each canal", shapes(review.of));
   page.section("Radiographs", films(review.films));
   page.section("Files", files(all, review.of.wear));

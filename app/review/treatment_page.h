@@ -16,6 +16,7 @@ struct TreatmentReview {
   TreatmentFilms films;
 };
 
-void addTreatment(HtmlPage& page, const TreatmentReview& review);
+/// `is_confirmed`: a person has confirmed the tooth; else it is grey.
+void addTreatment(HtmlPage& page, const TreatmentReview& review, bool is_confirmed = true);
 
 }  // namespace app
