@@ -50,12 +50,16 @@ TrueCanal truthOf(const Case& scan, const assets::CanalProposal& canal) {
   return truth;
 }
 
-/// Mean and most, mm, from a true line.
+/// Mean and most, mm, from points of the truth to a line, between its points too: these lie a millimetre apart.
 std::pair<double, double> misses(const std::vector<glm::dvec3>& truth, const std::vector<glm::dvec3>& line) {
   double sum = 0.0, most = 0.0;
   for (const glm::dvec3& p : truth) {
     double away = 1e9;
-    for (const glm::dvec3& q : line) away = std::min(away, glm::distance(p, q));
+    for (std::size_t n = 1; n < line.size(); ++n) {
+      const glm::dvec3 way = line[n] - line[n - 1];
+      const double share = std::clamp(glm::dot(p - line[n - 1], way) / std::max(glm::dot(way, way), 1e-12), 0.0, 1.0);
+      away = std::min(away, glm::distance(p, line[n - 1] + share * way));
+    }
     sum += away / static_cast<double>(truth.size());
     most = std::max(most, away);
   }
