@@ -47,6 +47,13 @@ std::vector<CheckRow> checkRows(const assets::JawSegmentation& jaw, const CheckE
     }
   for (const bool is_right : {true, false}) {
     const auto found = std::ranges::find(jaw.canals, is_right, &assets::CanalProposal::is_right);
+    // Of a scan of one side the other has nothing that could be found.
+    const auto has_teeth = [&](bool of_right) {
+      return std::ranges::any_of(jaw.teeth, [of_right](const assets::FoundTooth& tooth) {
+        return tooth.fdi != 0 && assets::isRight(tooth.fdi) == of_right;
+      });
+    };
+    if (found == jaw.canals.end() && !has_teeth(is_right) && has_teeth(!is_right)) continue;
     CheckRow row;
     row.kind = CheckRow::Kind::canal, row.is_right = is_right;
     row.words = is_right ? "canal on the right" : "canal on the left";

@@ -98,7 +98,8 @@ Line lineOf(const CheckMenu& menu, const CheckProgress& progress) {
   Line line;
   line.tone = menu.isTrouble() && has_message ? Line::Tone::trouble : works ? Line::Tone::works : Line::Tone::usual;
   line.words = menu.asks() || (has_message && menu.isTrouble()) ? menu.message()
-               : works       ? fmt::format("{} … {:.0f} s · Esc stops", progress.stage, progress.seconds)
+               : works       ? fmt::format("{} … {:.0f} s{}", progress.stage, progress.seconds,
+                                     progress.may_stop ? " · Esc stops" : "")
                : has_message ? menu.message()
                              : menu.hint();
   return line;

@@ -29,6 +29,7 @@ using CheckPlace = std::variant<ViewPlace, RowPlace, CheckTool, CheckAction>;
 struct CheckProgress {
   std::string stage;
   double seconds = 0.0;
+  bool may_stop = true;
 };
 
 class CheckPage {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -58,6 +59,10 @@ assets::JawClicks clicksToFind(const CheckEdits& edits) {
   assets::JawClicks clicks = edits.clicks();
   clicks.voxels.clear();
   return clicks;
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begun) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
 struct Edits {
@@ -264,6 +269,7 @@ void CheckRun::save() {
       return Saved{"", calibration::withoutTemporaryNames(error.what())};
     }
   });
+  saving_since_ = std::chrono::steady_clock::now();
   menu_.say("saving", false);
 }
 
@@ -289,10 +295,28 @@ bool CheckRun::answer(CheckMenu::Answer answer) {
   return true;
 }
 
+/// What would change what is being saved, or leave it. Tools are taken, and places looked at, meanwhile.
+bool CheckRun::isEdit(const render::WindowEvent& event, glm::ivec2 window_px) const {
+  if (const auto* const letter = std::get_if<render::LetterTyped>(&event))
+    return letter->letter == U'u' || letter->letter == U'U';
+  if (const auto* const key = std::get_if<render::KeyPressed>(&event))
+    return key->down && (key->control || key->key == render::Key::enter || key->key == render::Key::erase ||
+                         key->key == render::Key::escape);
+  const auto* const button = std::get_if<render::ButtonPressed>(&event);
+  if (button == nullptr || !button->down || button->button != render::MouseButton::left) return false;
+  const auto place = page_.placeAt(menu_, pointer_px_, window_px);
+  if (!place) return false;
+  return std::holds_alternative<CheckAction>(*place) ||
+         (std::holds_alternative<ViewPlace>(*place) && menu_.tool() != CheckTool::look);
+}
+
 bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
   if (std::holds_alternative<render::CloseRequested>(event))
     return answer(menu_.take({.key = render::Key::escape, .down = true}));
-  if (isSaving()) return true;
+  if (isSaving() && isEdit(event, window_px)) {
+    menu_.say("it is being saved: one moment", false);
+    return true;
+  }
   if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) {
     pointer_px_ = moved->to_px;
     const glm::dvec2 in_view_px = pointer_px_ - page_.cornerOf(held_view_, window_px);
@@ -353,7 +377,13 @@ std::optional<ViewPlace> CheckRun::viewUnder(const glm::dvec2& at_px, glm::ivec2
 }
 
 HeldCanal::InView CheckRun::inView(JawView view, glm::ivec2 window_px) const {
-  const JawViews::Plane plane = views_.planeOf(view, menu_.cursor_P_mm(), page_.look, page_.sizeOf(view, window_px));
+  const glm::ivec2 px = page_.sizeOf(view, window_px);
+  if (view == JawView::panoramic)
+    return [this, px](const glm::dvec3& p_P_mm) {
+      const auto at_px = views_.inPanoramic(p_P_mm, px);
+      return at_px ? glm::dvec3(*at_px, 0.0) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    };
+  const JawViews::Plane plane = views_.planeOf(view, menu_.cursor_P_mm(), page_.look, px);
   return [plane](const glm::dvec3& p_P_mm) { return plane.of(p_P_mm); };
 }
 
@@ -370,7 +400,7 @@ void CheckRun::press(const glm::dvec2& at_px, glm::ivec2 window_px) {
       stroke_.begin(*view, page_.sizeOf(view->view, window_px));
     } else if (view->view == JawView::solid)
       pressed_px_ = at_px, is_dragged_ = false;
-    else if (const auto end = menu_.tool() == CheckTool::canal && is_slice
+    else if (const auto end = menu_.tool() == CheckTool::canal
                                   ? canal_.proposedEndAt(found().canals, view->at_px, inView(view->view, window_px))
                                   : std::nullopt) {
       // The end as it was proposed, which may lie beside the slice.
@@ -436,14 +466,25 @@ void CheckRun::turnWheel(double notches, glm::ivec2 window_px) {
 }
 
 glm::dvec2 CheckRun::placeOf(JawView view, const glm::dvec3& p_P_mm, glm::ivec2 window_px) const {
-  return page_.cornerOf(view, window_px) +
-         glm::dvec2(views_.planeOf(view, menu_.cursor_P_mm(), page_.look, page_.sizeOf(view, window_px)).of(p_P_mm));
+  return page_.cornerOf(view, window_px) + glm::dvec2(inView(view, window_px)(p_P_mm));
+}
+
+/// As it is shown now, saved or not.
+std::string CheckRun::title() const {
+  if (!may_edit_) return patient_.shownTitle();
+  const int operated = patient_.operatedTooth();
+  const bool is_open = std::ranges::any_of(menu_.rows(), [&](const CheckRow& row) {
+    const bool counts = row.kind == CheckRow::Kind::tooth ? row.fdi == operated
+                                                          : row.is_there && row.is_right == assets::isRight(operated);
+    return counts && row.light == Light::open;
+  });
+  return patient_.title + (is_open ? std::string(assets::kNotConfirmedTitle) : "");
 }
 
 render::Image CheckRun::picture(glm::ivec2 window_px) {
   CheckProgress progress;
   if (search_ && search_->isBusy()) progress = {search_->stage(), search_->seconds()};
-  if (isSaving()) progress = {"saving", 0.0};
+  if (isSaving()) progress = {"saving", secondsSince(saving_since_), false};
   CheckHand hand;
   if (menu_.tool() == CheckTool::brush) hand.brush = viewUnder(pointer_px_, window_px);
   if (menu_.tool() == CheckTool::canal) {
@@ -451,7 +492,7 @@ render::Image CheckRun::picture(glm::ivec2 window_px) {
     hand.canal_points.assign(points.begin(), points.end());
     hand.drawn_P_mm = canal_.line_P_mm();
   }
-  return page_.picture(menu_, found().canals, patient_.shownTitle(), progress, hand, window_px);
+  return page_.picture(menu_, found().canals, title(), progress, hand, window_px);
 }
 
 }  // namespace app

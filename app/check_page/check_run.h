@@ -6,6 +6,7 @@
 // saving, loses nothing, and the next time they are there again. Saving replaces the folder as a whole.
 #pragma once
 
+#include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
@@ -45,6 +46,8 @@ class CheckRun {
   /// It is to be drawn again.
   bool takeChanged() { return std::exchange(is_changed_, false) || isBusy(); }
 
+  /// Of what is shown, saved or not.
+  std::string title() const;
   render::Image picture(glm::ivec2 window_px);
 
   const CheckMenu& menu() const { return menu_; }
@@ -63,6 +66,7 @@ class CheckRun {
   void drag(const render::PointerMoved& moved);
   void turnWheel(double notches, glm::ivec2 window_px);
   bool answer(CheckMenu::Answer answer);
+  bool isEdit(const render::WindowEvent& event, glm::ivec2 window_px) const;
   void clickIn(const ViewPlace& place, glm::ivec2 window_px);
   void askIfChanged();
   /// Strokes and cuts in force.
@@ -95,6 +99,7 @@ class CheckRun {
   JawView held_view_ = JawView::axial;
   std::size_t range_ = 0;  ///< of grey values that are shown
   std::future<Saved> saving_;
+  std::chrono::steady_clock::time_point saving_since_{};
   std::unique_ptr<JawSearch> search_;
 };
 

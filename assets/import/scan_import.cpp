@@ -205,6 +205,14 @@ void remarkProposals(const Patient& patient, const FoundJaw& jaw, const CanalPro
                       " no tooth's number and have none");
 }
 
+/// Why no teeth are looked for.
+std::string partRemark(const VolumeGrid& grid) {
+  const double narrowest_mm = grid.spacing_mm * std::min({grid.size.x, grid.size.y, grid.size.z});
+  return "the scan is " + std::to_string(std::lround(narrowest_mm)) + " mm at its narrowest: below " +
+         std::to_string(std::lround(kLeastJaw_mm)) +
+         " mm no teeth are looked for, its tissues are told by grey values alone";
+}
+
 ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const ScanImportOptions& options) {
   ImportedScan imported;
   imported.remarks = std::move(remarks);
@@ -232,6 +240,8 @@ ImportedScan patientOf(Volume volume, std::vector<std::string> remarks, const Sc
   } else if (isToSegment(volume, options)) {
     imported.jaw = findJaw(volume.name, options, patient.ct);
   } else {
+    if (!options.grey_only && !volume.labels && !volume.teeth && !canHoldJaw(patient.ct.grid))
+      imported.remarks.push_back(partRemark(patient.ct.grid));
     tissues = readTissues(volume.labels, volume.name, patient.ct, imported.remarks);
   }
   if (volume.teeth)

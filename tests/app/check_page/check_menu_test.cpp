@@ -45,6 +45,19 @@ TEST(CheckMenu, BeginsAtTheOperatedTooth) {
   EXPECT_FALSE(one.isChanged());
 }
 
+TEST(CheckMenu, OfAScanOfOneSideTheOtherSidesCanalIsNotMissed) {
+  assets::JawSegmentation jaw = found();
+  std::erase_if(jaw.teeth, [](const assets::FoundTooth& tooth) { return tooth.fdi == 37; });
+  const std::vector<CheckRow> rows = checkRows(jaw, {}, 48);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_TRUE(rows.back().is_there);
+  // Where it was clicked it is there.
+  assets::CanalProposal left = jaw.canals.front();
+  left.is_right = false;
+  jaw.canals.push_back(left);
+  EXPECT_EQ(checkRows(jaw, {}, 48).size(), 4u);
+}
+
 TEST(CheckMenu, ToolsMakeTheClicksOfAFile) {
   CheckMenu one = menu();
   one.type(U'8');

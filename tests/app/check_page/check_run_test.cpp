@@ -260,6 +260,56 @@ TEST_F(CheckRunTest, AClickOnAProposalsEndTakesThatEnd) {
   EXPECT_THAT(run->menu().message(), testing::HasSubstr("drag it"));
 }
 
+TEST_F(CheckRunTest, ThatEndIsTakenInThePanoramicViewToo) {
+  const auto run = open(folder_.path());
+  const auto canal = std::ranges::find(run->found().canals, true, &assets::CanalProposal::is_right);
+  ASSERT_NE(canal, run->found().canals.end());
+  const glm::dvec3 end = canal->line_P_mm.back();
+  const glm::dvec2 at = run->placeOf(JawView::panoramic, end, kWindow_px);
+  ASSERT_TRUE(std::isfinite(at.x)) << "beyond the panoramic view";
+  type(*run, U'c');
+  clickOn(*run, at);
+  ASSERT_EQ(run->menu().pending().size(), 1u) << run->menu().message();
+  EXPECT_EQ(run->menu().pending().front(), end);
+}
+
+TEST_F(CheckRunTest, WhileItIsSavedToolsAreTakenAndEditsWait) {
+  const auto run = open(folder_.path());
+  press(*run, Key::enter);
+  run->finish();
+  press(*run, render::keyOf('S'), true);
+  ASSERT_TRUE(run->isBusy());
+  type(*run, U'c');
+  EXPECT_EQ(run->menu().tool(), CheckTool::canal);
+  press(*run, Key::down);
+  press(*run, Key::enter);
+  press(*run, render::keyOf('Z'), true);
+  clickOn(*run, run->placeOf(JawView::axial, run->menu().cursor_P_mm(), kWindow_px));
+  EXPECT_EQ(run->menu().edits().done(), 1u);
+  EXPECT_TRUE(run->menu().pending().empty());
+  EXPECT_THAT(run->menu().message(), testing::HasSubstr("one moment"));
+  run->finish();
+  EXPECT_EQ(run->menu().message(), "saved");
+  EXPECT_FALSE(run->menu().isChanged());
+  press(*run, Key::enter);
+  EXPECT_EQ(run->menu().edits().done(), 2u) << run->menu().message();
+}
+
+TEST_F(CheckRunTest, TheTitleSaysWhetherToothAndCanalAreConfirmed) {
+  const auto run = open(folder_.path());
+  EXPECT_THAT(run->title(), testing::EndsWith("not confirmed"));
+  press(*run, Key::enter);
+  run->finish();
+  EXPECT_THAT(run->title(), testing::EndsWith("not confirmed")) << "the canal is open";
+  while (run->menu().rows()[run->menu().selected()].kind != CheckRow::Kind::canal ||
+         !run->menu().rows()[run->menu().selected()].is_right)
+    press(*run, Key::down);
+  press(*run, Key::enter);
+  EXPECT_THAT(run->title(), testing::Not(testing::EndsWith("not confirmed")));
+  press(*run, render::keyOf('Z'), true);
+  EXPECT_THAT(run->title(), testing::EndsWith("not confirmed"));
+}
+
 TEST_F(CheckRunTest, EnterPressedWhileItIsComputedSaysItOnce) {
   const auto run = open(folder_.path());
   for (int n = 0; n < 6; ++n) press(*run, Key::enter);

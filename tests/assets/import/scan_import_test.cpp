@@ -157,8 +157,11 @@ TEST(ScanImport, WarnsOfAMissingOrientation) {
   const std::string head = "NRRD0001\ntype: short\ndimension: 3\nsizes: 12 12 12\nspacings: .5 .5 .5\n";
   on_disk::write(folder.at("a.nrrd"),
                  head + "endian: little\nencoding: raw\n\n" + on_disk::bytesOf(std::vector<std::int16_t>(1728, 1000)));
-  EXPECT_THAT(importScan(folder.at("a.nrrd"), {}).remarks,
-              testing::Contains(HasSubstr("states no orientation; assumed LPS")));
+  const auto remarks = importScan(folder.at("a.nrrd"), {}).remarks;
+  EXPECT_THAT(remarks, testing::Contains(HasSubstr("states no orientation; assumed LPS")));
+  EXPECT_THAT(remarks, testing::Contains(HasSubstr("6 mm at its narrowest: below 35 mm no teeth are looked for")));
+  EXPECT_THAT(importScan(folder.at("a.nrrd"), {.grey_only = true}).remarks,
+              Not(testing::Contains(HasSubstr("at its narrowest"))));
 }
 
 /// Two teeth, 8 mm high, of which the lower half is dentine.
