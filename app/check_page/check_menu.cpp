@@ -109,6 +109,12 @@ void CheckMenu::select(std::size_t row) {
   if (rows_[row].is_there || rows_[row].kind == CheckRow::Kind::tooth) cursor_P_mm_ = rows_[row].at_P_mm;
 }
 
+void CheckMenu::selectTooth(int fdi) {
+  const auto row = std::ranges::find_if(
+      rows_, [fdi](const CheckRow& one) { return one.kind == CheckRow::Kind::tooth && one.fdi == fdi; });
+  if (fdi != 0 && row != rows_.end()) selected_ = static_cast<std::size_t>(row - rows_.begin());
+}
+
 void CheckMenu::moveSelection(int by) {
   if (rows_.empty()) return;
   const auto count = static_cast<int>(rows_.size());

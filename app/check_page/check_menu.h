@@ -87,6 +87,8 @@ class CheckMenu {
   void type(char32_t letter);
   void choose(CheckTool tool);
   void select(std::size_t row);
+  /// The row of that tooth, where there is one; the place that is looked at stays.
+  void selectTooth(int fdi);
   Answer act(CheckAction action);
   /// A click into the scan; `is_right`: of the patient.
   void clickAt(const glm::dvec3& p_P_mm, bool is_right);

@@ -1,11 +1,14 @@
 #include "app/check_page/check_picture.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "app/check_page/check_page.h"
 #include "assets/import/tooth_site.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/segment/cell_masks.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
 #include "calibration/png_file.h"
@@ -42,9 +45,30 @@ assets::JawSegmentation foundIn(const assets::Patient& patient) {
   return jaw;
 }
 
+namespace {
+
+/// Around a found jaw bone is told by grey values: noise in soft tissue looks like crumbs of it.
+void dropSpecks(const assets::VolumeGrid& grid, std::vector<std::uint8_t>& what) {
+  constexpr int kLeastNeighbours = 3;  ///< of six
+  const std::vector<std::uint8_t> before = what;
+  tbb::parallel_for(0, grid.size.z, [&](int k) {
+    assets::forVoxels({0, 0, k}, {grid.size.x, grid.size.y, k + 1}, [&](glm::ivec3 ijk) {
+      const std::size_t n = grid.index(ijk);
+      if (before[n] != kBoneVoxel) return;
+      int neighbours = 0;
+      assets::forNeighbours(grid.size, n, [&](std::size_t other) { neighbours += before[other] != 0 ? 1 : 0; });
+      if (neighbours < kLeastNeighbours) what[n] = 0;
+    });
+  });
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> whatIn(const assets::Patient& patient) {
   std::vector<std::uint8_t> what = whatOf(patient.ct);
-  if (patient.found) std::ranges::replace(what, kPieceVoxel, kBoneVoxel);
+  if (!patient.found) return what;
+  std::ranges::replace(what, kPieceVoxel, kBoneVoxel);
+  dropSpecks(patient.ct.grid, what);
   return what;
 }
 

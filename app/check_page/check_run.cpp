@@ -366,7 +366,11 @@ bool CheckRun::handle(const render::WindowEvent& event, glm::ivec2 window_px) {
 void CheckRun::clickIn(const ViewPlace& place, glm::ivec2 window_px) {
   const auto p =
       views_.pointAt(place.view, menu_.cursor_P_mm(), page_.look, page_.sizeOf(place.view, window_px), place.at_px);
-  if (p) menu_.clickAt(*p, views_.isRight(*p));
+  if (p) {
+    // What is clicked is what the list and the brush mean from then on.
+    menu_.selectTooth(views_.whatAt(*p));
+    menu_.clickAt(*p, views_.isRight(*p));
+  }
   answer(CheckMenu::Answer::none);
 }
 

@@ -91,8 +91,10 @@ class JawViews {
   /// The nearest voxel of the piece within 8 mm; the point itself without one.
   glm::dvec3 nearestOf(std::uint8_t piece, const glm::dvec3& p_P_mm) const;
 
- private:
+  /// What the voxel there belongs to.
   std::uint8_t whatAt(const glm::dvec3& p_P_mm) const;
+
+ private:
   void draw(JawView view, const Plane& plane, const GreyRange& range, const PixelBox& box, render::Image& image) const;
   void drawPanoramic(const GreyRange& range, const PixelBox& box, render::Image& image) const;
   PixelBox shownIn(JawView view, const Plane& plane, const assets::CellBox& voxels, glm::ivec2 px) const;

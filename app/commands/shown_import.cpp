@@ -32,13 +32,17 @@ class ShownCourse {
  public:
   ShownCourse(CheckWindow& window, ImportCourse& course) : window_(window), course_(course) {}
 
-  void show() {
+  /// Takes what the hand did, and draws where that is due.
+  void step() {
     for (const render::WindowEvent& event : window_.takeEvents()) {
       if (const auto* const moved = std::get_if<render::PointerMoved>(&event)) pointer_px_ = moved->to_px;
       if (const auto* const wheel = std::get_if<render::WheelTurned>(&event)) turn(wheel->notches);
       // As Ctrl+C.
       if (isCancel(event, pointer_px_, window_.size_px())) ::kill(::getpid(), SIGINT);
     }
+    const auto now = std::chrono::steady_clock::now();
+    if (now < due_) return;
+    due_ = now + kDrawnEvery;
     window_.show([this](glm::ivec2 px) {
       drawSlices(px);
       return importPage(
@@ -69,9 +73,12 @@ class ShownCourse {
       slices_ = course_.view().pictures({boxes[0].size_px, boxes[1].size_px, boxes[2].size_px});
   }
 
+  static constexpr std::chrono::milliseconds kDrawnEvery{100};
+
   CheckWindow& window_;
   ImportCourse& course_;
   glm::dvec2 pointer_px_{-1.0};
+  std::chrono::steady_clock::time_point due_{};
   std::uint64_t drawn_changes_ = 0;
   glm::ivec2 drawn_px_{0};
   std::optional<std::array<render::Image, ImportView::kSlices>> slices_;
@@ -80,7 +87,7 @@ class ShownCourse {
 }  // namespace
 
 std::unique_ptr<CheckWindow> runShown(const std::function<void(ImportCourse&)>& work, bool in_window) {
-  constexpr std::chrono::milliseconds kDrawnEvery{60}, kRefusedWithin{300};
+  constexpr std::chrono::milliseconds kStepEvery{20}, kRefusedWithin{300};
   const StopSignals signals;
   ImportCourse course;
   const ImportStopper stopper(signals, course);
@@ -94,9 +101,10 @@ std::unique_ptr<CheckWindow> runShown(const std::function<void(ImportCourse&)>& 
     }
   std::optional<ShownCourse> shown;
   if (window) shown.emplace(*window, course);
-  while (working.wait_for(kDrawnEvery) != std::future_status::ready) {
-    course.drawLine();
-    if (shown) shown->show();
+  constexpr int kStepsALine = 4;
+  for (int step = 0; working.wait_for(kStepEvery) != std::future_status::ready; ++step) {
+    if (step % kStepsALine == 0) course.drawLine();
+    if (shown) shown->step();
   }
   working.get();
   // Too late to undo it, early enough not to go on.

@@ -260,6 +260,19 @@ TEST_F(CheckRunTest, AClickOnAProposalsEndTakesThatEnd) {
   EXPECT_THAT(run->menu().message(), testing::HasSubstr("drag it"));
 }
 
+TEST_F(CheckRunTest, AToothThatIsClickedIsChosenInTheListAndPaintedByTheBrush) {
+  const auto run = open(folder_.path());
+  EXPECT_EQ(run->menu().rows()[run->menu().selected()].fdi, 48);
+  const auto row = std::ranges::find(run->menu().rows(), 36, &CheckRow::fdi);
+  ASSERT_NE(row, run->menu().rows().end());
+  const glm::dvec2 at = run->placeOf(JawView::panoramic, row->at_P_mm, kWindow_px);
+  ASSERT_TRUE(std::isfinite(at.x));
+  clickOn(*run, at);
+  EXPECT_EQ(run->menu().rows()[run->menu().selected()].fdi, 36);
+  type(*run, U'b');
+  EXPECT_EQ(run->menu().brush().as, 36);
+}
+
 TEST_F(CheckRunTest, ThatEndIsTakenInThePanoramicViewToo) {
   const auto run = open(folder_.path());
   const auto canal = std::ranges::find(run->found().canals, true, &assets::CanalProposal::is_right);
