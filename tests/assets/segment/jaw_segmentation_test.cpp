@@ -202,6 +202,7 @@ TEST_F(JawSegmentationRealData, ReachesTheFiguresOnARealJaw) {
     sum += teeth[fdi].dice;
   }
   EXPECT_GT(sum / 6.0, 0.955);
+  EXPECT_GT(teeth[48].dice, 0.92) << "thin ends of its roots";
   const auto of_molar = [&](assets::Tissue wanted) {
     const auto value = static_cast<std::uint8_t>(wanted);
     return tests::diceOf(
@@ -209,7 +210,7 @@ TEST_F(JawSegmentationRealData, ReachesTheFiguresOnARealJaw) {
         [&](std::size_t v) { return tooth[v] == 48 && tissue[v] == value; });
   };
   EXPECT_GT(of_molar(assets::Tissue::enamel), 0.92);
-  EXPECT_GT(of_molar(assets::Tissue::dentine), 0.82);
+  EXPECT_GT(of_molar(assets::Tissue::dentine), 0.84);
   EXPECT_GT(of_molar(assets::Tissue::pulp), 0.75);
   // From foramen to foramen.
   ASSERT_EQ(jaw.canals.size(), 1u);
