@@ -247,7 +247,8 @@ std::string removedSection(const SessionReview& review) {
 std::string handSection(const SessionReview& review, const SessionMetrics* other) {
   // What is judged first: the painting index, with what it is made of.
   std::vector<MeasureValue> measures = review.metrics.measures;
-  std::ranges::stable_partition(measures, [](const MeasureValue& measure) { return measure.id.starts_with("PI"); });
+  std::stable_partition(measures.begin(), measures.end(),
+                        [](const MeasureValue& measure) { return measure.id.starts_with("PI"); });
   Rows rows;
   for (const MeasureValue& measure : measures) {
     if (isSafety(measure) || isOutcome(measure)) continue;
