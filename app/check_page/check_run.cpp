@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -59,6 +60,16 @@ assets::JawClicks clicksToFind(const CheckEdits& edits) {
   assets::JawClicks clicks = edits.clicks();
   clicks.voxels.clear();
   return clicks;
+}
+
+/// Without which of a file's clicks it is: here it is the one that was made last.
+std::string ofTheLastClick(const std::string& refusal) {
+  std::string_view words = refusal;
+  constexpr std::string_view kClicks = "clicks: ", kTooth = "tooth click ";
+  if (words.starts_with(kClicks)) words.remove_prefix(kClicks.size());
+  if (const auto end = words.find(": "); words.starts_with(kTooth) && end != std::string_view::npos)
+    words.remove_prefix(end + 2);
+  return std::string(words);
 }
 
 double secondsSince(std::chrono::steady_clock::time_point begun) {
@@ -228,8 +239,9 @@ void CheckRun::step() {
           report_(fmt::format("shown: {} teeth, {} canals", found().teeth.size(), found().canals.size()));
       } else if (menu_.edits().done() > 0) {
         report_(answer->refusal);
-        menu_.refuseLast(answer->refusal);
+        menu_.refuseLast(ofTheLastClick(answer->refusal));
         askIfChanged();
+        showFound();
       } else {
         report_(answer->refusal);
         menu_.say(answer->refusal, true);
