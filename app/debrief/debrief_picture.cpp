@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "app/case/patient_placement.h"
+#include "app/device/second_hand.h"
 #include "app/options/picture_option.h"
 #include "app/rehearsal/file_sight.h"
 #include "app/rehearsal/frame_builder.h"
@@ -102,6 +103,7 @@ void DebriefPicture::showSecondHand(const haptics::Tick& tick) {
   frame_.second_visible = place.has_value();
   if (!place) return;
   frame_.X_PO = place->X_PO;
+  frame_.second_glass = glassOf(place->instrument);
   if (shown_second_ == place->instrument) return;
   shown_second_ = place->instrument;
   renderer_->setSecondInstrument(assets::entryOf(place->instrument).model());

@@ -25,6 +25,8 @@ using calibration::World;
 /// Enough for any display, and the lowest rate of the devices.
 constexpr double kRate_Hz = 500.0;
 
+constexpr char kMouse[] = "mouse";
+
 /// The handle along `z_W`; the instrument's plane of symmetry, x = 0, through `y_W`.
 Pose<World, OtherTool> held(const glm::dvec3& y_W, const glm::dvec3& z_W, const glm::dvec3& position_W) {
   const glm::dvec3 z = glm::normalize(z_W), y = glm::normalize(y_W - glm::dot(y_W, z) * z);
@@ -70,9 +72,22 @@ std::optional<PoseSource> recordedSecondHand(const SecondHandPlan& plan) {
   return source;
 }
 
+PoseSource mouseAt(const Pose<World, OtherTool>& hold, const calibration::Rig& rig) {
+  auto mouse =
+      std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{hold.rotation, hold.translation_mm}, false});
+  PoseSource source;
+  source.mouse = mouse.get();
+  source.device = std::move(mouse);
+  source.name = kMouse;
+  // The mouse's frame D is W.
+  const auto X_PW = rig.X_WP.inverse();
+  source.X_PD = {X_PW.rotation, X_PW.translation_mm};
+  return source;
+}
+
 PoseSource deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
-                    const calibration::Rig& rig) {
-  const Pose<World, OtherTool> hold = holdNextTo(patient, rig, plan.tool);
+                    const calibration::Rig& rig, const Pose<World, OtherTool>& hold) {
+  if (plan.device == kMouse) return mouseAt(hold, rig);
   if (auto recorded = recordedSecondHand(plan)) return std::move(*recorded);
   if (plan.device != "scripted") {
     calibration::Rig others = rig;
@@ -99,21 +114,28 @@ Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
   return held({-0.46 * s, 0.07, 0.79}, {0.85 * s, -0.05, 0.5}, {15.5 * s, 6.5, 6.0});
 }
 
+std::optional<render::MirrorGlass> glassOf(SecondTool tool) {
+  if (tool != SecondTool::mirror) return {};
+  return render::MirrorGlass{assets::mirrorGlassNormal(), assets::kMirrorGlassRadius_mm};
+}
+
 void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device) {
   if (plan.device.empty()) return;
   const bool is_device = haptics::isDeviceAddress(plan.device);
   const PoseSourceKind* const kind = poseSourceKindOf(plan.device);
-  if (plan.device != "scripted" && !(kind && kind->holds_any_tool) && !is_device)
+  if (plan.device != "scripted" && plan.device != kMouse && !(kind && kind->holds_any_tool) && !is_device)
     throw UsageError("--second-hand " + plan.device + ": it cannot hold a " +
                      std::string(assets::entryOf(plan.tool).name) +
-                     ", choose scripted, replay:SESSION or a device of molar devices");
+                     ", choose scripted, mouse, replay:SESSION or a device of molar devices");
   if (plan.device == first_device && is_device)
     throw UsageError("--second-hand " + plan.device + ": the first hand holds this device, name another");
 }
 
 SecondHand::SecondHand(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
                        const calibration::Rig& rig, Ticking ticking)
-    : tool_(plan.tool), device_(deviceOf(plan, options, patient, rig)) {
+    : tool_(plan.tool),
+      hold_(holdNextTo(patient, rig, plan.tool)),
+      device_(deviceOf(plan, options, patient, rig, hold_)) {
   const haptics::DeviceCapabilities& can = device_.device->capabilities();
   name_ = std::string(assets::entryOf(tool_).name) + ", " + device_.name;
   rate_Hz_ = device_.rate_Hz.value_or(std::clamp(kRate_Hz, can.min_rate_Hz, can.max_rate_Hz));
@@ -125,6 +147,14 @@ void SecondHand::stepTo(double t_s) {
   if (due > hand_->ticks()) hand_->step(due - hand_->ticks());
 }
 
+std::optional<Pose<World, OtherTool>> SecondHand::startOfMouse() const {
+  return device_.mouse != nullptr ? std::optional(hold_) : std::nullopt;
+}
+
+void SecondHand::moveMouse(const Pose<World, OtherTool>& X_WO) {
+  if (device_.mouse != nullptr) device_.mouse->setTarget({{X_WO.rotation, X_WO.translation_mm}, false});
+}
+
 void SecondHand::dress(render::FrameRenderer& renderer) const {
   renderer.setSecondInstrument(assets::entryOf(tool_).model());
 }
@@ -133,6 +163,7 @@ void SecondHand::place(render::Frame& frame) {
   const auto state = hand_->newest();
   placed_ = {tool_, state.has_value(), {}};
   frame.second_visible = is_seen_ = state.has_value();
+  frame.second_glass = glassOf(tool_);
   if (!state) return;
   const auto X_PO = device_.X_PD * state->X_DH * device_.X_HT;
   frame.X_PO = placed_.X_PO = {X_PO.rotation, X_PO.translation_mm};

@@ -22,12 +22,15 @@ struct SecondHandPlan {
   SecondTool tool = SecondTool::mirror;
 };
 inline constexpr const char* kSecondHandHelp =
-    "The second hand, seen but not felt: scripted, holding still at the site; replay:SESSION, its second hand or else "
-    "its first; or a device as --device takes it";
+    "The second hand, seen but not felt: scripted, holding still at the site; mouse, while O is held; replay:SESSION, "
+    "its second hand or else its first; or a device as --device takes it";
 
 /// The scripted pose of the instrument: next to the tooth at work, on the side of the tongue. The mirror reflects the
 /// tooth towards the eye; the retractor holds the tongue away.
 calibration::Pose<calibration::World, calibration::OtherTool> scriptedHold(SecondTool tool, bool right_side);
+
+/// What reflects the scene; none: nothing of it does.
+std::optional<render::MirrorGlass> glassOf(SecondTool tool);
 
 /// Throws UsageError for an address that cannot be a second hand.
 void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device);
@@ -45,9 +48,14 @@ class SecondHand {
   /// Stepped only: all its ticks up to this time of the rehearsal.
   void stepTo(double t_s);
 
+  /// Where a mouse begins to move it; none: another device does.
+  std::optional<calibration::Pose<calibration::World, calibration::OtherTool>> startOfMouse() const;
+  /// Frame W of the first view. Of a mouse alone.
+  void moveMouse(const calibration::Pose<calibration::World, calibration::OtherTool>& X_WO);
+
   /// Gives the renderer the instrument.
   void dress(render::FrameRenderer& renderer) const;
-  /// The pose of the instrument; invisible while the device has no valid pose.
+  /// The pose of the instrument and its clear glass; invisible while the device has no valid pose.
   void place(render::Frame& frame);
   /// As placed last, where that is not the same as at the last call: to be recorded.
   std::optional<SecondHandPlace> takeMoved();
@@ -56,6 +64,7 @@ class SecondHand {
 
  private:
   SecondTool tool_;
+  calibration::Pose<calibration::World, calibration::OtherTool> hold_;  ///< scripted
   PoseSource device_;
   std::string name_;
   double rate_Hz_;

@@ -333,7 +333,7 @@ class Rehearsal {
     clarity_.step(newest_, active_command_.inForce().irrigating);
     frame_.field = surgicalField(clarity_);
     frame_.marks = soft_marks_.marks();
-    sight_.followHand(equipment_.secondHand(), frame_);
+    sight_.followHand(equipment_.secondHand(), newest_, active_command_.inForce().irrigating, frame_);
     frame_.pieces = movedPieces(newest_);
     if (locator_ && locator_->follow(newest_, !active_command_.inForce().irrigating))
       event_log_.note(kLocatorEvent, locatorText(locator_->told()));

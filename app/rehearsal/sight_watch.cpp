@@ -19,9 +19,14 @@ void SightWatch::noteEyes(const calibration::Rig& rig) {
   event_log_.note(kEyesEvent, eyesText(eyes));
 }
 
-void SightWatch::followHand(SecondHand* hand, render::Frame& picture) {
+void SightWatch::followHand(SecondHand* hand, const haptics::Tick& newest, bool irrigating, render::Frame& picture) {
   if (hand == nullptr) return;
   hand->place(picture);
+  if (picture.second_glass) {
+    const double away_mm = glm::distance(picture.X_PO.translation_mm, picture.site_P.mm);
+    fog_.step(newest.t_s + newest.dt_s, {away_mm, newest.drilling, irrigating});
+    picture.second_glass->fog = fog_.share();
+  }
   const auto moved = hand->takeMoved();
   if (!moved) return;
   second_hand_ = moved;

@@ -9,6 +9,7 @@
 #include "app/rehearsal/event_log.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/session/eyes_event.h"
+#include "app/session/glass_fog.h"
 #include "app/session/second_hand_event.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
@@ -23,8 +24,8 @@ class SightWatch {
 
   /// Of the frame to be drawn: of one picture for both eyes, they are between them.
   void noteEyes(const calibration::Rig& rig);
-  /// Places the other hand's instrument in the picture; null: there is none.
-  void followHand(SecondHand* hand, render::Frame& picture);
+  /// Places the other hand's instrument in the picture, its glass as breath and spray leave it; null: there is none.
+  void followHand(SecondHand* hand, const haptics::Tick& newest, bool irrigating, render::Frame& picture);
   /// By the newest tick that removes something: not every tick of a cut does. `solid`: jaw and pieces, in the order of
   /// `grid`.
   bool worksOutOfSight(std::span<const haptics::Tick> ticks, const haptics::Command& command,
@@ -35,6 +36,7 @@ class SightWatch {
   EventLog& event_log_;
   std::optional<EyesPlace> eyes_;               ///< as noted last
   std::optional<SecondHandPlace> second_hand_;  ///< alike
+  GlassFog fog_;
 };
 
 }  // namespace app

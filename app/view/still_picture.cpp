@@ -42,7 +42,6 @@ bool areSameFields(const render::SurgicalField& a, const render::SurgicalField& 
 // Fog gathers for seconds.
 bool areSameGlasses(const std::optional<render::MirrorGlass>& a, const std::optional<render::MirrorGlass>& b) {
   constexpr double kSeen = 0.05;
-  [[maybe_unused]] const auto& [out, radius, fog] = a.value_or(render::MirrorGlass{});
   if (!a || !b) return a.has_value() == b.has_value();
   return a->out_O == b->out_O && a->radius_mm == b->radius_mm && std::abs(a->fog - b->fog) < kSeen;
 }
@@ -57,12 +56,6 @@ bool areSameMarks(const render::SoftMarks& a, const render::SoftMarks& b) {
     return std::abs(of_a.share - of_b.share) < kSeen && glm::distance(of_a.place_P.mm, of_b.place_P.mm) < kSeen;
   };
   return std::ranges::equal(a.cuts, b.cuts, is_same_cut) && std::ranges::equal(a.reddened, b.reddened, is_alike);
-}
-
-bool isSameGlass(const std::optional<render::MirrorGlass>& a, const std::optional<render::MirrorGlass>& b) {
-  constexpr double kSeen = 0.1;
-  return a.has_value() == b.has_value() &&
-         (!a || (a->out_O == b->out_O && a->radius_mm == b->radius_mm && std::abs(a->fog - b->fog) < kSeen));
 }
 
 }  // namespace
@@ -92,7 +85,8 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
     return false;
   if (a.tool_visible && !isAtRest(a.X_PT, b.X_PT)) return false;
   if (a.tool_visible && a.layers.ghost_tool && !isAtRest(a.X_PT_at_hand, b.X_PT_at_hand)) return false;
-  if (a.second_visible && (!isAtRest(a.X_PO, b.X_PO) || !isSameGlass(a.second_glass, b.second_glass))) return false;
+  if (a.second_visible && (!isAtRest(a.X_PO, b.X_PO) || a.second_glass.has_value() != b.second_glass.has_value()))
+    return false;
   for (std::size_t n = 0; n < a.pieces.size(); ++n)
     if (a.pieces[n].has_value() != b.pieces[n].has_value() || (a.pieces[n] && !isAtRest(*a.pieces[n], *b.pieces[n])))
       return false;

@@ -13,12 +13,15 @@
 
 #include "app/case/patient_placement.h"
 #include "app/case/patient_source.h"
+#include "app/device/second_hand.h"
 #include "app/view/brick_upload.h"
 #include "app/view/patient_renderer.h"
 #include "assets/instrument/dental_mirror.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
+#include "assets/tooth.h"
 #include "haptics/body/bodies.h"
+#include "render/eye_block.h"
 #include "render/frame_renderer.h"
 #include "render/quality_ladder.h"
 #include "tests/bench/cpu_time.h"
@@ -217,6 +220,22 @@ int main(int count, char** words) {
     f.second_visible = true;
     f.X_PO = {glm::dquat(1, 0, 0, 0), patient.focus_P_mm() + 20.0 * eye_P.xyz};
   });
+  {
+    // As the scripted hand holds it: the tooth is seen in it.
+    const auto hold = app::scriptedHold(app::SecondTool::mirror, assets::isRight(patient.operatedTooth()));
+    const auto X_PW = rig.X_WP.inverse();
+    frame.second_visible = true;
+    frame.X_PO = {X_PW.rotation * hold.rotation, patient.focus_P_mm() + X_PW.rotation * hold.translation_mm};
+    const double metal_ms = measure("the mirror at the tooth, as metal", *renderer, frame, frames);
+    without("what it reflects", [](render::Frame& f) { f.second_glass = app::glassOf(app::SecondTool::mirror); });
+    render::Frame reflecting = frame;
+    reflecting.second_glass = app::glassOf(app::SecondTool::mirror);
+    const double glass_ms = measure("the same again", *renderer, reflecting, frames);
+    const auto box = render::glassBox(reflecting, render::eyeView(rig, render::Eye::cyclopean), px);
+    std::printf("a mirror that reflects: %.2f of one that does not; box of the glass %.1f %% of the picture\n",
+                glass_ms / metal_ms, 100.0 * box.size_px.x * box.size_px.y / (px.x * px.y));
+    frame.second_visible = false;
+  }
   renderer->setSecondInstrument({});
   measurePiece(patient, *renderer, frame, frames);
   renderer->setGuides({});
