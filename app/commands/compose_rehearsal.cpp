@@ -269,6 +269,9 @@ void chooseDevices(RehearseOptions& options) {
         "--instructor: its window cannot open in a run without windows, leave out --instructor or --headless");
   if (plan.headless && plan.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
+  if (plan.headless && plan.second_hand.device == "mouse")
+    throw UsageError(
+        "--second-hand mouse: there is no mouse without a window, choose scripted or leave --headless out");
   refuseUnlessPoseSource(plan.device);
   options.rig.refuseUnlessReadable();
   if (options.pace == "fast") {

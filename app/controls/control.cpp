@@ -14,7 +14,7 @@
 namespace app {
 namespace {
 
-constexpr std::array<KeyMeaning, 8> kMovements = {{
+constexpr std::array<KeyMeaning, 9> kMovements = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
     {"Wheel", "away from you: in (root canal: along the tool)"},
@@ -23,6 +23,7 @@ constexpr std::array<KeyMeaning, 8> kMovements = {{
     {"Right drag", "turn the view (on a desk)"},
     {"Arrows", "tilt the handpiece"},
     {"Q, E", "rotate the handpiece, twist an elevator"},
+    {"O held", "mouse and arrows move the second hand"},
 }};
 
 constexpr bool isInOrder() {

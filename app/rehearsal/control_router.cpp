@@ -36,6 +36,8 @@ ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, Ac
       desk_view_(plan.rig, plan.rig.X_WP * calibration::Point<calibration::Patient>{plan.patient.focus_P_mm()}),
       script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {
   if (plan.procedure_steps && plan.procedure_steps->asks) prediction_.open();
+  if (SecondHand* const other = equipment.secondHand())
+    if (const auto start = other->startOfMouse()) other_hand_.emplace(*start, equipment.mouse() == nullptr);
 }
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
@@ -146,9 +148,10 @@ void ControlRouter::readWindow(render::Frame& frame) {
         desk_view_.turn(moved->by_px);
         showDeskView(frame);
       }
-      input_.take(event, mm_per_px);
+      if (!other_hand_ || !other_hand_->take(event, mm_per_px)) input_.take(event, mm_per_px);
     }
   }
+  if (other_hand_) equipment_.secondHand()->moveMouse(other_hand_->X_WO());
   if (haptics::MouseDevice* const mouse = equipment_.mouse())
     mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
 }
@@ -254,6 +257,7 @@ void ControlRouter::showDeskView(render::Frame& frame) {
   frame.rig.screen.px = px;
   frame.face_window_mm = std::max(plan_.face_window_mm, desk_view_.faceWindow_mm());
   input_.setView(desk_view_.rotation());
+  if (other_hand_) other_hand_->setView(desk_view_.rotation());
 }
 
 bool ControlRouter::isTakenByPrediction(const render::WindowEvent& event) {

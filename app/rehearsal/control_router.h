@@ -13,6 +13,7 @@
 #include "app/controls/end_question.h"
 #include "app/controls/hand_input.h"
 #include "app/controls/held_press.h"
+#include "app/controls/other_hand_input.h"
 #include "app/controls/prediction_question.h"
 #include "app/controls/tool_ring.h"
 #include "app/instructor/instructor_window.h"
@@ -90,6 +91,7 @@ class ControlRouter {
   HeadUp& head_up_;
   EventLog& event_log_;
   HandInput input_;
+  std::optional<OtherHandInput> other_hand_;  ///< where a mouse moves it
   EndQuestion end_question_;
   PredictionQuestion prediction_;
   int steps_ = 0;

@@ -25,7 +25,7 @@ SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
           .eyes_swapped = plan.eyes_swapped,
           .backend = plan.backend,
           .headless = plan.headless,
-          .needs_window = plan.device == "mouse"};
+          .needs_window = plan.device == "mouse" || plan.second_hand.device == "mouse"};
 }
 
 LiveView::LiveView(RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,

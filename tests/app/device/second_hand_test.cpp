@@ -109,7 +109,7 @@ TEST(SecondHand, IsRecordedWhereItMovedAndReplayedFromThere) {
 }
 
 TEST(SecondHand, RefusesASourceThatCannotHoldAnInstrument) {
-  for (const char* device : {"mouse", "simulated", "simulated:omni", "nonsense"})
+  for (const char* device : {"simulated", "simulated:omni", "nonsense"})
     EXPECT_THROW(refuseUnlessSecondHand({device, SecondTool::mirror}, "scripted"), UsageError) << device;
   EXPECT_THROW(refuseUnlessSecondHand({"wooden:1-2", SecondTool::mirror}, "wooden:1-2"), UsageError);
   try {
@@ -118,8 +118,48 @@ TEST(SecondHand, RefusesASourceThatCannotHoldAnInstrument) {
   } catch (const UsageError& refused) {
     EXPECT_TRUE(std::string(refused.what()).starts_with("practice:Z: ")) << "it is nobody's --device";
   }
-  for (const char* device : {"", "scripted", "replay:s.molar", "wooden:1-2", "openhaptics:Left"})
+  for (const char* device : {"", "scripted", "mouse", "replay:s.molar", "wooden:1-2", "openhaptics:Left"})
     EXPECT_NO_THROW(refuseUnlessSecondHand({device, SecondTool::retractor}, "wooden:1-3")) << device;
+}
+
+TEST(SecondHand, OfAMouseBeginsAtTheSiteAndGoesWhereTheMouseMovesIt) {
+  const assets::Patient jaw = patient(true);
+  const calibration::Rig rig = rigAround(jaw);
+  SecondHand hand({"mouse", SecondTool::mirror}, {}, jaw, rig, Ticking::stepped);
+  EXPECT_EQ(hand.name(), "mirror, mouse");
+  auto held = hand.startOfMouse().value();
+  hand.start();
+  hand.stepTo(0.01);
+  render::Frame frame;
+  const auto away_mm = [&] {
+    hand.place(frame);
+    EXPECT_TRUE(frame.second_visible);
+    const auto X_WO = rig.X_WP * frame.X_PO;
+    return glm::distance(X_WO.translation_mm, held.translation_mm) +
+           (1.0 - std::abs(glm::dot(X_WO.rotation, held.rotation)));
+  };
+  EXPECT_LT(away_mm(), 1e-6);
+  held.translation_mm += glm::dvec3(12.0, -3.0, 5.0);
+  held.rotation = glm::normalize(glm::angleAxis(0.4, glm::dvec3(0, 1, 0)) * held.rotation);
+  hand.moveMouse(held);
+  EXPECT_GT(away_mm(), 1.0);
+  hand.stepTo(3.0);
+  EXPECT_LT(away_mm(), 0.01);
+  EXPECT_FALSE(SecondHand({"scripted", SecondTool::mirror}, {}, jaw, rig, Ticking::stepped).startOfMouse());
+}
+
+TEST(SecondHand, TheGlassOfAMirrorReflectsAndARetractorDoesNot) {
+  const assets::Patient jaw = patient(true);
+  for (const SecondTool tool : kTools) {
+    SecondHand hand({"scripted", tool}, {}, jaw, rigAround(jaw), Ticking::stepped);
+    render::Frame frame;
+    hand.place(frame);
+    ASSERT_EQ(frame.second_glass.has_value(), tool == SecondTool::mirror);
+    if (!frame.second_glass) continue;
+    // The plane that the measures of sight count with.
+    EXPECT_EQ(frame.second_glass->out_O, assets::mirrorGlassNormal());
+    EXPECT_EQ(frame.second_glass->radius_mm, assets::kMirrorGlassRadius_mm);
+  }
 }
 
 TEST(SecondHand, IsHeldAtTheCentreOfTheViewWithoutASite) {
