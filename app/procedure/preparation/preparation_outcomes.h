@@ -1,0 +1,53 @@
+// What a tooth preparation has come to against its ideal: P1 to P9 (reference/sisters 5.3), raw millimetres first, no
+// single mark. From the tooth before and after. Frame P, mm. Any thread but the servo's; the ideal of a molar at 0.05
+// mm some 1.5 s once, the outcomes some 0.5 s.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/procedure/preparation/cavity_form.h"
+#include "app/procedure/preparation/deviation.h"
+#include "app/procedure/preparation/margin_line.h"
+#include "app/procedure/preparation/removed_material.h"
+#include "app/procedure/preparation/undercut.h"
+
+namespace app {
+
+struct PreparationOutcomes {
+  RemovedMaterial removed;                      ///< P1, P7
+  Deviation deviation;                          ///< P2, P8
+  std::optional<WallForm> walls;                ///< P3, P6: crowns
+  std::optional<MarginLine> margin;             ///< P4: crowns
+  std::optional<InsertionWay> axis, insertion;  ///< P5: crowns, along the tooth's axis and along the best way
+  double deepest_undercut_mm = 0.0;             ///< P5: square to the wall; below 0.02 mm it is the voxels' roughness
+  std::optional<CavityForm> cavity;             ///< P9: cavities
+};
+
+/// The tooth and its ideal, measured as often as wanted.
+class PreparationMeasure {
+ public:
+  /// Throws UsageError, beginning with `option`, where the tooth is too small for its ideal.
+  PreparationMeasure(Crown crown, const IdealRule& rule, const std::string& option);
+  PreparationMeasure(const PreparationMeasure&) = delete;
+  PreparationMeasure& operator=(const PreparationMeasure&) = delete;
+
+  /// `made`: of the same fine grid.
+  PreparationOutcomes outcomesOf(const FineSolid& made) const {
+    return outcomesOf(BoxBytes(made, crown_.solid.grid()));
+  }
+  PreparationOutcomes outcomesOf(const BoxBytes& made) const;
+
+  const Crown& crown() const { return crown_; }
+  const BoxBytes& ideal() const { return ideal_; }
+  const IdealRule& rule() const { return rule_.rule(); }
+
+ private:
+  Crown crown_;
+  PreparedIdeal rule_;
+  BoxBytes ideal_;
+  std::optional<StumpWalls> walls_before_;  ///< crowns
+  IdealDistance distance_;
+};
+
+}  // namespace app

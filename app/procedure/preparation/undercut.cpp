@@ -1,0 +1,107 @@
+#include "app/procedure/preparation/undercut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "assets/tissue.h"
+
+namespace app {
+namespace {
+
+constexpr double kLeastColumn_mm = 0.1;
+/// Room for columns that lean: 5 degrees over a crown of 10 mm.
+constexpr double kAside_mm = 1.2;
+constexpr double kCone_rad = 5.0 * std::numbers::pi / 180.0;
+/// Less is no reason to leave the tooth's axis.
+constexpr double kWorth_mm3 = 0.01;
+
+}  // namespace
+
+CrownColumns::CrownColumns(const Crown& crown, const BoxBytes& solid, double margin_mm)
+    : column_mm_(std::max(kLeastColumn_mm, solid.grid().spacing_mm)),
+      step_mm_(solid.grid().spacing_mm),
+      low_mm_(-crown.reach_mm - kAside_mm),
+      side_(static_cast<int>(-2.0 * low_mm_ / column_mm_)),
+      levels_(std::max(1, static_cast<int>(std::ceil((crown.top_mm - margin_mm) / step_mm_)))),
+      bytes_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) * static_cast<std::size_t>(levels_)) {
+  std::size_t v = 0;
+  for (int level = 0; level < levels_; ++level)
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x, ++v) {
+        const glm::dvec3 p_P = crown.frame.inP(
+            {low_mm_ + (x + 0.5) * column_mm_, low_mm_ + (y + 0.5) * column_mm_, margin_mm + (level + 0.5) * step_mm_});
+        if (crown.label.nearest(p_P) == static_cast<std::uint8_t>(assets::Tissue::other_teeth)) continue;
+        bytes_[v] = static_cast<std::uint8_t>(255.0 * solid.at(p_P) + 0.5);
+      }
+}
+
+double CrownColumns::undercut_mm3(const glm::dvec2& lean) const {
+  std::vector<float> most(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0.0F);
+  const int aside = static_cast<int>(kAside_mm / column_mm_) - 1;
+  double lost = 0.0;
+  for (int level = levels_ - 1; level >= 0; --level) {
+    // The columns lean: at this level they stand aside by a whole number of cells and a share.
+    const glm::dvec2 shift = lean * (static_cast<double>(level) * step_mm_ / column_mm_);
+    const glm::ivec2 cells(glm::floor(shift));
+    const glm::vec2 share(shift - glm::dvec2(cells));
+    const float w00 = (1.0F - share.x) * (1.0F - share.y), w10 = share.x * (1.0F - share.y);
+    const float w01 = (1.0F - share.x) * share.y, w11 = share.x * share.y;
+    float sum = 0.0F;
+    for (int y = aside; y < side_ - aside; ++y)
+      for (int x = aside; x < side_ - aside; ++x) {
+        const int a = x + cells.x, b = y + cells.y;
+        const float w = w00 * at(a, b, level) + w10 * at(a + 1, b, level) + w01 * at(a, b + 1, level) +
+                        w11 * at(a + 1, b + 1, level);
+        float& so_far = most[static_cast<std::size_t>(y * side_ + x)];
+        if (w > so_far)
+          so_far = w;
+        else
+          sum += so_far - w;
+      }
+    lost += static_cast<double>(sum);
+  }
+  return lost / 255.0 * column_mm_ * column_mm_ * step_mm_;
+}
+
+std::vector<float> CrownColumns::undercutMap_mm() const {
+  std::vector<float> map(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0.0F);
+  std::vector<std::uint8_t> most(map.size(), 0);
+  for (int level = levels_ - 1; level >= 0; --level)
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x) {
+        const std::uint8_t w = at(x, y, level);
+        std::uint8_t& so_far = most[static_cast<std::size_t>(y * side_ + x)];
+        if (w > so_far)
+          so_far = w;
+        else
+          map[static_cast<std::size_t>(y * side_ + x)] += static_cast<float>((so_far - w) / 255.0 * step_mm_);
+      }
+  return map;
+}
+
+InsertionWay bestInsertion(const CrownColumns& columns) {
+  const auto wayOf = [&](const glm::dvec2& lean) {
+    return InsertionWay{lean, std::atan(glm::length(lean)), columns.undercut_mm3(lean)};
+  };
+  const InsertionWay axis = wayOf(glm::dvec2(0.0));
+  InsertionWay best = axis;
+  const double rim = std::tan(kCone_rad);
+  // A compass search: from the axis, halving the step where no neighbour is better.
+  for (double step = 0.5 * rim; step > 0.05 * rim;) {
+    InsertionWay better = best;
+    for (const glm::dvec2& way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      const glm::dvec2 lean = best.lean + step * way;
+      if (glm::length(lean) > rim + 1e-9) continue;
+      if (const InsertionWay one = wayOf(lean); one.undercut_mm3 < better.undercut_mm3) better = one;
+    }
+    if (better.undercut_mm3 < best.undercut_mm3)
+      best = better;
+    else
+      step *= 0.5;
+  }
+  return axis.undercut_mm3 - best.undercut_mm3 < kWorth_mm3 ? axis : best;
+}
+
+}  // namespace app

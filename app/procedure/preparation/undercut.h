@@ -1,0 +1,50 @@
+// P5: what a crown could not be put over (reference/sisters 5.3). Column by column along the way of insertion, from the
+// bite to the margin: the most that was met so far, less what is there. And the way of insertion within 5 degrees of
+// the tooth's axis with the least of it. The crown is sampled once in the tooth's frame. mm, rad. Any thread; some
+// 0.2 s to sample, 10 ms a way.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/procedure/preparation/crown.h"
+
+namespace app {
+
+class CrownColumns {
+ public:
+  /// From the margin to the top; `solid`: the crown as it is.
+  CrownColumns(const Crown& crown, const BoxBytes& solid, double margin_mm);
+
+  /// Of a way whose slopes are `lean` a mm towards the bite, to mesial and to the cheek.
+  double undercut_mm3(const glm::dvec2& lean) const;
+  /// The same by place of a column, mm; row by row, rows() of them.
+  std::vector<float> undercutMap_mm() const;
+
+  int side() const { return side_; }
+  double column_mm() const { return column_mm_; }
+  double low_mm() const { return low_mm_; }
+
+ private:
+  std::uint8_t at(int x, int y, int level) const {
+    return bytes_[(static_cast<std::size_t>(level) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(y)) *
+                      static_cast<std::size_t>(side_) +
+                  static_cast<std::size_t>(x)];
+  }
+
+  double column_mm_, step_mm_, low_mm_;
+  int side_ = 0, levels_ = 0;
+  std::vector<std::uint8_t> bytes_;
+};
+
+struct InsertionWay {
+  glm::dvec2 lean{0.0};  ///< slopes to mesial and to the cheek
+  double off_axis_rad = 0.0;
+  double undercut_mm3 = 0.0;
+};
+
+/// Columns for the search, and what is found told by finer ones. The tooth's axis itself where nothing is better by
+/// more than the last digit.
+InsertionWay bestInsertion(const CrownColumns& columns);
+
+}  // namespace app
