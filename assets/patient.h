@@ -9,6 +9,7 @@
 #include "assets/ct_volume.h"
 #include "assets/mesh.h"
 #include "assets/operative_site.h"
+#include "assets/prepared_tooth.h"
 #include "assets/proposed.h"
 #include "assets/tooth_canals.h"
 #include "calibration/geometry/frames.h"
@@ -34,6 +35,7 @@ struct Patient {
   Classification classification;
   std::optional<OperativeSite> site;              ///< none: no suitable tooth is labelled
   std::optional<ToothCanals> canals;              ///< of the tooth that the volume holds, for root-canal treatment
+  std::optional<PreparedTooth> prepared;          ///< for a restoration; the volume holds it and its neighbours
   glm::dvec3 jaw_P_mm{0.0};                       ///< centre of the lower jaw, or of all solid
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, empty if unknown
   double mandibular_canal_radius_mm = 1.4;
@@ -56,7 +58,10 @@ struct Patient {
   /// Centre of the view.
   glm::dvec3 focus_P_mm() const { return site ? site->centre_P_mm : jaw_P_mm; }
   /// Decides the patient's position; the default site where none is known.
-  int operatedTooth() const { return site ? site->fdi : canals ? canals->fdi : OperativeSite{}.fdi; }
+  int operatedTooth() const {
+    if (prepared) return prepared->fdi;
+    return site ? site->fdi : canals ? canals->fdi : OperativeSite{}.fdi;
+  }
 };
 
 }  // namespace assets

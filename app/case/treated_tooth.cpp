@@ -73,12 +73,12 @@ assets::DamHole damHole(const assets::CtVolume& ct, const assets::ToothFrame& fr
   return hole;
 }
 
+}  // namespace
+
 std::int16_t greyOf(std::uint8_t solid, std::uint8_t label) {
   constexpr double kAir_HU = -1000.0;
   return static_cast<std::int16_t>(glm::mix(kAir_HU, assets::properties(label).hounsfield, solid / 255.0));
 }
-
-}  // namespace
 
 bool isRoofOpen(const assets::ToothCanals& tooth, const assets::CtVolume& ct) {
   constexpr double kOverRoof_mm = 0.5;
@@ -146,8 +146,8 @@ assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCa
   return patient;
 }
 
-assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
-                             bool is_open, const std::string& option, double spacing_mm) {
+FineTooth fineToothAlone(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
+                         double spacing_mm, const std::string& option) {
   const std::vector<CanalTooth> teeth = jaw ? canalTeeth(*jaw) : canalTeeth(whole.ct);
   const auto found = std::ranges::find(teeth, fdi, &CanalTooth::fdi);
   if (found == teeth.end())
@@ -157,11 +157,16 @@ assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<a
   if (!found->canals || (jaw && !found->remark.empty()))
     throw UsageError(fmt::format("{} {}: {}, choose another, see molar teeth", option, fdi, found->remark));
   try {
-    const auto fine = fineTooth(withoutNeighbours(whole.ct, fdi), jaw, *found->canals, spacing_mm);
-    return treatedTooth(whole, *found->canals, *fine, is_open);
+    return {*found->canals, fineTooth(withoutNeighbours(whole.ct, fdi), jaw, *found->canals, spacing_mm)};
   } catch (const assets::LoadError& error) {
     throw UsageError(fmt::format("{} {}: {}", option, fdi, error.what()));
   }
+}
+
+assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
+                             bool is_open, const std::string& option, double spacing_mm) {
+  const FineTooth tooth = fineToothAlone(whole, jaw, fdi, spacing_mm, option);
+  return treatedTooth(whole, tooth.canals, *tooth.fine, is_open);
 }
 
 }  // namespace app

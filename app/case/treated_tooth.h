@@ -2,6 +2,7 @@
 // rubber dam, in the head it belongs to. Frame P, mm. Start-up only; about a second, 4 bytes a voxel.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,18 @@ assets::Patient treatedTooth(const assets::Patient& whole, const std::optional<a
 
 /// No tooth over the middle of the chamber's roof.
 bool isRoofOpen(const assets::ToothCanals& tooth, const assets::CtVolume& ct);
+
+/// A tooth of a patient on a fine grid, without its neighbours.
+struct FineTooth {
+  assets::ToothCanals canals;
+  std::unique_ptr<assets::ToothSampler> fine;
+};
+/// Throws UsageError, beginning with `option`, as treatedTooth() does.
+FineTooth fineToothAlone(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
+                         double spacing_mm, const std::string& option);
+
+/// Of a voxel of some tissue that is solid in part, Hounsfield.
+std::int16_t greyOf(std::uint8_t solid, std::uint8_t label);
 
 /// Signed distance to the access cavity of a tooth, negative inside, in the tooth's frame: the chamber's outline, drawn
 /// out towards the bite and a little wider there.

@@ -36,7 +36,7 @@ namespace app {
 namespace {
 
 constexpr double kForeignFaceWindow_mm = 24.0;
-constexpr double kUsualLoupes = 4.0, kMicroscope = 10.0;  ///< magnification on a desk
+constexpr double kUsualLoupes = 4.0, kPreparationLoupes = 6.0, kMicroscope = 10.0;  ///< magnification on a desk
 
 /// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
 /// is the rig's, or else has the operated tooth at the origin of W.
@@ -49,7 +49,9 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
     const glm::ivec2 default_px = options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800);
     rig = calibration::desktopRig(
         options.size.empty() ? default_px : imageSize(options.size),
-        calibration::kDeskMonitorWidth_mm / options.loupes.value_or(isRootCanal(options) ? kMicroscope : kUsualLoupes));
+        calibration::kDeskMonitorWidth_mm / options.loupes.value_or(isRootCanal(options)     ? kMicroscope
+                                                                    : isPreparation(options) ? kPreparationLoupes
+                                                                                             : kUsualLoupes));
   }
   if (options.position && !hasNoPatientPose(rig))
     throw UsageError("--position " + *options.position + ": the rig states the pose of the head (X_WP), leave it out");
@@ -213,6 +215,11 @@ void chooseTools(RehearseOptions& options) {
       options.tools.push_back(std::string("k-file:") + size + ",25");
     return;
   }
+  if (isPreparation(options)) {
+    // Round-ended and flat-ended diamonds for walls and margin, a round one for the biting surface, one for grooves.
+    options.tools = {"capsule:0.6,6", "cylinder:0.5,5", "round:1.6", "cylinder:0.4,3"};
+    return;
+  }
   if (const auto task = practiceOf(options))
     options.tools = *task == assets::PracticeTask::plate ? std::vector<std::string>{"round:3.0", "round:2.0"}
                                                          : std::vector<std::string>{"round:2.0", "round:3.0"};
@@ -252,7 +259,7 @@ void chooseCommand(RehearseOptions& options) {
   }
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
-  if (isRootCanal(options)) chooseHighSpeed(options);
+  if (isRootCanal(options) || isPreparation(options)) chooseHighSpeed(options);
   plan.command.wear.law = options.wear == "counters"           ? haptics::WearLaw::counters
                           : options.wear == "counters-helical" ? haptics::WearLaw::counters_helical
                                                                : haptics::WearLaw::wear;
@@ -331,6 +338,12 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.access = "open";  // its cavity is as it was left
       refuseUnlessForRootCanal(options);
     }
+    if (const auto& prepared = former->setup.prepared) {
+      options.task = "preparation";
+      options.tooth = prepared->fdi;
+      options.ideal = prepared->ideal;
+      refuseUnlessForPreparation(options);
+    }
     plan.drawn = former->drawn;
     if (former->setup.isImported() && options.patient.empty())
       throw UsageError("--continue " + former->path +
@@ -378,6 +391,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   const bool are_tools_named = options.tools != kUntouched.tools;
   const std::optional<assets::PracticeTask> block = practiceOf(options);
   if (isRootCanal(options)) refuseUnlessForRootCanal(options);
+  if (isPreparation(options)) refuseUnlessForPreparation(options);
   if (block) {
     refuseUnlessForBlock(options);
     plan.instruction = assets::textOf(*block).instruction;

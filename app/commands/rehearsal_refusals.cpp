@@ -49,19 +49,20 @@ void refuseUnlessForBlock(const RehearseOptions& options) {
   if (options.opening_mm) throw UsageError("--opening:" + on);
 }
 
-void refuseUnlessForRootCanal(const RehearseOptions& options) {
-  const std::string with = " is of an extraction, leave it or --task root-canal out";
+/// A task of one tooth, whose tooth is named and that is no extraction.
+static void refuseUnlessForOneTooth(const RehearseOptions& options) {
+  const std::string task = "--task " + options.task, with = " is of an extraction, leave it or " + task + " out";
   if (!options.tooth)
-    throw UsageError(
-        "--task root-canal: which tooth? give its FDI number with --tooth, molar teeth lists them, or leave --headless "
-        "out and point at it");
+    throw UsageError(task + ": which tooth? give its FDI number with --tooth, molar teeth lists them" +
+                     (options.task == "root-canal" ? ", or leave --headless out and point at it" : ""));
   if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + with);
   if (options.flap == "closed") throw UsageError("--flap closed:" + with);
   if (!options.drawn.empty()) throw UsageError("--drawn " + options.drawn + ":" + with);
   if (!options.case_name.empty() && assets::practiceTaskOf(options.case_name))
-    throw UsageError("--case " + options.case_name +
-                     ": a practice block has no tooth, leave it or --task root-canal out");
+    throw UsageError("--case " + options.case_name + ": a practice block has no tooth, leave it or " + task + " out");
 }
+
+void refuseUnlessForRootCanal(const RehearseOptions& options) { refuseUnlessForOneTooth(options); }
 
 void refuseTooWide(const RehearsalPlan& plan) {
   const assets::ToothCanals& tooth = *plan.patient.canals;
@@ -74,6 +75,12 @@ void refuseTooWide(const RehearsalPlan& plan) {
           fmt::format("--tool k-file:{},{:g}: its tip is wider than the widest orifice of tooth {}, {:.2f} mm, choose "
                       "a smaller one",
                       tool.file.size, tool.file.length_mm, tooth.fdi, widest_mm));
+}
+
+void refuseUnlessForPreparation(const RehearseOptions& options) {
+  refuseUnlessForOneTooth(options);
+  if (options.plan.device == "scripted")
+    throw UsageError("--device scripted: no hand knows how to prepare a tooth, give mouse or poses:FILE.csv");
 }
 
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {

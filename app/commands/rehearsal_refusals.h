@@ -19,6 +19,8 @@ void refuseUnlessForBlock(const RehearseOptions& options);
 void refuseUnlessForRootCanal(const RehearseOptions& options);
 /// A file on the tray that no orifice of the patient's tooth takes.
 void refuseTooWide(const RehearsalPlan& plan);
+/// What belongs to another task, or asks for a hand that there is none of.
+void refuseUnlessForPreparation(const RehearseOptions& options);
 /// Lines of another case lie anywhere.
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct);
 /// Whatever would help, or leave something unrecorded.

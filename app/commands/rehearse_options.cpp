@@ -8,6 +8,7 @@
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/tool_text.h"
+#include "app/procedure/preparation/ideal_rule.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/station/patient_list.h"
 #include "app/text/list.h"
@@ -44,9 +45,18 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   built_in("--voxel", options.jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
   built_in("--seed", options.jaw.seed, "number that varies its shape");
   Option task = command.option("--task", options.task,
-                               "extraction; or root-canal: one tooth, its canals, burs for the access and K-files");
-  task.oneOf({"extraction", "root-canal"}).showsDefault();
-  command.option("--tooth", options.tooth, "The tooth of a root-canal treatment, FDI number, see molar teeth")
+                               "extraction; or root-canal: one tooth, its canals, burs for the access and K-files; or "
+                               "preparation: one tooth is prepared for a crown or a filling");
+  task.oneOf({"extraction", "root-canal", "preparation"}).showsDefault();
+  std::vector<std::string> ideals;
+  for (const IdealRule& rule : idealRules()) ideals.emplace_back(rule.name);
+  command.option("--ideal", options.ideal, "Of a preparation: what it is measured against")
+      .oneOf(ideals)
+      .showsDefault()
+      .needs(task);
+  command
+      .option("--tooth", options.tooth,
+              "The tooth of a root-canal treatment or a preparation, FDI number, see molar teeth")
       .wholeFrom(11, 48)
       .needs(task);
   command.option("--access", options.access, "closed: the crown is whole; open: the access cavity is cut, files go in")

@@ -25,7 +25,8 @@ struct RehearseOptions {
   std::string side = "right", second_tool = "mirror", case_name, procedure, guidance, predict, drawn, coach,
               flap = "raised";
   std::string task = "extraction", access = "closed", locator = "real", wear = "rate";
-  std::optional<int> tooth;  ///< of a root-canal treatment
+  std::string ideal = "crown:all-ceramic";  ///< of a tooth preparation
+  std::optional<int> tooth;                 ///< of a root-canal treatment or a preparation
   bool list_cases = false, assess = false;
   PictureOption picture;
   std::vector<std::string> settings;

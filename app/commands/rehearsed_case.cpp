@@ -10,6 +10,7 @@
 #include "app/case/handpiece_direction.h"
 #include "app/case/impaction_class.h"
 #include "app/case/patient_source.h"
+#include "app/case/prepared_tooth.h"
 #include "app/case/soft_tissue_source.h"
 #include "app/case/treated_tooth.h"
 #include "app/case/trough_plan.h"
@@ -72,6 +73,13 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
     one.patient = treatedTooth(one.patient, built_in, *options.tooth, options.access == "open", "--tooth");
     return one;
   }
+  if (isPreparation(options)) {
+    const auto built_in = options.patient.empty() ? std::optional(jaw) : std::nullopt;
+    one.patient = preparedTooth(one.patient, built_in, *options.tooth, options.ideal, "--tooth");
+    one.soft_tissue =
+        softTissueAround(one.patient.gingiva, one.patient.face, assets::SoftTissueRegion{one.patient.focus_P_mm()});
+    return one;
+  }
   if (options.flap == "closed") {
     auto gum = closedGum(one.patient);
     if (!gum)
@@ -103,11 +111,13 @@ std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options) {
 }
 
 bool isRootCanal(const RehearseOptions& options) { return options.task == "root-canal"; }
+bool isPreparation(const RehearseOptions& options) { return options.task == "preparation"; }
 
 assets::JawParameters jawOf(const RehearseOptions& options) {
   assets::JawParameters jaw = options.jaw;
   // The jaw has the teeth of one side: that of the tooth that is asked for.
-  jaw.right_side = isRootCanal(options) && options.tooth ? assets::isRight(*options.tooth) : options.side == "right";
+  jaw.right_side =
+      options.task != "extraction" && options.tooth ? assets::isRight(*options.tooth) : options.side == "right";
   if (options.case_name.empty() || practiceOf(options)) return jaw;
   jaw = caseNamed(options.case_name)->jaw;
   jaw.spacing_mm = options.jaw.spacing_mm;

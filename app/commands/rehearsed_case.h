@@ -16,6 +16,7 @@ namespace app {
 std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options);
 /// Of one tooth; else of the third molar's extraction.
 bool isRootCanal(const RehearseOptions& options);
+bool isPreparation(const RehearseOptions& options);
 /// A named case, or the built-in patient's single options; the voxels and the seed are asked for by themselves.
 assets::JawParameters jawOf(const RehearseOptions& options);
 /// Prepared while the surgeon's windows show the progress. False: cancelled.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/review/preparation_review.h"
 #include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
 #include "app/review/treatment_text.h"
@@ -117,11 +118,13 @@ void addReplay(CommandLine& molar) {
   });
 }
 
-/// Throws UsageError: no canals in it.
-static void drawTreated(const std::string& session, const std::optional<TreatmentOfSession>& treated,
-                        calibration::OutputFile& out) {
-  if (!treated) throw UsageError("--sections: " + session + " is no finished root-canal treatment, leave it out");
-  const render::Image picture = treatmentSections(*treated);
+/// Throws UsageError: no single tooth in it.
+static void drawOutcome(const std::string& session, const std::optional<TreatmentOfSession>& treated,
+                        const std::optional<PreparationOfSession>& prepared, calibration::OutputFile& out) {
+  if (!treated && !prepared)
+    throw UsageError("--sections: " + session +
+                     " is no finished root-canal treatment nor preparation of a tooth, leave it out");
+  const render::Image picture = treated ? treatmentSections(*treated) : prepared->picture;
   calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   out.commit();
 }
@@ -137,8 +140,10 @@ void addMetrics(CommandLine& molar) {
   auto sections = std::make_shared<std::string>();
   auto force = std::make_shared<bool>(false);
   command
-      .option("--sections", *sections,
-              "Of root canals: a picture of their sections at 1, 3, 5 and 7 mm, before and after")
+      .option(
+          "--sections", *sections,
+          "Of root canals: a picture of their sections at 1, 3, 5 and 7 mm, before and after; of a preparation: its "
+          "deviation from the ideal, and sections")
       .valueNamed("FILE.png");
   command.flag("--force", *force, "Replace the picture if it exists");
   command.footer(measuresHelp() +
@@ -150,7 +155,8 @@ void addMetrics(CommandLine& molar) {
     std::optional<calibration::OutputFile> picture;
     if (!sections->empty()) picture.emplace(*sections, *force);
     const std::optional<TreatmentOfSession> treated = treatmentOfSession(sessionNamed(*session));
-    if (picture) drawTreated(*session, treated, *picture);
+    const std::optional<PreparationOfSession> prepared = preparationOfSession(sessionNamed(*session));
+    if (picture) drawOutcome(*session, treated, prepared, *picture);
     SessionMetrics metrics = metricsOf(sessionNamed(*session), caseOfSession);
     if (set) {
       tellAgainst(metrics, *set);
@@ -163,9 +169,15 @@ void addMetrics(CommandLine& molar) {
       json["root_canals"] = nlohmann::ordered_json::parse(treatmentJson(*treated));
       if (!isConfirmed("root_canals", metrics.proposed)) json["not_confirmed"]["keys"].push_back("root_canals");
       text = json.dump(2) + "\n";
+    } else if (prepared && *as_json) {
+      nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+      json["preparation"] = nlohmann::ordered_json::parse(preparationJson(*prepared));
+      text = json.dump(2) + "\n";
     } else if (treated) {
       if (!isConfirmed("root_canals", metrics.proposed)) text += "of the root canals (not confirmed):\n";
       text += treatmentTable(*treated);
+    } else if (prepared) {
+      text += preparationTable(*prepared);
     }
     std::fputs(text.c_str(), stdout);
     return 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assets/operative_site.h"
+#include "assets/prepared_tooth.h"
 #include "assets/proposed.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/tooth_canals.h"
@@ -33,9 +34,10 @@ struct SessionSetup {
   std::optional<assets::OperativeSite> site;      ///< none: no such tooth, or recorded before it was stored
   std::vector<glm::dvec3> canal_P_mm;             ///< centre line of the mandibular canal; empty: as `site`
   double canal_radius_mm = 0.0;
-  std::optional<assets::ToothCanals> canals;  ///< of the tooth of a root-canal treatment; none: another operation
-  assets::Proposed proposed;                  ///< nobody had confirmed it when it was recorded
-  std::optional<glm::dvec3> down_P;           ///< unit, along gravity as the patient lay; none: as `site`
+  std::optional<assets::ToothCanals> canals;      ///< of the tooth of a root-canal treatment; none: another operation
+  std::optional<assets::PreparedTooth> prepared;  ///< for a restoration; none: another operation
+  assets::Proposed proposed;                      ///< nobody had confirmed it when it was recorded
+  std::optional<glm::dvec3> down_P;               ///< unit, along gravity as the patient lay; none: as `site`
 };
 
 }  // namespace app

@@ -130,6 +130,14 @@ json setupJson(const SessionSetup& setup) {
   for (const glm::dvec3& p : setup.canal_P_mm) object["canal"]["line_P_mm"].push_back(three(p));
   if (!setup.canal_P_mm.empty()) object["canal"]["radius_mm"] = setup.canal_radius_mm;
   if (setup.canals) object["root_canals"] = json::parse(canalsText(*setup.canals));
+  if (const auto& prepared = setup.prepared) {
+    json axes = json::array();
+    for (int axis = 0; axis < 3; ++axis) axes.push_back(three(prepared->frame.axes_P[axis]));
+    object["prepared"] = {{"fdi", prepared->fdi},
+                          {"ideal", prepared->ideal},
+                          {"cervix_P_mm", three(prepared->frame.cervix_P_mm)},
+                          {"axes_P", axes}};
+  }
   if (setup.down_P) object["down_P"] = three(*setup.down_P);
   if (setup.proposed.tooth) object["not_confirmed"].push_back("tooth");
   if (setup.proposed.canal) object["not_confirmed"].push_back("canal");
@@ -147,6 +155,25 @@ glm::dvec3 vectorFrom(const json& three) {
   return vector;
 }
 
+assets::PreparedTooth preparedFrom(const json& object) {
+  constexpr std::size_t kLongestName = 200;
+  assets::PreparedTooth prepared;
+  const auto bad = [] { return damagedSession("it has no valid prepared tooth"); };
+  if (!object.is_object() || !object.contains("cervix_P_mm") || !object.contains("axes_P")) throw bad();
+  prepared.fdi = valueOf(object, "fdi", 0);
+  prepared.ideal = valueOf(object, "ideal", std::string());
+  prepared.frame.cervix_P_mm = vectorFrom(object["cervix_P_mm"]);
+  const json& axes = object["axes_P"];
+  if (!assets::isToothNumber(prepared.fdi) || prepared.ideal.empty() || prepared.ideal.size() > kLongestName ||
+      !axes.is_array() || axes.size() != 3)
+    throw bad();
+  for (int axis = 0; axis < 3; ++axis) prepared.frame.axes_P[axis] = vectorFrom(axes[static_cast<std::size_t>(axis)]);
+  const glm::dmat3 unit = glm::transpose(prepared.frame.axes_P) * prepared.frame.axes_P;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(glm::distance(unit[axis], glm::dmat3(1.0)[axis]) < 1e-3)) throw bad();
+  return prepared;
+}
+
 void readSite(const json& object, SessionSetup& setup) {
   if (const auto site = object.find("site"); site != object.end() && site->is_object()) {
     const auto part = [&](const char* key) {
@@ -162,6 +189,7 @@ void readSite(const json& object, SessionSetup& setup) {
     if (!(std::abs(glm::length(*setup.down_P) - 1.0) < 1e-3)) throw damagedSession("it has no valid site");
   }
   if (const auto canals = object.find("root_canals"); canals != object.end()) setup.canals = canalsFrom(canals->dump());
+  if (const auto prepared = object.find("prepared"); prepared != object.end()) setup.prepared = preparedFrom(*prepared);
   const auto canal = object.find("canal");
   if (canal == object.end() || !canal->is_object()) return;
   setup.canal_radius_mm = valueOf(*canal, "radius_mm", 0.0);

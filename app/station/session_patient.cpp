@@ -1,6 +1,7 @@
 #include "app/station/session_patient.h"
 
 #include "app/case/patient_source.h"
+#include "app/case/prepared_tooth.h"
 #include "app/case/treated_tooth.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
@@ -19,6 +20,11 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
     patient = treatedTooth(patient, built_in, start.setup.canals->fdi, false, "--tooth", start.grid.spacing_mm);
     patient.ct.solid = start.solid;
   }
+  if (const auto& prepared = start.setup.prepared) {
+    const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
+    patient = preparedTooth(patient, built_in, prepared->fdi, prepared->ideal, "--tooth");
+    patient.ct.solid = start.solid;
+  }
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;
   if (!folder.empty()) throw UsageError(folder + ": is not the patient of this session, name another folder");
   return {};
@@ -33,6 +39,7 @@ assets::Patient patientWithinSession(const StoredStart& start) {
   patient.ct.tooth = start.teeth;
   patient.site = start.setup.site;
   patient.canals = start.setup.canals;
+  patient.prepared = start.setup.prepared;
   if (const assets::Proposed& proposed = start.setup.proposed; proposed.any()) {
     patient.found = assets::Confirmation{!proposed.tooth, !proposed.canal};
     if (patient.title.ends_with(assets::kNotConfirmedTitle))

@@ -41,6 +41,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.setup.site = patient.site;
   start.setup.canals = patient.canals;
   start.setup.proposed = patient.proposed();
+  start.setup.prepared = patient.prepared;
   start.setup.canal_P_mm = patient.mandibular_canal_P_mm;
   start.setup.canal_radius_mm = patient.mandibular_canal_radius_mm;
   start.started_utc = calibration::nowUtc();

@@ -1,0 +1,127 @@
+#include "app/case/prepared_tooth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/case/treated_tooth.h"
+#include "assets/load_error.h"
+#include "assets/tooth.h"
+#include "assets/tooth_sampler.h"
+#include "assets/trilinear.h"
+
+namespace app {
+namespace {
+
+constexpr double kBeside_mm = 7.0, kBelow_mm = 3.5, kAbove_mm = 1.5;
+constexpr double kFocus_mm = 4.0;  ///< over the cervical line
+constexpr auto kOther = static_cast<std::uint8_t>(assets::Tissue::other_teeth);
+
+/// The tooth's own grid, drawn out over its neighbours by whole blocks and without the ends of its roots.
+assets::VolumeGrid rowGrid(const assets::VolumeGrid& tooth, const assets::ToothFrame& frame) {
+  constexpr int kBlock = assets::ToothSampler::kEdge;
+  const int beside = static_cast<int>(std::ceil(kBeside_mm / tooth.spacing_mm / kBlock)) * kBlock;
+  const double up = frame.axes_P[2].z > 0.0 ? 1.0 : -1.0;
+  const double low_mm = frame.cervix_P_mm.z - up * kBelow_mm;
+  const double end_mm = tooth.origin_P_mm.z + tooth.spacing_mm * (up > 0.0 ? tooth.size.z - 1 : 0) + up * kAbove_mm;
+  const auto level = [&](double z_mm) {
+    return static_cast<int>(std::floor((z_mm - tooth.origin_P_mm.z) / tooth.spacing_mm / kBlock)) * kBlock;
+  };
+  const int low = level(std::min(low_mm, end_mm)), high = level(std::max(low_mm, end_mm)) + kBlock;
+  return {{tooth.size.x + 2 * beside, tooth.size.y + 2 * beside, high - low},
+          tooth.spacing_mm,
+          tooth.origin_P_mm + tooth.spacing_mm * glm::dvec3(-beside, -beside, low)};
+}
+
+/// The scan as it is, beside a tooth.
+class Row {
+ public:
+  Row(const assets::CtVolume& ct, int fdi) : ct_(ct), fdi_(fdi) {}
+
+  /// Of neighbours alone, or of all but the tooth itself.
+  double solid(const glm::dvec3& p_P, bool is_neighbour) const {
+    return assets::trilinearAt(ct_.grid, p_P, [&](glm::ivec3 ijk) {
+      if (!ct_.grid.contains(ijk)) return 0.0;
+      const std::size_t v = ct_.grid.index(ijk);
+      return counts(v, is_neighbour) ? ct_.solid[v] / 255.0 : 0.0;
+    });
+  }
+  std::uint8_t label(const glm::dvec3& p_P) const {
+    const glm::ivec3 ijk(glm::floor(ct_.grid.indexFromPoint(p_P) + 0.5));
+    if (!ct_.grid.contains(ijk)) return 0;
+    const std::uint8_t label = ct_.label[ct_.grid.index(ijk)];
+    return assets::isTooth(label) ? kOther : label;
+  }
+
+ private:
+  bool counts(std::size_t v, bool is_neighbour) const {
+    const int tooth = ct_.tooth.empty() ? 0 : ct_.tooth[v];
+    if (tooth == fdi_) return false;
+    return !is_neighbour || tooth != 0 || assets::Tissue{ct_.label[v]} == assets::Tissue::other_teeth;
+  }
+
+  const assets::CtVolume& ct_;
+  int fdi_;
+};
+
+}  // namespace
+
+assets::Patient preparedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
+                              const std::string& ideal, const std::string& option) {
+  const FineTooth own = fineToothAlone(whole, jaw, fdi, kPreparedVoxel_mm, option);
+  assets::Patient patient;
+  patient.title = fmt::format("{}, {} ({}), {}", whole.title, assets::toothName(fdi), fdi, ideal);
+  patient.prepared = assets::PreparedTooth{fdi, own.canals.frame, ideal};
+  assets::CtVolume& ct = patient.ct;
+  ct.grid = rowGrid(own.fine->grid(), own.canals.frame);
+  const std::size_t count = ct.grid.voxelCount();
+  ct.hounsfield.resize(count), ct.solid.resize(count), ct.label.resize(count);
+
+  // The scan around.
+  const Row row(whole.ct, fdi);
+  const assets::VolumeGrid& tooth = own.fine->grid();
+  const glm::ivec3 to_tooth(glm::round(tooth.indexFromPoint(ct.grid.origin_P_mm)));
+  const auto byte = [](double share) { return static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0) + 0.5); };
+  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::dvec3 p_P = ct.grid.centre_P_mm(ijk);
+    const bool is_beside = !tooth.contains(ijk + to_tooth);
+    ct.solid[v] = byte(row.solid(p_P, !is_beside));
+    ct.label[v] = is_beside ? row.label(p_P) : kOther;
+  });
+  // The tooth itself, and bone between it and them.
+  const auto put = [&](glm::ivec3 block, const auto& solid_of, const auto& label_of) {
+    std::size_t n = 0;
+    assets::forVoxels(block * assets::ToothSampler::kEdge, (block + 1) * assets::ToothSampler::kEdge,
+                      [&](glm::ivec3 ijk) {
+                        const std::size_t at = n++;
+                        const glm::ivec3 here = ijk - to_tooth;
+                        if (!ct.grid.contains(here)) return;
+                        const std::size_t v = ct.grid.index(here);
+                        if (ct.solid[v] > solid_of(at)) return;
+                        ct.solid[v] = solid_of(at), ct.label[v] = label_of(at);
+                      });
+  };
+  assets::forBlocks(
+      *own.fine,
+      [&](glm::ivec3 block, const assets::ToothSampler::Same& same) {
+        put(
+            block, [&](std::size_t) { return same.solid; }, [&](std::size_t) { return same.label; });
+      },
+      [&](glm::ivec3 block, const auto& solid, const auto& label) {
+        put(
+            block, [&](std::size_t n) { return solid[n]; }, [&](std::size_t n) { return label[n]; });
+      });
+  for (std::size_t v = 0; v < count; ++v) ct.hounsfield[v] = greyOf(ct.solid[v], ct.label[v]);
+
+  patient.classification = whole.classification;
+  patient.jaw_P_mm = own.canals.frame.inP({0.0, 0.0, kFocus_mm});
+  patient.gingiva = whole.gingiva;
+  patient.has_modelled_gum = whole.has_modelled_gum;
+  patient.face = whole.face;
+  patient.has_built_in_face = whole.has_built_in_face;
+  patient.X_PF = whole.X_PF;
+  return patient;
+}
+
+}  // namespace app

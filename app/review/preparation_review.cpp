@@ -1,0 +1,186 @@
+#include "app/review/preparation_review.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "app/procedure/preparation/preparation_picture.h"
+#include "app/procedure/root_canal/dense_tooth.h"
+#include "assets/tooth.h"
+
+namespace app {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+double inDegrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+OrderedJson orNull(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(); }
+
+bool isMolar(int fdi) { return assets::positionOf(fdi) >= 6; }
+
+OrderedJson crownJson(const PreparationOutcomes& of, int fdi) {
+  const WallForm& walls = *of.walls;
+  const MarginLine& margin = *of.margin;
+  return {{"P3_convergence_deg", orNull(inDegrees(walls.convergence_rad))},
+          {"P3_mesiodistal_deg", orNull(inDegrees(walls.mesiodistal_rad))},
+          {"P3_buccolingual_deg", orNull(inDegrees(walls.buccolingual_rad))},
+          {"P3_height_mm", walls.height_mm},
+          {"P3_wanted_height_mm", leastHeight_mm(isMolar(fdi))},
+          {"P3_height_over_width", walls.height_over_width},
+          {"P4_margin_mm", orNull(margin.mean_mm)},
+          {"P4_margin_least_mm", orNull(margin.least_mm)},
+          {"P4_margin_most_mm", orNull(margin.most_mm)},
+          {"P4_margin_waviness_mm", margin.waviness_mm},
+          {"P4_margin_missing_share", margin.missing_share},
+          {"P4_margin_above_mm", margin.off_height_mm},
+          {"P5_undercut_mm3", of.axis->undercut_mm3},
+          {"P5_deepest_undercut_mm", of.deepest_undercut_mm},
+          {"P5_insertion_off_axis_deg", inDegrees(of.insertion->off_axis_rad)},
+          {"P5_insertion_undercut_mm3", of.insertion->undercut_mm3},
+          {"P6_roughness_mm", walls.roughness_mm},
+          {"P6_sharp_line_angles_share", walls.sharp_share}};
+}
+
+OrderedJson cavityJson(const CavityForm& form) {
+  return {{"P9_depth_mm", form.depth_mm},
+          {"P9_least_depth_mm", form.least_depth_mm},
+          {"P9_most_depth_mm", form.most_depth_mm},
+          {"P9_isthmus_mm", form.isthmus_mm},
+          {"P9_least_isthmus_mm", form.least_isthmus_mm},
+          {"P9_length_mm", orNull(form.length_mm)},
+          {"P9_divergence_deg", inDegrees(form.divergence_rad)},
+          {"P9_box_axial_mm", orNull(form.box_axial_mm)},
+          {"P9_box_width_mm", orNull(form.box_width_mm)},
+          {"P9_box_height_mm", form.box_height_mm},
+          {"P9_unsupported_enamel_mm2", form.unsupported_mm2}};
+}
+
+std::string asked(double value, double from, double to, const char* unit) {
+  if (!std::isfinite(value)) return "none";
+  return fmt::format("{:.1f}{}{}", value, unit,
+                     value < from ? fmt::format(", below {:g}", from)
+                     : value > to ? fmt::format(", above {:g}", to)
+                                  : std::string());
+}
+
+std::string crownTable(const PreparationOfSession& of) {
+  const WallForm& walls = *of.outcomes.walls;
+  const MarginLine& margin = *of.outcomes.margin;
+  std::string text =
+      fmt::format("walls converge by {} (mesial to distal {}, cheek to tongue {})\n",
+                  asked(inDegrees(walls.convergence_rad), kLeastConvergence_deg, kMostConvergence_deg, "°"),
+                  asked(inDegrees(walls.mesiodistal_rad), 0.0, 90.0, "°"),
+                  asked(inDegrees(walls.buccolingual_rad), 0.0, 90.0, "°"));
+  text += fmt::format("walls are {} high, {} of the width\n",
+                      asked(walls.height_mm, leastHeight_mm(isMolar(of.tooth.fdi)), 1e9, " mm"),
+                      fmt::format("{:.2f}{}", walls.height_over_width,
+                                  walls.height_over_width < kLeastHeightOverWidth ? ", below 0.4" : ""));
+  if (std::isfinite(margin.mean_mm))
+    text += fmt::format(
+        "margin {:.2f} mm wide (wanted {:g}; {:.2f} to {:.2f}, waves {:.2f} mm), {:+.2f} mm above the "
+        "wanted height\n",
+        margin.mean_mm, of.rule.margin_mm, margin.least_mm, margin.most_mm, margin.waviness_mm, margin.off_height_mm);
+  if (margin.missing_share > 0.0)
+    text += fmt::format("no margin around {:.0f} % of the tooth\n", 100.0 * margin.missing_share);
+  text += fmt::format("undercut {:.2f} mm3, at most {:.2f} mm deep{}\n", of.outcomes.axis->undercut_mm3,
+                      of.outcomes.deepest_undercut_mm,
+                      of.outcomes.insertion->off_axis_rad > 0.0
+                          ? fmt::format("; {:.2f} mm3 by a way that leans {:.1f}°", of.outcomes.insertion->undercut_mm3,
+                                        inDegrees(of.outcomes.insertion->off_axis_rad))
+                          : std::string());
+  text += fmt::format("walls are rough by {:.3f} mm; line angles are sharp along {:.0f} %\n", walls.roughness_mm,
+                      100.0 * walls.sharp_share);
+  return text;
+}
+
+std::string cavityTable(const PreparationOfSession& of) {
+  const CavityForm& form = *of.outcomes.cavity;
+  if (!form.isCut()) return "no cavity along the fissure\n";
+  std::string text = fmt::format(
+      "{:.2f} mm deep (wanted {:g}; {:.2f} to {:.2f}), {:.2f} mm wide (wanted {:g}, least {:.2f}), walls diverge by "
+      "{:+.1f}°\n",
+      form.depth_mm, of.rule.depth_mm, form.least_depth_mm, form.most_depth_mm, form.isthmus_mm, of.rule.isthmus_mm,
+      form.least_isthmus_mm, inDegrees(form.divergence_rad));
+  if (of.rule.box_side != 0)
+    text += std::isfinite(form.box_axial_mm) && form.box_axial_mm > 0.0
+                ? fmt::format(
+                      "box {:.2f} mm deep (wanted {:g}), {:.2f} mm wide (wanted {:g}), its floor {:.2f} mm over "
+                      "the cervical line (wanted {:g})\n",
+                      form.box_axial_mm, of.rule.box_axial_mm, form.box_width_mm, of.rule.box_mm, form.box_height_mm,
+                      of.rule.box_height_mm)
+                : std::string("no box\n");
+  return text + fmt::format("{:.1f} mm2 of cut enamel with no dentine behind it\n", form.unsupported_mm2);
+}
+
+}  // namespace
+
+std::optional<PreparationOfSession> preparationOfSession(const StoredStart& start,
+                                                         std::span<const std::uint8_t> solid_after) {
+  if (!start.setup.prepared) return {};
+  PreparationOfSession of{*start.setup.prepared, idealRule(start.setup.prepared->ideal, "--ideal"), {}, {}};
+  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
+  const PreparationMeasure measure(Crown(before, of.tooth.frame), of.rule, "--ideal");
+  const BoxBytes made(DenseSolid(start.grid, solid_after), measure.crown().solid.grid());
+  of.outcomes = measure.outcomesOf(made);
+  of.picture = preparationPicture(measure, made, of.outcomes);
+  return of;
+}
+
+std::optional<PreparationOfSession> preparationOfSession(const std::string& path) {
+  SessionReader session(path);
+  if (!session.about().setup.prepared) return {};
+  const StoredStart start = session.start();
+  const auto end = session.finalBone(start);
+  return end ? preparationOfSession(start, end->solid) : std::nullopt;
+}
+
+std::string preparationJson(const PreparationOfSession& of) {
+  const RemovedMaterial& removed = of.outcomes.removed;
+  const Deviation& deviation = of.outcomes.deviation;
+  OrderedJson zones = OrderedJson::object();
+  for (std::size_t n = 0; n < kPreparedZones; ++n)
+    zones[std::string(nameOf(static_cast<PreparedZone>(n)))] = {{"over_mm3", removed.zones[n].over_mm3},
+                                                                {"under_mm3", removed.zones[n].under_mm3}};
+  OrderedJson within = OrderedJson::object();
+  for (std::size_t n = 0; n < kTolerances_mm.size(); ++n)
+    within[fmt::format("{:g}", kTolerances_mm[n])] = deviation.within[n];
+  OrderedJson json = {{"fdi", of.tooth.fdi},
+                      {"ideal", of.tooth.ideal},
+                      {"P1_over_mm3", removed.over_mm3()},
+                      {"P1_under_mm3", removed.under_mm3()},
+                      {"P1_wanted_mm3", removed.wanted_mm3},
+                      {"P1_zones", zones},
+                      {"P2_mean_mm", deviation.mean_mm},
+                      {"P2_rms_mm", deviation.rms_mm},
+                      {"P2_too_high_mm", deviation.most_left_mm},
+                      {"P2_too_deep_mm", deviation.deepest_mm},
+                      {"P7_neighbour_mm3", removed.neighbour_mm3},
+                      {"P8_within_mm", within},
+                      {"enamel_mm3", removed.enamel_mm3},
+                      {"dentine_mm3", removed.dentine_mm3},
+                      {"pulp_open_mm2", removed.pulp_open_mm2}};
+  json.update(of.outcomes.cavity ? cavityJson(*of.outcomes.cavity) : crownJson(of.outcomes, of.tooth.fdi));
+  return json.dump();
+}
+
+std::string preparationTable(const PreparationOfSession& of) {
+  const RemovedMaterial& removed = of.outcomes.removed;
+  const Deviation& deviation = of.outcomes.deviation;
+  std::string text = fmt::format("\nPreparation of tooth {}: {}\n", of.tooth.fdi, of.rule.for_people);
+  text += fmt::format("cut too much {:.1f} mm3, left too much {:.1f} mm3, of {:.1f} to be cut\n", removed.over_mm3(),
+                      removed.under_mm3(), removed.wanted_mm3);
+  for (std::size_t n = 0; n < kPreparedZones; ++n)
+    text += fmt::format("  {:<9} {:>6.1f} mm3 too much, {:>6.1f} mm3 left\n", nameOf(static_cast<PreparedZone>(n)),
+                        removed.zones[n].over_mm3, removed.zones[n].under_mm3);
+  text += of.outcomes.cavity ? cavityTable(of) : crownTable(of);
+  text += fmt::format("surface {:.2f} mm off (root mean square), {:.2f} mm too high and {:.2f} mm too deep at most; ",
+                      deviation.rms_mm, deviation.most_left_mm, deviation.deepest_mm);
+  text += fmt::format("{:.0f} % of it within 0.2 mm\n", 100.0 * deviation.within[1]);
+  text += fmt::format("enamel {:.1f} mm3, dentine {:.1f} mm3; of a neighbour {:.2f} mm3; pulp open {:.2f} mm2\n",
+                      removed.enamel_mm3, removed.dentine_mm3, removed.neighbour_mm3, removed.pulp_open_mm2);
+  return text;
+}
+
+}  // namespace app
