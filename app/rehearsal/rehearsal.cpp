@@ -13,6 +13,7 @@
 #include "app/device/emergency_exit.h"
 #include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
+#include "app/procedure/preparation/preparation_watch.h"
 #include "app/procedure/root_canal/access_watch.h"
 #include "app/procedure/root_canal/treatment_watch.h"
 #include "app/procedure/third_molar/demonstration.h"
@@ -86,6 +87,10 @@ class Rehearsal {
       treatment_.emplace(*plan_.patient.canals, plan_.patient.ct,
                          plan_.scanned_solid.empty() ? plan_.patient.ct.solid : plan_.scanned_solid,
                          station().bodies());
+    if (plan_.patient.prepared && pace_.isRealTime() && !plan_.is_assessed)
+      preparation_.emplace(*plan_.patient.prepared, plan_.patient.ct,
+                           plan_.scanned_solid.empty() ? plan_.patient.ct.solid : plan_.scanned_solid,
+                           station().bodies());
     if (plan_.patient.canals && plan_.locator)
       locator_.emplace(*plan_.patient.canals, plan_.patient.ct, *plan_.locator, locatorSeed());
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
@@ -353,6 +358,7 @@ class Rehearsal {
     const bool may_loosen = !demonstration_ || demonstration_->isToothOut();
     site_->follow({changed, newest_, drawn, router_.takeWay(), demonstration_.has_value(), may_loosen}, frame_);
     if (treatment_) treatment_->follow(changed, newest_, canal_log_->use());
+    if (preparation_) preparation_->follow(changed, newest_);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
   }
 
@@ -407,7 +413,7 @@ class Rehearsal {
             task(),
             rulerText(frame_.ruler),
             site_->isReady(),
-            treatment_ && treatment_->newest() ? treatmentLine(*treatment_->newest()) : site_->socketLine(),
+            outcomeLine(),
             site_->wayLine(),
             ringShown(),
             plan_.shows_clearance ? clearance_.ruler(plan_.patient.proposed()) : std::vector<HeadUpClearance>(),
@@ -416,6 +422,13 @@ class Rehearsal {
             locator_ && locator_->told()
                 ? std::optional(HeadUpLocator{locator_->told()->left_mm, locator_->told()->is_apex})
                 : std::nullopt};
+  }
+
+  /// What the work has come to so far.
+  std::string outcomeLine() const {
+    if (treatment_ && treatment_->newest()) return treatmentLine(*treatment_->newest());
+    if (preparation_ && !preparation_->line().empty()) return preparation_->line();
+    return site_->socketLine();
   }
 
   HeadUpRing ringShown() const {
@@ -521,8 +534,9 @@ class Rehearsal {
   std::optional<CanalLog> canal_log_;  ///< of a root-canal treatment
   std::optional<LocatorWatch> locator_;
   std::optional<AccessWatch> access_;
-  std::optional<TreatmentWatch> treatment_;  ///< told while it goes on
-  bool tells_blocks_ = false;                ///< that the live tooth is cut by whole blocks
+  std::optional<TreatmentWatch> treatment_;      ///< told while it goes on
+  std::optional<PreparationWatch> preparation_;  ///< the same
+  bool tells_blocks_ = false;                    ///< that the live tooth is cut by whole blocks
   std::optional<LiveMeasures> measures_;
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};

@@ -1,7 +1,6 @@
 #include "app/procedure/root_canal/treatment_watch.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -13,38 +12,22 @@
 namespace app {
 namespace {
 
-constexpr double kRest_s = 0.4, kBetween_s = 1.0, kBetweenAtWork_s = 10.0;
 constexpr double kLeast_mm3 = 0.005;
-
-/// Blocks want whole ones: the grid grown with air.
-assets::CtVolume wholeBlocks(const assets::CtVolume& scan, std::span<const std::uint8_t> solid) {
-  assets::CtVolume whole;
-  whole.grid = scan.grid;
-  whole.grid.size = (scan.grid.size + (FineSolid::kEdge - 1)) / FineSolid::kEdge * FineSolid::kEdge;
-  whole.solid.assign(whole.grid.voxelCount(), 0);
-  whole.label.assign(whole.grid.voxelCount(), 0);
-  assets::forVoxels(scan.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    const std::size_t to = whole.grid.index(ijk);
-    whole.solid[to] = solid[v], whole.label[to] = scan.label[v];
-  });
-  return whole;
-}
 
 }  // namespace
 
 struct TreatmentWatch::Copy {
-  assets::CtVolume before;
   const assets::ToothCanals& tooth;
-  std::vector<std::uint8_t> solid;    ///< now
-  std::optional<ToothBlocks> blocks;  ///< of `before`, from the first measurement
+  ToothCopy volume;
+  std::optional<ToothBlocks> blocks;  ///< before, from the first measurement
 
   Copy(const assets::ToothCanals& of, const assets::CtVolume& scan, std::span<const std::uint8_t> solid_before)
-      : before(wholeBlocks(scan, solid_before)), tooth(of), solid(before.solid) {}
+      : tooth(of), volume(scan, solid_before) {}
 
   Measured measure(const FileUse& files) {
     const auto start = std::chrono::steady_clock::now();
-    if (!blocks) blocks.emplace(DenseTooth(before.grid, before.solid, before.label));
-    Measured measured{treatmentOf(tooth, *blocks, DenseSolid(before.grid, solid), files)};
+    if (!blocks) blocks.emplace(DenseTooth(volume.grid(), volume.before(), volume.labels()));
+    Measured measured{treatmentOf(tooth, *blocks, DenseSolid(volume.grid(), volume.now()), files)};
     measured.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return measured;
   }
@@ -69,21 +52,8 @@ bool TreatmentWatch::follow(std::span<const glm::ivec3> bricks, const haptics::T
     ++times_;
     is_new = true;
   }
-  const double now_s = newest.t_s;
-  if (newest.drilling || newest.file.stay == haptics::FileStay::wall) busy_s_ = now_s;
-  const bool rests = now_s - busy_s_ > kRest_s;
-  if (changed_.empty() || now_s - measured_s_ < (rests ? kBetween_s : kBetweenAtWork_s)) return is_new;
-  measured_s_ = now_s;
-  for (const glm::ivec3& brick : std::exchange(changed_, {})) {
-    std::array<std::uint8_t, 512> bytes{};
-    bodies_.jaw().copyBrick(brick, bytes);
-    const glm::ivec3 low = 8 * brick;
-    std::size_t n = 0;
-    assets::forVoxels(low, low + 8, [&](glm::ivec3 ijk) {
-      if (bodies_.grid().contains(ijk)) copy_->solid[copy_->before.grid.index(ijk)] = bytes[n];
-      ++n;
-    });
-  }
+  if (!pause_.isDue(newest, !changed_.empty())) return is_new;
+  copy_->volume.take(bodies_, std::exchange(changed_, {}));
   measuring_ = std::async(std::launch::async, [copy = copy_.get(), files] { return copy->measure(files); });
   return is_new;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/procedure/root_canal/treatment.h"
+#include "app/procedure/tooth_copy.h"
 #include "assets/ct_volume.h"
 #include "haptics/body/bodies.h"
 
@@ -41,7 +42,8 @@ class TreatmentWatch {
   const haptics::Bodies& bodies_;
   std::vector<glm::ivec3> changed_;
   std::future<Measured> measuring_;
-  double busy_s_ = -1e9, measured_s_ = -1e9, longest_s_ = 0.0;
+  StrokePause pause_;
+  double longest_s_ = 0.0;
   int times_ = 0;
   std::optional<Treatment> newest_;
 };

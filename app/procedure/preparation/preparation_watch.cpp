@@ -1,0 +1,77 @@
+#include "app/procedure/preparation/preparation_watch.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/procedure/root_canal/dense_tooth.h"
+#include "app/text/usage_error.h"
+
+namespace app {
+
+struct PreparationWatch::Copy {
+  assets::PreparedTooth tooth;
+  IdealRule rule;
+  ToothCopy volume;
+  std::optional<PreparationMeasure> measure;  ///< from the first measurement
+
+  Copy(const assets::PreparedTooth& of, const assets::CtVolume& scan, std::span<const std::uint8_t> before)
+      : tooth(of), rule(idealRule(of.ideal, "--ideal")), volume(scan, before) {}
+
+  Measured measured() try {
+    if (!measure)
+      measure.emplace(Crown(ToothBlocks(DenseTooth(volume.grid(), volume.before(), volume.labels())), tooth.frame),
+                      rule, "--ideal");
+    return {measure->outcomesOf(DenseSolid(volume.grid(), volume.now())), {}};
+  } catch (const UsageError& error) {
+    return {{}, error.what()};
+  }
+};
+
+PreparationWatch::PreparationWatch(const assets::PreparedTooth& tooth, const assets::CtVolume& scan,
+                                   std::span<const std::uint8_t> before, const haptics::Bodies& bodies)
+    : copy_(std::make_unique<Copy>(tooth, scan, before)), bodies_(bodies) {
+  // Of a rehearsal that goes on, all may differ from the scan.
+  assets::forVoxels(glm::ivec3(0), bodies.grid().bricks(), [&](glm::ivec3 brick) { changed_.push_back(brick); });
+}
+
+PreparationWatch::~PreparationWatch() {
+  if (measuring_.valid()) measuring_.wait();
+}
+
+bool PreparationWatch::follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
+  changed_.insert(changed_.end(), bricks.begin(), bricks.end());
+  bool is_new = false;
+  if (measuring_.valid()) {
+    if (measuring_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    Measured measured = measuring_.get();
+    newest_ = std::move(measured.outcomes);
+    line_ = newest_ ? preparationLine(*newest_) : measured.refusal;
+    is_new = true;
+  }
+  if (!pause_.isDue(newest, !changed_.empty())) return is_new;
+  copy_->volume.take(bodies_, std::exchange(changed_, {}));
+  measuring_ = std::async(std::launch::async, [copy = copy_.get()] { return copy->measured(); });
+  return is_new;
+}
+
+std::string preparationLine(const PreparationOutcomes& outcomes) {
+  const RemovedMaterial& removed = outcomes.removed;
+  const double cut_mm3 = removed.enamel_mm3 + removed.dentine_mm3;
+  std::string line =
+      fmt::format("{:.0f} of {:.0f} mm³ cut, {:.1f} too much", cut_mm3, removed.wanted_mm3, removed.over_mm3());
+  if (outcomes.walls && std::isfinite(outcomes.walls->convergence_rad))
+    line += fmt::format("; walls {:.0f}°", outcomes.walls->convergence_rad * 180.0 / std::numbers::pi);
+  if (outcomes.margin && std::isfinite(outcomes.margin->mean_mm))
+    line += fmt::format("; margin {:.1f} mm", outcomes.margin->mean_mm);
+  if (outcomes.cavity && outcomes.cavity->isCut())
+    line += fmt::format("; {:.1f} mm deep, {:.1f} mm wide", outcomes.cavity->depth_mm, outcomes.cavity->isthmus_mm);
+  if (removed.neighbour_mm3 > 0.005) line += fmt::format("; neighbour cut, {:.2f} mm³", removed.neighbour_mm3);
+  if (removed.pulp_open_mm2 > 0.0) line += fmt::format("; pulp open, {:.2f} mm²", removed.pulp_open_mm2);
+  return line;
+}
+
+}  // namespace app

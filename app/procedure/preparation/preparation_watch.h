@@ -1,0 +1,52 @@
+// What a tooth preparation has come to while it goes on: P1 to P9 of a copy of the live tooth, on a thread of its own,
+// a moment after each stroke. The ideal is made by the first measurement (some seconds). Main thread, once a frame;
+// microseconds. Frame P.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/procedure/preparation/preparation_outcomes.h"
+#include "app/procedure/tooth_copy.h"
+#include "assets/prepared_tooth.h"
+
+namespace app {
+
+class PreparationWatch {
+ public:
+  /// Borrows the bodies. `before`: of the scan's grid, before anything was cut. Throws UsageError: no such ideal.
+  PreparationWatch(const assets::PreparedTooth& tooth, const assets::CtVolume& scan,
+                   std::span<const std::uint8_t> before, const haptics::Bodies& bodies);
+  ~PreparationWatch();
+
+  /// `bricks`: changed since the last call. True: newest() is new.
+  bool follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
+  /// None: nothing was measured yet.
+  const std::optional<PreparationOutcomes>& newest() const { return newest_; }
+  /// For the surgeon: "34 of 118 mm³ cut, 0.4 too much; walls 14°, margin 0.9 mm"; why the tooth cannot be measured;
+  /// empty: nothing was measured.
+  const std::string& line() const { return line_; }
+
+ private:
+  struct Copy;
+  struct Measured {
+    std::optional<PreparationOutcomes> outcomes;
+    std::string refusal;
+  };
+
+  std::unique_ptr<Copy> copy_;  ///< the worker reads it
+  const haptics::Bodies& bodies_;
+  std::vector<glm::ivec3> changed_;
+  std::future<Measured> measuring_;
+  StrokePause pause_;
+  std::optional<PreparationOutcomes> newest_;
+  std::string line_;
+};
+
+std::string preparationLine(const PreparationOutcomes& outcomes);
+
+}  // namespace app
