@@ -8,6 +8,7 @@
 
 #include "app/report/html_page.h"
 #include "app/report/markup.h"
+#include "app/review/preparation_page.h"
 #include "app/review/review_figures.h"
 #include "app/session/assessment_event.h"
 #include "app/session/gates.h"
@@ -62,7 +63,7 @@ std::string caseSection(const SessionReview& review) {
   if (review.plan)
     for (const PlanItem& item : *review.plan)
       rows.push_back(cellsMarkup({std::string(item.name), itemWords(item)}, item.is_confirmed));
-  else if (!review.treatment)
+  else if (!isOfOneTooth(review))
     rows.push_back({"Plan", "not told: " + escaped(review.why_no_plan)});
   if (review.metrics.prediction)
     rows.push_back({"Predicted", escaped(predictionInWords(*review.metrics.prediction, review.metrics.endOfWork_s()))});
@@ -222,9 +223,9 @@ std::string removedSection(const SessionReview& review) {
         rows.push_back(
             cellsMarkup({std::string(name), fixedText(removed_mm3, 1) + " mm³" + (is_confirmed ? "" : kNotConfirmed)},
                         is_confirmed));
-  // Outcomes of an extraction; those of canals are told apart.
+  // Outcomes of an extraction; those of one tooth are told apart.
   for (const MeasureValue& measure : review.metrics.measures)
-    if (isOutcome(measure) && !review.treatment) rows.push_back(measureRow(measure));
+    if (isOutcome(measure) && !isOfOneTooth(review)) rows.push_back(measureRow(measure));
   const std::string caption =
       review.is_against_plan
           ? "The site as it was left. Red: bone cut more than 0.3 mm outside of the plan of the gutter, blue: bone of "
@@ -252,7 +253,7 @@ std::string handSection(const SessionReview& review, const SessionMetrics* other
   Rows rows;
   for (const MeasureValue& measure : measures) {
     if (isSafety(measure) || isOutcome(measure)) continue;
-    if (review.treatment && !measure.value) continue;
+    if (isOfOneTooth(review) && !measure.value) continue;
     std::vector<std::string> row = measureRow(measure);
     if (other != nullptr) {
       const MeasureValue* const same = measureOf(*other, measure.id);
@@ -337,10 +338,12 @@ std::string reviewHtml(const SessionReview& review, const HeldAgainst& against) 
   page.section("The case", caseSection(review));
   if (review.treatment)
     addTreatment(page, *review.treatment, !review.metrics.proposed.tooth);
+  else if (review.preparation)
+    addPreparation(page, *review.preparation);
   else
     page.section("Errors", errorsSection(review));
   if (reference != nullptr) page.section("Against the reference", againstSection(review, *reference));
-  if (!review.treatment) page.section("How near, and on what", nearSection(review));
+  if (!isOfOneTooth(review)) page.section("How near, and on what", nearSection(review));
   page.section("These moments", momentsSection(review));
   page.section("Bone and tooth removed", removedSection(review));
   // With files alone there is no bur whose work would be told.

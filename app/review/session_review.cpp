@@ -37,6 +37,7 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
     review.treatment.emplace(TreatmentReview{*treated, treatmentFilms(start, again.left.solid, jaw ? &*jaw : nullptr)});
   }
 
+  review.preparation = preparationOfSession(start, again.left.solid);
   if (again.patient != nullptr && again.patient->site)
     review.plan = extractionPlan(*again.patient, again.patient->title);
   else

@@ -10,6 +10,7 @@
 
 #include "app/case/extraction_plan.h"
 #include "app/review/bone_pictures.h"
+#include "app/review/preparation_review.h"
 #include "app/review/session_course.h"
 #include "app/review/told_moments.h"
 #include "app/review/treatment_page.h"
@@ -28,10 +29,13 @@ struct SessionReview {
   bool is_against_plan = false;  ///< pictures are coloured by it
   bool has_canal = false;
   std::vector<BonePicture> pictures;
-  std::vector<MomentPicture> moments;        ///< in order of time
-  std::vector<std::string> remarks;          ///< for people: what is not as it was when it was run again
-  std::optional<TreatmentReview> treatment;  ///< of root canals; none: another operation
+  std::vector<MomentPicture> moments;               ///< in order of time
+  std::vector<std::string> remarks;                 ///< for people: what is not as it was when it was run again
+  std::optional<TreatmentReview> treatment;         ///< of root canals; none: another operation
+  std::optional<PreparationOfSession> preparation;  ///< of a tooth; none: another operation
 };
+/// Its outcomes are those of a tooth that stays.
+inline bool isOfOneTooth(const SessionReview& review) { return review.treatment || review.preparation; }
 
 /// A session run again once to its end, for its report.
 struct RunAgain {

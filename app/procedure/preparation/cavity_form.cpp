@@ -114,9 +114,9 @@ CavityForm cavityForm(const Crown& crown, const BoxBytes& made, const IdealRule&
       const double half_mm = 0.5 * (floor->floor_mm + floor_mm);
       const glm::dvec3 outside(side * (crown.reach_mm + 0.5), 0.0, half_mm), inwards(-side, 0.0, 0.0);
       form.box_axial_mm = is.toSolid_mm(outside, inwards, kMost_mm) - was.toSolid_mm(outside, inwards, kMost_mm);
-      // Beside its axial wall: farther out the tooth's own side ends the walls.
+      // Half of its depth from the axial wall, whose angles are round.
       const auto inner = std::ranges::min_element(box, {}, [&](const Slice& slice) { return side * slice.x_mm; });
-      form.box_width_mm = width_mm(is, {inner->x_mm + 0.5 * side * kAlong_mm, 0.0, half_mm});
+      form.box_width_mm = width_mm(is, {inner->x_mm + 0.5 * side * rule.box_axial_mm, 0.0, half_mm});
     }
   }
 

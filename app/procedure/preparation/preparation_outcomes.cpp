@@ -45,9 +45,10 @@ PreparationOutcomes PreparationMeasure::outcomesOf(const BoxBytes& made) const {
   outcomes.walls = wallForm(walls, heights_mm);
   outcomes.margin = marginLine(*walls_before_, heights_mm, *outcomes.walls, rule().margin_height_mm);
   // From just under the highest place of the margin, where all is solid still: farther below the uncut tooth bulges.
-  double from_mm = rule().margin_height_mm;
+  double from_mm = -kBelowMargin_mm;
   for (const double height_mm : heights_mm)
     if (!std::isnan(height_mm)) from_mm = std::max(from_mm, height_mm);
+  if (from_mm == -kBelowMargin_mm) from_mm = rule().margin_height_mm;
   const CrownColumns columns(crown_, made, from_mm - walls.step_mm());
   const glm::dvec2 upright(0.0);
   outcomes.axis = InsertionWay{upright, 0.0, columns.undercut_mm3(upright)};
