@@ -1,0 +1,103 @@
+// `molar rehearse --task preparation`: a tooth cut by poses, its measures, and what is refused.
+#include <algorithm>
+
+#include <fmt/core.h>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/session/session_reader.h"
+#include "tests/app/commands/program.h"
+
+namespace app {
+namespace {
+
+class PreparationCommand : public ProgramTest {
+ protected:
+  /// A premolar: the smallest crown.
+  ProgramOutput prepare(const std::string& hand, const std::string& more) const {
+    return molar("rehearse --task preparation --tooth 45 --headless --pace fast --tool cylinder:0.8,4 --device poses:" +
+                 hand + " " + more);
+  }
+  assets::PreparedTooth toothOf(const std::string& session) const {
+    return SessionReader(at(session)).about().setup.prepared.value();
+  }
+  /// From one place of the tooth's frame to another, the bur upright and turning.
+  std::string stroke(const assets::ToothFrame& frame, const glm::dvec3& from_mm, const glm::dvec3& to_mm,
+                     double mm_per_s) const {
+    const glm::dquat turn(glm::dvec3(0.0, 0.0, 1.0), frame.axes_P[2]);
+    std::string rows = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n";
+    const double length_s = glm::distance(from_mm, to_mm) / mm_per_s;
+    for (int n = 0; n <= 200; ++n) {
+      const glm::dvec3 p_P = frame.inP(glm::mix(from_mm, to_mm, n / 200.0));
+      rows += fmt::format("{:.4f},{:.5f},{:.5f},{:.5f},{:.7f},{:.7f},{:.7f},{:.7f},1\n", n / 200.0 * length_s, p_P.x,
+                          p_P.y, p_P.z, turn.w, turn.x, turn.y, turn.z);
+    }
+    return write("stroke.csv", rows);
+  }
+  std::string farAway() const {
+    return write("far.csv", "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n0,0,-300,0,1,0,0,0,0\n0.2,0,-300,0,1,0,0,0,0\n");
+  }
+};
+
+TEST_F(PreparationCommand, TellsWhatACutHasComeTo) {
+  ASSERT_EQ(prepare(farAway(), "--record " + at("far.molar")).status, 0);
+  const assets::PreparedTooth tooth = toothOf("far.molar");
+  EXPECT_EQ(tooth.fdi, 45);
+  EXPECT_EQ(tooth.ideal, "crown:all-ceramic");
+  const auto untouched = nlohmann::json::parse(molar("metrics " + at("far.molar") + " --json").out).at("preparation");
+  EXPECT_EQ(untouched.at("P1_over_mm3").get<double>(), 0.0);
+  EXPECT_NEAR(untouched.at("P1_under_mm3").get<double>(), untouched.at("P1_wanted_mm3").get<double>(), 1e-6);
+  EXPECT_GT(untouched.at("P1_wanted_mm3").get<double>(), 30.0);
+  EXPECT_EQ(untouched.at("P4_margin_missing_share").get<double>(), 1.0);
+
+  // A groove across the biting surface from cheek to tongue.
+  const std::string hand = stroke(tooth.frame, {0.0, 6.0, 8.0}, {0.0, -6.0, 8.0}, 4.0);
+  const ProgramOutput said = prepare(hand, "--record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const ProgramOutput replayed = molar("replay " + at("s.molar") + " --verify");
+  EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
+  const ProgramOutput measured = molar("metrics " + at("s.molar") + " --json --sections " + at("s.png"));
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const auto of = nlohmann::json::parse(measured.out).at("preparation");
+  EXPECT_GT(of.at("enamel_mm3").get<double>(), 0.1);
+  EXPECT_LT(of.at("P1_under_mm3").get<double>(), untouched.at("P1_under_mm3").get<double>() - 0.1);
+  EXPECT_EQ(of.at("P7_neighbour_mm3").get<double>(), 0.0);
+  EXPECT_EQ(of.at("pulp_open_mm2").get<double>(), 0.0);
+  EXPECT_EQ(read("s.png").substr(1, 3), "PNG");
+  EXPECT_NE(molar("metrics " + at("s.molar")).out.find("Preparation of tooth 45"), std::string::npos);
+
+  const ProgramOutput reported = molar("report " + at("s.molar") + " --out " + at("s.html"));
+  ASSERT_EQ(reported.status, 0) << reported.err;
+  const std::string page = read("s.html");
+  for (const char* words : {"<b>No</b>: Neighbour cut", "P3 convergence of the walls", "Against the ideal"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("lingual plate"), std::string::npos) << "of an extraction";
+}
+
+TEST_F(PreparationCommand, ANeighbourThatIsCutIsTold) {
+  ASSERT_EQ(prepare(farAway(), "--ideal class-1 --record " + at("far.molar")).status, 0);
+  const assets::PreparedTooth tooth = toothOf("far.molar");
+  EXPECT_EQ(tooth.ideal, "class-1");
+  // From its own middle far beyond its distal side.
+  const std::string hand = stroke(tooth.frame, {-2.0, 0.0, 6.0}, {-10.0, 0.0, 6.0}, 3.0);
+  ASSERT_EQ(prepare(hand, "--ideal class-1 --record " + at("s.molar")).status, 0);
+  const auto of = nlohmann::json::parse(molar("metrics " + at("s.molar") + " --json").out).at("preparation");
+  EXPECT_GT(of.at("P7_neighbour_mm3").get<double>(), 0.05);
+}
+
+TEST_F(PreparationCommand, RefusesInOneLine) {
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const ProgramOutput said = molar("rehearse --headless " + arguments);
+    EXPECT_EQ(said.status, 2) << arguments;
+    EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  };
+  refused("--task preparation --device poses:" + farAway(), "which tooth?");
+  refused("--task preparation --tooth 45 --device scripted", "no hand knows");
+  refused("--task preparation --tooth 45 --flap closed --device poses:" + farAway(), "is of an extraction");
+  refused("--task preparation --tooth 11 --device poses:" + farAway(), "no such tooth");
+  refused("--task preparation --tooth 45 --ideal crown:wood --device poses:" + farAway(), "crown:wood");
+}
+
+}  // namespace
+}  // namespace app
