@@ -14,17 +14,17 @@
 namespace app {
 namespace {
 
-constexpr double kBeside_mm = 7.0, kBelow_mm = 3.5, kAbove_mm = 1.5;
-constexpr double kFocus_mm = 4.0;  ///< over the cervical line
-constexpr auto kOther = static_cast<std::uint8_t>(assets::Tissue::other_teeth);
+constexpr double kRowBeside_mm = 7.0, kUnderCervix_mm = 3.5, kOverTooth_mm = 1.5;
+constexpr double kCrownMiddle_mm = 4.0;  ///< over the cervical line
+constexpr auto kNeighbourTissue = static_cast<std::uint8_t>(assets::Tissue::other_teeth);
 
 /// The tooth's own grid, drawn out over its neighbours by whole blocks and without the ends of its roots.
 assets::VolumeGrid rowGrid(const assets::VolumeGrid& tooth, const assets::ToothFrame& frame) {
   constexpr int kBlock = assets::ToothSampler::kEdge;
-  const int beside = static_cast<int>(std::ceil(kBeside_mm / tooth.spacing_mm / kBlock)) * kBlock;
+  const int beside = static_cast<int>(std::ceil(kRowBeside_mm / tooth.spacing_mm / kBlock)) * kBlock;
   const double up = frame.axes_P[2].z > 0.0 ? 1.0 : -1.0;
-  const double low_mm = frame.cervix_P_mm.z - up * kBelow_mm;
-  const double end_mm = tooth.origin_P_mm.z + tooth.spacing_mm * (up > 0.0 ? tooth.size.z - 1 : 0) + up * kAbove_mm;
+  const double low_mm = frame.cervix_P_mm.z - up * kUnderCervix_mm;
+  const double end_mm = tooth.origin_P_mm.z + tooth.spacing_mm * (up > 0.0 ? tooth.size.z - 1 : 0) + up * kOverTooth_mm;
   const auto level = [&](double z_mm) {
     return static_cast<int>(std::floor((z_mm - tooth.origin_P_mm.z) / tooth.spacing_mm / kBlock)) * kBlock;
   };
@@ -51,7 +51,7 @@ class Row {
     const glm::ivec3 ijk(glm::floor(ct_.grid.indexFromPoint(p_P) + 0.5));
     if (!ct_.grid.contains(ijk)) return 0;
     const std::uint8_t label = ct_.label[ct_.grid.index(ijk)];
-    return assets::isTooth(label) ? kOther : label;
+    return assets::isTooth(label) ? kNeighbourTissue : label;
   }
 
  private:
@@ -87,7 +87,7 @@ assets::Patient preparedTooth(const assets::Patient& whole, const std::optional<
     const glm::dvec3 p_P = ct.grid.centre_P_mm(ijk);
     const bool is_beside = !tooth.contains(ijk + to_tooth);
     ct.solid[v] = byte(row.solid(p_P, !is_beside));
-    ct.label[v] = is_beside ? row.label(p_P) : kOther;
+    ct.label[v] = is_beside ? row.label(p_P) : kNeighbourTissue;
   });
   // The tooth itself, and bone between it and them.
   const auto put = [&](glm::ivec3 block, const auto& solid_of, const auto& label_of) {
@@ -115,7 +115,7 @@ assets::Patient preparedTooth(const assets::Patient& whole, const std::optional<
   for (std::size_t v = 0; v < count; ++v) ct.hounsfield[v] = greyOf(ct.solid[v], ct.label[v]);
 
   patient.classification = whole.classification;
-  patient.jaw_P_mm = own.canals.frame.inP({0.0, 0.0, kFocus_mm});
+  patient.jaw_P_mm = own.canals.frame.inP({0.0, 0.0, kCrownMiddle_mm});
   patient.gingiva = whole.gingiva;
   patient.has_modelled_gum = whole.has_modelled_gum;
   patient.face = whole.face;

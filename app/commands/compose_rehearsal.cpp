@@ -16,6 +16,8 @@
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/procedure/coach/coach_file.h"
+#include "app/procedure/preparation/preparation_script.h"
+#include "app/procedure/root_canal/dense_tooth.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/procedure/third_molar/demonstration.h"
 #include "app/rehearsal/continuation.h"
@@ -218,6 +220,9 @@ void chooseTools(RehearseOptions& options) {
   if (isPreparation(options)) {
     // Round-ended and flat-ended diamonds for walls and margin, a round one for the biting surface, one for grooves.
     options.tools = {"capsule:0.6,6", "cylinder:0.5,5", "round:1.6", "cylinder:0.4,3"};
+    // A scripted hand works with flat ends alone, as wide as a margin or narrower than an isthmus.
+    if (options.plan.device == "scripted")
+      options.tools = {options.ideal.starts_with("crown") ? "cylinder:0.5,6" : "cylinder:0.4,4"};
     return;
   }
   if (const auto task = practiceOf(options))
@@ -367,6 +372,19 @@ void completeTray(RehearsalPlan& plan) {
     plan.other_tools.push_back(haptics::handInstrumentTool(kind));
 }
 
+/// The tooth has room for its ideal, and a scripted hand knows its way.
+void planPreparation(RehearsalPlan& plan) {
+  const assets::PreparedTooth& tooth = *plan.patient.prepared;
+  const assets::CtVolume& ct = plan.patient.ct;
+  Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
+  const IdealRule& rule = idealRule(tooth.ideal, "--ideal");
+  if (plan.device != "scripted") {
+    PreparedIdeal(crown, rule, "--ideal");
+    return;
+  }
+  plan.scripted_path = preparationScript({std::move(crown), rule, "--ideal"}, plan.command.tool.head);
+}
+
 /// What a recording has to know to be gone on from.
 void describeSetup(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
                    const std::optional<Continuation>& former) {
@@ -438,6 +456,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2]};
+  if (plan.patient.prepared) planPreparation(plan);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);

@@ -75,6 +75,17 @@ PoseSource openPoseSource(const std::string& address, const DeviceOptions& optio
   return source;
 }
 
+PoseSource handAlong(std::vector<haptics::TimedHandlePose> path, const std::string& name) {
+  // After the last pose's time, so that its tick happens too.
+  constexpr double kLastTick_s = 1e-6;
+  PoseSource hand;
+  auto posed = std::make_unique<haptics::PoseListDevice>(std::move(path));
+  hand.duration_s = posed->duration_s() + kLastTick_s;
+  hand.device = std::move(posed);
+  hand.name = name;
+  return hand;
+}
+
 haptics::ServedDevice servedAs(haptics::HapticDevice& device, Ticking ticking) {
   if (ticking == Ticking::realtime) return device;
   auto* const simulated = dynamic_cast<haptics::SimulatedDevice*>(&device);

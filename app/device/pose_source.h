@@ -14,6 +14,7 @@
 #include "haptics/device/opened_device.h"
 #include "haptics/device/simulated/led_hand.h"
 #include "haptics/device/simulated/mouse_device.h"
+#include "haptics/device/simulated/pose_list_device.h"
 #include "haptics/loop/served_device.h"
 
 namespace app {
@@ -59,6 +60,9 @@ void fixOrientation(PoseSource& source, const calibration::Rig& rig, const glm::
 PoseSource openPoseSource(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
                           const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
                           std::optional<OpenedDevice> opened = std::nullopt);
+
+/// A hand that goes along poses, whatever it feels. Frame D is P, the handle is the tool.
+PoseSource handAlong(std::vector<haptics::TimedHandlePose> path, const std::string& name);
 
 /// Whether a device ticks on its own thread, by the clock, or is stepped: its time is then the ticks it is made to
 /// make.

@@ -3,13 +3,10 @@
 #include "app/device/pose_csv.h"
 #include "app/device/pose_sources.h"
 #include "app/text/usage_error.h"
-#include "haptics/device/simulated/pose_list_device.h"
 
 namespace app {
 namespace {
 
-/// After the last row's time, so that its tick happens too.
-constexpr double kLastTick_s = 1e-6;
 constexpr std::uint32_t kSecondButton = 2;
 
 void refuseUnlessARehearsal(const std::vector<TimedPose>& poses, const std::string& path) {
@@ -24,18 +21,17 @@ void refuseUnlessARehearsal(const std::vector<TimedPose>& poses, const std::stri
 PoseSource openPoses(const std::string& path, const PoseSourceContext&) {
   const std::vector<TimedPose> poses = readPoses(path);
   refuseUnlessARehearsal(poses, path);
-  PoseSource source;
+  std::vector<TimedRequest> requests;
   std::vector<haptics::TimedHandlePose> handle_poses;
   for (const TimedPose& pose : poses) {
     // The device's frame is the patient's, handle and tool coincide.
     handle_poses.push_back(
         {pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill, pose.button ? kSecondButton : 0u});
     if (!pose.tool.empty() || !pose.action.empty())
-      source.requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
+      requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
   }
-  auto posed = std::make_unique<haptics::PoseListDevice>(std::move(handle_poses));
-  source.duration_s = posed->duration_s() + kLastTick_s;
-  source.device = std::move(posed);
+  PoseSource source = handAlong(std::move(handle_poses), "");
+  source.requests = std::move(requests);
   return source;
 }
 

@@ -37,11 +37,8 @@ PoseSource openScript(const std::string& rest, const PoseSourceContext& at) {
   }
   if (at.patient.canals) {
     FileScript script = fileScript(*at.patient.canals, !isRoofOpen(*at.patient.canals, at.patient.ct));
-    auto posed = std::make_unique<haptics::PoseListDevice>(std::move(script.poses));
-    hand.duration_s = posed->duration_s() + 1e-6;
-    hand.device = std::move(posed);
+    hand = handAlong(std::move(script.poses), "scripted hand, root canals");
     hand.requests = std::move(script.requests);
-    hand.name = "scripted hand, root canals";
     return hand;
   }
   auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), cuttingMotion(cutFor(at), at.rig));
