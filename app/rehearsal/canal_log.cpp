@@ -8,6 +8,12 @@
 #include "app/procedure/root_canal/canal_tip.h"
 
 namespace app {
+namespace {
+
+constexpr double kFilling = 0.5, kDull = 0.7;  ///< from here on told
+
+}  // namespace
+
 double CanalLog::depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const {
   const glm::dvec3& up = use_.tooth().frame.axes_P[2];
   const glm::dvec3 handle_P(tick.file.node_P_mm.front());
@@ -19,12 +25,14 @@ std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, 
   const auto beyond = [&](std::size_t canal) { return use_.tip(canal).error().most_over_mm > 0.0; };
   for (const haptics::Tick& tick : ticks) {
     const int broken = use_.broken(), bent = use_.bent();
+    const bool was_full = use_.isFull();
     const auto place = canalTip(use_.tooth(), tick.file.tip_P_mm);
     const bool was_beyond = place && beyond(place->canal);
     use_.add(tick, static_cast<int>(tool.file.size));
     if (use_.broken() > broken)
       told.push_back(fmt::format("the file has broken: {:.1f} mm of it stay in the canal, at {:.1f} N mm",
                                  tick.file.broken_from_tip_mm, std::abs(tick.file.torque_Nmm)));
+    if (use_.isFull() && !was_full) told.push_back("the flutes of the file are full: it takes nothing there");
     if (use_.bent() > bent)
       told.push_back(
           fmt::format("the file keeps a bend {:.0f} mm from its tip: take a new one", tick.file.strain_from_tip_mm));
@@ -44,6 +52,11 @@ std::string CanalLog::line(const haptics::Tick& tick) const {
   std::string text =
       fmt::format("{:.1f} of {:.1f} mm in the {} canal", depth_mm(tick, canal), canal.workingLength_mm(), canal.name);
   if (wear_ != haptics::WearLaw::wear) text += fmt::format(", wear by {}", nameOf(wear_));
+  if (tick.file.flutes_full >= kFlutesFull)
+    text += ", flutes full: wash or wipe it";
+  else if (tick.file.flutes_full >= kFilling)
+    text += fmt::format(", flutes {:.0f} %", 100.0 * tick.file.flutes_full);
+  if (tick.file.sharpness < kDull) text += ", dull";
   if (const auto motion = use_.motion().now()) text += fmt::format(", {}", nameOf(*motion));
   if (tick.file.torque_share >= 0.05) text += fmt::format(", torque {:.0f} %", 100.0 * tick.file.torque_share);
   if (tick.file.removed_total_mm3 >= 0.005) text += fmt::format(", {:.2f} mm³", tick.file.removed_total_mm3);
@@ -63,6 +76,7 @@ std::string CanalLog::summary() const {
                         error.most_over_mm > 0.0 ? ", beyond the foramen" : "");
   }
   if (use_.filed_mm3() > 0.0) text += fmt::format("{}{:.3f} mm³ filed", text.empty() ? "" : "; ", use_.filed_mm3());
+  if (use_.debris_mm3() >= 0.001) text += fmt::format("; {:.3f} mm³ of chips left in", use_.debris_mm3());
   if (use_.broken() > 0) text += fmt::format("; {} file{} broken", use_.broken(), use_.broken() == 1 ? "" : "s");
   if (!text.empty())
     text += fmt::format("; largest torque {:.0f} % of what breaks a file", 100.0 * use_.torque_share());

@@ -38,7 +38,9 @@ std::string gates(const Treatment& all) {
                            lengthText(canal.outcomes.foramen_moved_mm));
   return "<div class=\"beside\">\n" + verdict(!holes.empty(), "Root or chamber perforated", holes) +
          verdict(all.broken_files > 0, "File separated",
-                 all.broken_files > 0 ? fmt::format("{} in all", all.broken_files) : "") +
+                 all.broken_files > 0
+                     ? fmt::format("{} in all, {} in the tooth at the end", all.broken_files, all.fragments_left)
+                     : "") +
          verdict(all.isForamenMoved(), "Foramen transported", moved) + "</div>\n" +
          fmt::format("<p class=\"quiet\">A foramen counts as transported from {} on.</p>\n",
                      lengthText(kForamenMoved_mm, 1));
@@ -171,6 +173,8 @@ std::string files(const Treatment& all, haptics::WearLaw wear) {
                           {"dentine filed", fixedText(all.filed_mm3, 3) + " mm³"},
                           {"time against the wall", fixedText(all.filing_s, 0) + " s"},
                           {"moved, share of that time", motions.empty() ? "hardly" : motions},
+                          {"with full flutes", fixedText(all.full_s, 0) + " s"},
+                          {"chips left in the canals", fixedText(all.debris_left_mm3, 3) + " mm³"},
                           {"largest torque", fixedText(100.0 * all.torque_share, 0) + " % of what breaks a file"},
                           {"separated, bent", fmt::format("{}, {}", all.broken_files, all.bent_files)}});
 }

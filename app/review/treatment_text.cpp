@@ -86,7 +86,10 @@ std::string treatmentJson(const TreatmentOfSession& of) {
                                          {"filing_s", all.filing_s},
                                          {"largest_torque_share", all.torque_share},
                                          {"motion_s", motions},
+                                         {"flutes_full_s", all.full_s},
+                                         {"debris_left_mm3", all.debris_left_mm3},
                                          {"broken", all.broken_files},
+                                         {"fragments_left", all.fragments_left},
                                          {"bent", all.bent_files}}},
                                        {"perforations", holes},
                                        {"canals", canals}};
@@ -118,6 +121,8 @@ std::string treatmentTable(const TreatmentOfSession& of) {
   text += fmt::format("files: {:.3f} mm3 in {:.0f} s, at most {:.0f} % of the torque that breaks one, {} broken\n",
                       all.filed_mm3, all.filing_s, 100.0 * all.torque_share, all.broken_files);
   if (of.wear != haptics::WearLaw::wear) text += fmt::format("worn by {}, for comparison\n", nameOf(of.wear));
+  text +=
+      fmt::format("chips: {:.3f} mm3 left in the canals; flutes full for {:.0f} s\n", all.debris_left_mm3, all.full_s);
   if (const std::string motions = motionWords(all); !motions.empty()) text += "moved: " + motions + "\n";
   for (const Perforation& hole : all.perforations)
     text += fmt::format("perforation: {}, {:.2f} mm2\n", nameOf(hole.kind), hole.area_mm2);

@@ -72,8 +72,8 @@ template <class Visit>
 void visitFile(auto& file, Visit&& visit) {
   // Not columns: nodes and links, which a replay makes again.
   auto& [stay, tip_P_mm, tip_axis_P, normal_N, torque_Nmm, torque_share, strain, strain_from_tip_mm, damage, windup_rad,
-         roll_rad, axial_N_per_mm, stop_N, due_total_mm3, removed_total_mm3, broken_from_tip_mm, left_mm, keeps_bend,
-         unsettled, node_P_mm, link_share] = file;
+         roll_rad, axial_N_per_mm, stop_N, due_total_mm3, removed_total_mm3, broken_from_tip_mm, left_mm, flutes_full,
+         sharpness, debris_mm3, fragments, keeps_bend, unsettled, node_P_mm, link_share] = file;
   static_cast<void>(node_P_mm), static_cast<void>(link_share);
   visit(Text{"file.stay", "", "", "", kFileMeaning}, stay);
   visitXyz(Text{"file.tip_P_mm", "", "mm", "P"}, tip_P_mm, visit);
@@ -92,6 +92,10 @@ void visitFile(auto& file, Visit&& visit) {
   visit(Text{"file.removed_total_mm3", "", "mm3"}, removed_total_mm3);
   visit(Text{"file.broken_from_tip_mm", "", "mm"}, broken_from_tip_mm);
   visit(Text{"file.left_mm", "", "mm"}, left_mm);
+  visit(Text{"file.flutes_full"}, flutes_full);
+  visit(Text{"file.sharpness"}, sharpness);
+  visit(Text{"file.debris_mm3", "", "mm3"}, debris_mm3);
+  visit(Text{"file.fragments"}, fragments);
   visit(Text{"file.keeps_bend"}, keeps_bend);
   visit(Text{"file.unsettled"}, unsettled);
 }

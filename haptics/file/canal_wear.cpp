@@ -136,8 +136,8 @@ SectionPlace CanalWear::placeOf(const FileInCanal& file, std::size_t section) no
           is_tip ? 0.5 * chain.link_mm : chain.link_mm};
 }
 
-CarveResult CanalWear::step(const FileInCanal& file, CarvedBone& wall, StrokeHistory* strokes,
-                            std::uint64_t tick) noexcept {
+CarveResult CanalWear::step(const FileInCanal& file, CarvedBone& wall, StrokeHistory* strokes, std::uint64_t tick,
+                            FileFlutes* flutes) noexcept {
   const FileChain& chain = file.chain();
   const FileState& state = file.state();
   std::array<std::size_t, kWornAtOnce> most{};
@@ -148,8 +148,9 @@ CarveResult CanalWear::step(const FileInCanal& file, CarvedBone& wall, StrokeHis
       continue;
     }
     if (section.touched_mm2 == 0.0) lookAt(file.law(), wall.field(), placeOf(file, i), section);
-    const double worn_mm3 = wornVolume_mm3(settings_, state.normal_N[i], section.touched_mm2, state.slip_mm[i],
-                                           chain.radius_mm[i], chain.lead_mm);
+    const double eta = flutes != nullptr && settings_.law == WearLaw::wear ? flutes->eta(i) : 1.0;
+    const double worn_mm3 = eta * wornVolume_mm3(settings_, state.normal_N[i], section.touched_mm2, state.slip_mm[i],
+                                                 chain.radius_mm[i], chain.lead_mm);
     section.due_mm3 += worn_mm3;
     due_mm3_ += worn_mm3;
     // Node 0 is none of them: nothing is due there.
@@ -158,8 +159,12 @@ CarveResult CanalWear::step(const FileInCanal& file, CarvedBone& wall, StrokeHis
       if (of_[candidate].due_mm3 > of_[one].due_mm3) std::swap(candidate, one);
   }
   CarveResult taken;
-  for (const std::size_t i : most)
-    if (i != 0) taken += take(file.law(), placeOf(file, i), of_[i], wall, strokes, tick);
+  for (const std::size_t i : most) {
+    if (i == 0) continue;
+    const CarveResult one = take(file.law(), placeOf(file, i), of_[i], wall, strokes, tick);
+    if (flutes != nullptr) flutes->add(i, one.removed_mm3);
+    taken += one;
+  }
   removed_mm3_ += taken.removed_mm3;
   return taken;
 }

@@ -13,6 +13,7 @@
 
 #include "haptics/bone/carve.h"
 #include "haptics/bone/carved_bone.h"
+#include "haptics/file/file_flutes.h"
 #include "haptics/file/file_in_canal.h"
 #include "haptics/file/wall_contact.h"
 
@@ -42,7 +43,9 @@ class CanalWear {
   explicit CanalWear(const WearSettings& settings = {}) : settings_(settings) {}
 
   /// What the file did in its last tick, from the wall that it lay against. Changed blocks are saved to `strokes`.
-  CarveResult step(const FileInCanal& file, CarvedBone& wall, StrokeHistory* strokes, std::uint64_t tick) noexcept;
+  /// `flutes`: filled and dulled by the law `wear`; null: for ever empty and sharp, as the published counters are.
+  CarveResult step(const FileInCanal& file, CarvedBone& wall, StrokeHistory* strokes, std::uint64_t tick,
+                   FileFlutes* flutes = nullptr) noexcept;
 
   double due_mm3() const noexcept { return due_mm3_; }          ///< by the law, so far
   double removed_mm3() const noexcept { return removed_mm3_; }  ///< from the wall

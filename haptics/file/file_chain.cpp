@@ -24,6 +24,7 @@ FileChain fileChain(const assets::KFile& file, std::size_t links) {
   for (std::size_t i = 1; i <= links; ++i) {
     const double at = static_cast<double>(i), joint_mm = thickness_mm(at - 1.0), middle_mm = thickness_mm(at - 0.5);
     chain.radius_mm[i] = 0.5 * thickness_mm(at);
+    chain.wire_mm2[i] = fileSection(file.section(), thickness_mm(at)).area_mm2;
 
     const FileSection section = fileSection(file.section(), joint_mm);
     JointStiffness& bend = chain.bend[i];

@@ -23,6 +23,7 @@ struct FileChain {
   std::size_t links = kUsualLinks;
   double link_mm = 0.0;
   PerNode<double> radius_mm{};
+  PerNode<double> wire_mm2{};           ///< of the metal's section
   PerNode<JointStiffness> bend{};       ///< of joint 1 to `links`, before link i
   PerNode<double> twist_Nmm_per_rad{};  ///< of link 1 to `links`
   PerNode<double> breaking_Nmm{};       ///< of link i

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/file/file_fragments.h"
 #include "haptics/file/material_frame.h"
 #include "haptics/file/wall_contact.h"
 
@@ -118,6 +119,7 @@ ChainBalance FileInCanal::balanceAt(const ChainShape& shape, const Kept& kept, c
                                is_tip ? 0.5 * chain_.link_mm : chain_.link_mm};
       addSection(law_, *scene.wall, place, contact);
       if (is_tip) addTip(law_, *scene.wall, place, contact);
+      if (scene.fragments != nullptr) scene.fragments->press(at_mm, chain_.radius_mm[i], contact);
     }
 
     // Friction along the axis, with the normal force of the tick before.

@@ -25,10 +25,13 @@ struct RubberStop {
   glm::dvec3 reference_P_mm{0.0}, out_P{0.0, 0.0, 1.0};
 };
 
+class FileFragments;
+
 struct FileScene {
   const SolidField* wall = nullptr;  ///< null: in the air
   std::optional<RubberStop> stop;
   const PerNode<glm::dvec3>* pull_P_N = nullptr;  ///< loads on nodes; null: none
+  const FileFragments* fragments = nullptr;       ///< of other files; null: none
 };
 
 struct FileGrip {

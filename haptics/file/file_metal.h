@@ -25,14 +25,15 @@ constexpr FileMetal fileMetal(assets::KFileMetal metal) {
 }
 
 struct FileSection {
-  double bending_mm4, torsion_mm4, plastic_mm3;
+  double bending_mm4, torsion_mm4, plastic_mm3, area_mm2;
 };
 
 /// Of the circle around it. Plastic moment of area: of a square about its diagonal, and of a triangle.
 constexpr FileSection fileSection(assets::KFileSection form, double diameter_mm) {
   const double d3 = diameter_mm * diameter_mm * diameter_mm, d4 = d3 * diameter_mm;
-  return form == assets::KFileSection::square ? FileSection{d4 / 48.0, 0.0351 * d4, d3 / 12.0}
-                                              : FileSection{d4 / 98.534, 0.012178 * d4, d3 * 0.0476};
+  return form == assets::KFileSection::square
+             ? FileSection{d4 / 48.0, 0.0351 * d4, d3 / 12.0, 0.5 * diameter_mm * diameter_mm}
+             : FileSection{d4 / 98.534, 0.012178 * d4, d3 * 0.0476, 0.325 * diameter_mm * diameter_mm};
 }
 
 constexpr double breakingTorque_Nmm(const FileMetal& metal, double diameter_mm) {

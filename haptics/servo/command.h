@@ -22,7 +22,7 @@ struct Command {
   Tool tool;                     ///< for force, cutting and display
   bool drill_enabled = true;     ///< false: the pedal has no effect
   bool hands_off = false;        ///< as if no hand held the handle: force to zero, nothing works; then armed anew
-  bool irrigating = true;        ///< water on the bur while it turns; recorded and drawn, not felt
+  bool irrigating = true;        ///< water on the bur while it turns, drawn, not felt; washes root canals
   bool assistant_holds = false;  ///< lip, cheek and tongue aside: they give way; and a raised flap (app/procedure/flap)
   bool flap_aside = false;       ///< raised from closed gum and held: gum gives way, a bur on its edge is still told
   std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo

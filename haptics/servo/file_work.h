@@ -33,6 +33,10 @@ struct FileWork {
   double removed_total_mm3 = 0.0;   ///< from the wall, the same
   double broken_from_tip_mm = 0.0;  ///< of the whole file, in the tick in which it breaks; else 0
   double left_mm = 0.0;             ///< length of the file in the hand
+  double flutes_full = 0.0;         ///< share of the fullest section's flutes; 1: it takes nothing there
+  double sharpness = 1.0;           ///< of its edges, 1 when new
+  double debris_mm3 = 0.0;          ///< chips that are not out of the canals: loose, and in its flutes
+  std::uint8_t fragments = 0;       ///< of separated files in the tooth; also told while no file is held
   bool keeps_bend = false;          ///< steel bent too far in this tick
   bool unsettled = false;           ///< not at rest within a tick's steps
   /// Nodes from the handle to the tip, for the picture; a replay makes them again.

@@ -43,6 +43,7 @@ FileReference sanitised(const FileReference& reference) noexcept {
 void RootCanalFile::takeUp(const Tool& tool, const FilePose& X_PT, const WearSettings& wear,
                            double max_stiffness_N_per_mm) noexcept {
   const auto made = tool.file.made();
+  const bool is_another = tool.file != chosen_ || !file_;
   chosen_ = tool.file;
   wear_settings_ = wear;
   worn_before_mm3_ += wear_.due_mm3();
@@ -60,6 +61,21 @@ void RootCanalFile::takeUp(const Tool& tool, const FilePose& X_PT, const WearSet
   if (chosen_.bent_deg != 0.0)
     file_->prebend(chosen_.bent_mm, chosen_.bent_deg * std::numbers::pi / 180.0,
                    chosen_.bent_towards_deg * std::numbers::pi / 180.0);
+  if (is_another) flutes_.takeUp(file_->chain());
+  fragments_.lookAgain(file_->chain(), file_->state().shape);
+}
+
+void RootCanalFile::putDown(double dt_s, bool irrigates) noexcept {
+  file_.reset();
+  flutes_.rinse(dt_s, irrigates, true);
+  work_ = {};
+  work_.debris_mm3 = flutes_.left_mm3();
+  work_.fragments = static_cast<std::uint8_t>(fragments_.lying());
+}
+
+bool RootCanalFile::isOut(const FileReference& reference) const noexcept {
+  const dvec3& tip_mm = file_->state().shape.node_mm[file_->chain().links];
+  return glm::dot(tip_mm - reference.point_P_mm, reference.out_P) > 0.0;
 }
 
 bool RootCanalFile::isInSolid(const SolidField& wall) const noexcept {
@@ -100,12 +116,16 @@ RootCanalFile::Felt RootCanalFile::update(Bodies& bodies, StrokeHistory& strokes
   FileScene scene;
   if (!passes_) {
     scene.wall = &wall;
+    if (fragments_.isMet()) scene.fragments = &fragments_;
     if (chosen_.stop_mm > 0.0) scene.stop = RubberStop{chosen_.stop_mm, reference.point_P_mm, reference.out_P};
   }
   const FileTick done = file_->step(gripped(hand), scene);
   if (passes_) passes_ = isInSolid(wall);
   felt.files = hand.may_cut && !passes_ && done.normal_N > 0.0;
-  if (felt.files) felt.removed = wear_.step(*file_, bone, &strokes, tick);
+  if (felt.files) felt.removed = wear_.step(*file_, bone, &strokes, tick, &flutes_);
+  flutes_.rinse(dt_s, hand.irrigates, isOut(reference));
+  if (done.broken_link && file_->fragment()) fragments_.leave(*file_->fragment(), file_->chain(), strokes);
+  fragments_.wake(file_->chain(), file_->state().shape);
 
   tell(done);
   felt.handle_P = {file_->state().shape.node_mm[0]};
@@ -141,6 +161,10 @@ void RootCanalFile::tell(const FileTick& tick) noexcept {
   work_.removed_total_mm3 = taken_before_mm3_ + wear_.removed_mm3();
   work_.broken_from_tip_mm = tick.broken_link && file_->fragment() ? file_->fragment()->from_tip_mm : 0.0;
   work_.left_mm = chain.length_mm();
+  work_.flutes_full = flutes_.fullest();
+  work_.sharpness = flutes_.sharpness();
+  work_.debris_mm3 = flutes_.left_mm3();
+  work_.fragments = static_cast<std::uint8_t>(fragments_.lying());
   work_.keeps_bend = tick.set;
   work_.unsettled = tick.unsettled;
   for (std::size_t n = 0; n <= kUsualLinks; ++n) {

@@ -9,6 +9,8 @@
 
 #include "haptics/body/bodies.h"
 #include "haptics/file/canal_wear.h"
+#include "haptics/file/file_flutes.h"
+#include "haptics/file/file_fragments.h"
 #include "haptics/file/file_in_canal.h"
 #include "haptics/servo/file_work.h"
 #include "haptics/tool/tool.h"
@@ -30,6 +32,7 @@ class RootCanalFile {
     bool opens_fingers = false;
     bool relocated = false;  ///< not reached by motion, or the tooth has changed under it
     bool may_cut = true;
+    bool irrigates = false;  ///< water washes flutes and canals
     double max_stiffness_N_per_mm = kFileCoupling_N_per_mm;
   };
   struct Felt {
@@ -45,14 +48,17 @@ class RootCanalFile {
   /// `tool`: with a file. Changed blocks are saved to `strokes`.
   Felt update(Bodies& bodies, StrokeHistory& strokes, const Tool& tool, const FileReference& reference,
               const WearSettings& wear, const Hand& hand, double dt_s, std::uint64_t tick) noexcept;
-  /// Another tool is in the hand.
-  void putDown() noexcept { file_.reset(); }
+  /// First in each tick, whatever is in the hand; `restored`: strokes were undone or redone.
+  void followStrokes(const StrokeHistory& strokes, bool restored) noexcept { fragments_.follow(strokes, restored); }
+  /// Another tool is in the hand; what is left in the canals stays and may be washed.
+  void putDown(double dt_s, bool irrigates) noexcept;
   bool isInHand() const { return file_.has_value(); }
 
   /// Of the last update().
   const FileWork& work() const { return work_; }
 
  private:
+  bool isOut(const FileReference& reference) const noexcept;
   void takeUp(const Tool& tool, const FilePose& X_PT, const WearSettings& wear, double max_stiffness_N_per_mm) noexcept;
   bool isInSolid(const SolidField& wall) const noexcept;
   FilePose gripped(const Hand& hand) noexcept;
@@ -63,6 +69,8 @@ class RootCanalFile {
   CanalFile chosen_;
   WearSettings wear_settings_;
   CanalWear wear_;
+  FileFlutes flutes_;
+  FileFragments fragments_;
   FileWork work_;
   double worn_before_mm3_ = 0.0, taken_before_mm3_ = 0.0;  ///< by the files before this one
   bool passes_ = false;

@@ -108,13 +108,18 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   Proxy::State proxy;
   RootCanalFile::Felt filed;
   const bool holds_file = command.tool.isFile();
-  if (!holds_file) canal_file_.putDown();
+  canal_file_.followStrokes(undo_.strokes(), undo_.hasChanged());
+  if (!holds_file) {
+    canal_file_.putDown(tick.dt_s, command.irrigating);
+    tick.file = canal_file_.work();
+  }
   if (holds_file) {
     const bool without_force = command.safety.must_be_armed && admitted.state != SafetyState::active;
-    filed = canal_file_.update(bodies_, undo_.strokes(), command.tool, command.file_reference, command.wear,
-                               {soft.X_PT, pedal, admitted.relocated || without_force || undo_.hasChanged(),
-                                admitted.mayDrill() && !was_undone, command.safety.max_stiffness_N_per_mm},
-                               tick.dt_s, tick.index);
+    filed = canal_file_.update(
+        bodies_, undo_.strokes(), command.tool, command.file_reference, command.wear,
+        {soft.X_PT, pedal, admitted.relocated || without_force || undo_.hasChanged(),
+         admitted.mayDrill() && !was_undone, command.irrigating, command.safety.max_stiffness_N_per_mm},
+        tick.dt_s, tick.index);
     proxy.proxy_P = filed.handle_P;
     at_proxy_X_PT_ = {soft.X_PT.rotation, filed.handle_P.mm};
     proxy_.startAt(filed.handle_P);

@@ -8,6 +8,12 @@
 #include "app/procedure/root_canal/canal_tip.h"
 
 namespace app {
+namespace {
+
+constexpr double kEmptied = 0.5;  ///< share of the flutes
+
+}  // namespace
+
 std::string_view nameOf(haptics::WearLaw law) {
   switch (law) {
     case haptics::WearLaw::counters:
@@ -38,10 +44,15 @@ void FileUse::add(const haptics::Tick& tick, int size) {
   using haptics::FileStay;
   const haptics::FileWork& file = tick.file;
   moveOn(tick, size);
+  fragments_ = file.fragments;
+  debris_mm3_ = file.debris_mm3;
+  // Told once a filling: water lets a little more in at once.
+  is_full_ = file.flutes_full >= (is_full_ ? kEmptied : kFlutesFull);
   if (file.stay == FileStay::none || file.stay == FileStay::through) return;
   torque_share_ = std::max(torque_share_, file.torque_share);
   filed_mm3_ = file.removed_total_mm3;
   if (file.stay == FileStay::wall) filing_s_ += tick.dt_s;
+  if (file.stay == FileStay::wall && is_full_) full_s_ += tick.dt_s;
   if (file.broken_from_tip_mm > 0.0) ++broken_;
   if (size != in_hand_) is_bent_ = false;
   in_hand_ = size;
@@ -90,6 +101,7 @@ Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& befor
   all.perforations = perforations(before, after, tooth);
   all.broken_files = files.broken(), all.bent_files = files.bent();
   all.torque_share = files.torque_share(), all.filed_mm3 = files.filed_mm3(), all.filing_s = files.filing_s();
+  all.debris_left_mm3 = files.debris_mm3(), all.full_s = files.full_s(), all.fragments_left = files.fragments();
   for (std::size_t n = 0; n < kFileMotions; ++n) all.motion_s[n] = files.motion().seconds(FileMotion{n});
   return all;
 }

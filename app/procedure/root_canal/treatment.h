@@ -18,6 +18,9 @@
 
 namespace app {
 
+/// Flutes count as full.
+inline constexpr double kFlutesFull = 0.99;
+
 /// For people and for files: "rate", "counters", "counters-helical".
 std::string_view nameOf(haptics::WearLaw law);
 
@@ -38,6 +41,13 @@ class FileUse {
   double torque_share() const { return torque_share_; }
   double filed_mm3() const { return filed_mm3_; }
   int broken() const { return broken_; }
+  /// In the tooth now; an undo takes them back.
+  int fragments() const { return fragments_; }
+  /// Chips that are not out of the canals.
+  double debris_mm3() const { return debris_mm3_; }
+  /// Of the file in the hand, and how long any filed with full ones.
+  bool isFull() const { return is_full_; }
+  double full_s() const { return full_s_; }
   int bent() const { return bent_; }
   double filing_s() const { return filing_s_; }
   const MotionNames& motion() const { return motion_; }
@@ -52,7 +62,9 @@ class FileUse {
   assets::ToothCanals tooth_;
   std::vector<Canal> canals_;
   double torque_share_ = 0.0, filed_mm3_ = 0.0, filing_s_ = 0.0;
-  int broken_ = 0, bent_ = 0;
+  double debris_mm3_ = 0.0, full_s_ = 0.0;
+  int broken_ = 0, bent_ = 0, fragments_ = 0;
+  bool is_full_ = false;
   int in_hand_ = 0;
   bool is_bent_ = false;  ///< the one in the hand: told once
   MotionNames motion_;
@@ -75,7 +87,10 @@ struct Treatment {
   OutlineOutcome outline;
   std::vector<Perforation> perforations;
   int broken_files = 0, bent_files = 0;
+  int fragments_left = 0;  ///< in the tooth at the end
   double torque_share = 0.0, filed_mm3 = 0.0, filing_s = 0.0;
+  double debris_left_mm3 = 0.0;                 ///< chips that are not out of the canals
+  double full_s = 0.0;                          ///< against the wall with full flutes
   std::array<double, kFileMotions> motion_s{};  ///< of filing_s; the rest was held still or had no name
 
   bool isForamenMoved() const;

@@ -51,10 +51,11 @@ TEST(TreatmentPage, WhatMustNotHappenIsToldFirstAndPlainly) {
   Treatment& all = review.of.treatment;
   all.perforations = {{PerforationKind::strip, 0.456, {}}};
   all.broken_files = 2;
+  all.fragments_left = 1;
   all.canals[0].outcomes.foramen_moved_mm = 0.15;
   const std::string page = pageOf(review);
   EXPECT_TRUE(tells(page, "<b>Yes</b>: Root or chamber perforated<br><span class=\"quiet\">strip, 0.46 mm²"));
-  EXPECT_TRUE(tells(page, "<b>Yes</b>: File separated<br><span class=\"quiet\">2 in all"));
+  EXPECT_TRUE(tells(page, "<b>Yes</b>: File separated<br><span class=\"quiet\">2 in all, 1 in the tooth at the end"));
   EXPECT_TRUE(tells(page, "<b>Yes</b>: Foramen transported<br><span class=\"quiet\">single canal, 0.15 mm"));
   EXPECT_LT(page.find("Root or chamber perforated"), page.find("Access cavity"));
 }
