@@ -133,6 +133,7 @@ struct Frame {
   double bur_radius_mm = 2.0;
   assets::BurForm bur_form = assets::BurForm::round;  ///< for the outlines in the slices
   double bur_length_mm = 0.0;
+  assets::BurProfile bur_profile = assets::BurProfile::wheel;  ///< of a revolved bur
   double shaft_radius_mm = 0.0;  ///< of the bur, behind its head; 0: what is usual for its radius
   double bur_angle_rad = 0.0;    ///< rotation of the bur
   std::optional<BoneGap> gap;    ///< of this pose; none: farther than kMaxGap_mm, or not known

@@ -34,6 +34,13 @@ void addParts(const Frame& frame, ToolBlock& block) {
       tip_radius = std::min(0.1, 0.5 * radius);
       low = -half + tip_radius, high = std::max(half - 0.8 * radius, low);
       break;
+    case assets::BurForm::revolved: {
+      const assets::BurOutline outline = assets::burOutline(frame.bur_profile, radius, 2.0 * half);
+      const double end = outline.radius_mm[outline.count - 1];
+      tip_radius = std::clamp(outline.radius_mm[0], std::min(0.3 * radius, half), radius);
+      low = -half + std::min(tip_radius, 0.8 * half), high = std::max(half - 0.8 * std::max(end, 0.5 * radius), low);
+      break;
+    }
   }
   struct Part {
     double from_mm, from_radius_mm, to_mm, to_radius_mm;

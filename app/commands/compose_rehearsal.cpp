@@ -11,6 +11,7 @@
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_source_table.h"
 #include "app/options/command_settings.h"
+#include "app/options/feel_preset.h"
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/tool_text.h"
@@ -154,7 +155,7 @@ void goOn(RehearseOptions& options, const Continuation& former) {
   static const RehearseOptions kUntouched;
   const haptics::Command chosen = std::exchange(plan.command, former.command);
   plan.command.safety = chosen.safety;
-  if (options.law != kUntouched.law) plan.command.law = chosen.law;
+  if (options.law != kUntouched.law || !options.preset.empty()) plan.command.law = chosen.law;
   if (options.erosion != kUntouched.erosion) plan.command.erosion = chosen.erosion;
   if (options.tools != kUntouched.tools || !options.shaft.empty()) {
     plan.command.tool = chosen.tool;
@@ -218,8 +219,10 @@ void chooseTools(RehearseOptions& options) {
     return;
   }
   if (isPreparation(options)) {
-    // Round-ended and flat-ended diamonds for walls and margin, a round one for the biting surface, one for grooves.
-    options.tools = {"capsule:0.6,6", "cylinder:0.5,5", "round:1.6", "cylinder:0.4,3"};
+    // A round-ended taper for walls and margin, a torpedo for a chamfer, a flame and a wheel for the biting surface, a
+    // round one for a cavity, a narrow cylinder for its grooves.
+    options.tools = {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6",
+                     "wheel:1.8,1.2",     "round:1.4",     "cylinder:0.4,4"};
     // A scripted hand works with flat ends alone, as wide as a margin or narrower than an isthmus.
     if (options.plan.device == "scripted")
       options.tools = {options.ideal.starts_with("crown") ? "cylinder:0.5,6" : "cylinder:0.4,4"};
@@ -268,6 +271,12 @@ void chooseCommand(RehearseOptions& options) {
   plan.command.wear.law = options.wear == "counters"           ? haptics::WearLaw::counters
                           : options.wear == "counters-helical" ? haptics::WearLaw::counters_helical
                                                                : haptics::WearLaw::wear;
+  if (!options.preset.empty()) {
+    static const RehearseOptions kAsked;
+    if (options.law != kAsked.law)
+      throw UsageError("--preset " + options.preset + ": it chooses the force law, leave out --law");
+    useFeelPreset(options.preset, plan.command.law);
+  }
   applyTo(plan.command, options.settings);
   refuseBeyondServoLimits(plan.command);
   refuseUnlessAdmitted(plan.command);

@@ -5,6 +5,7 @@
 #include "app/controls/control.h"
 #include "app/device/pose_source_table.h"
 #include "app/device/second_hand.h"
+#include "app/options/feel_preset.h"
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/tool_text.h"
@@ -196,6 +197,11 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.flag("--verbose", options.plan.verbose,
                "Words for engineers on the terminal; keys 1 to 7 choose the force law");
   command.option("--law", options.law, "Force law: " + lawNames()).showsDefault();
+  command
+      .option("--preset", options.preset,
+              "density-weighted: the feel of a published tooth-preparation simulator, volumetric sample points whose "
+              "stiffness follows the density over the last 100 ticks; --set still changes it")
+      .oneOf(feelPresets());
   command.option("--erosion", options.erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
   command.option("--set", options.settings,
                  "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");

@@ -20,7 +20,7 @@ struct RehearseOptions {
   bool no_record = false;
   RigOption rig;
   std::vector<std::string> tools{"round:3.0", "round:2.0", "fissure:1.6,4.5"};
-  std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
+  std::string shaft, law = "agus", preset, erosion = "time", size, snapshot_size = "1280x800";
   std::string pace = "real";
   std::string side = "right", second_tool = "mirror", case_name, procedure, guidance, predict, drawn, coach,
               flap = "raised";

@@ -11,6 +11,10 @@ namespace {
 
 // In the order of haptics::ShapeKind.
 constexpr std::array<std::string_view, 4> kShapes{"round", "round-end fissure", "fissure", "cone"};
+// In the order of assets::BurProfile.
+constexpr std::array<std::string_view, assets::kBurProfiles> kProfiles{
+    "wheel", "inverted cone", "flat-end taper",    "round-end taper", "torpedo", "flame",
+    "pear",  "egg",           "round-end cylinder"};
 // In the order of haptics::ElevatorKind.
 constexpr std::array<std::string_view, 5> kElevators{"none", "elevator 301", "elevator 34S", "Cryer elevator left",
                                                      "Cryer elevator right"};
@@ -23,7 +27,9 @@ constexpr double kSameSize = 0.02;  ///< tenths of a millimetre
 
 std::string burName(const haptics::BurShape& head) {
   const double diameter_mm = 2.0 * head.radius_mm, tenths = 10.0 * diameter_mm;
-  const std::string_view shape = kShapes[static_cast<std::size_t>(head.kind)];
+  const std::string_view shape = head.kind == haptics::ShapeKind::revolved
+                                     ? kProfiles[static_cast<std::size_t>(head.profile)]
+                                     : kShapes[static_cast<std::size_t>(head.kind)];
   if (std::abs(tenths - std::round(tenths)) > kSameSize) return fmt::format("{} {:.2f} mm", shape, diameter_mm);
   return fmt::format("{} {:.1f} mm, ISO {:03}", shape, diameter_mm, std::lround(tenths));
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "app/options/iso_bur.h"
 #include "app/text/list.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
@@ -30,12 +31,14 @@ struct Form {
   ShapeKind kind;
   const char* pattern;
   std::vector<Measure> measures;
+  assets::BurProfile profile = assets::BurProfile::wheel;
 
   /// By diameter, as dentists do; sessions and settings files name the shape and its radius.
   bool isOrdered() const { return measures.front().factor != 1.0; }
 };
 
-constexpr std::string_view kElevator = "elevator", kFile = "k-file";
+constexpr std::string_view kElevator = "elevator", kFile = "k-file", kIso = "iso";
+constexpr const char* kIsoPattern = "iso:SHAPE/DIAMETER in tenths of a mm";
 constexpr const char* kFilePattern = "k-file:SIZE,LENGTH with ,niti or ,bent:DEGREES behind it";
 
 const Measure kRadius{"radius", 0.1, 20.0}, kDiameter{"diameter", 0.2, 40.0, 0.5};
@@ -48,13 +51,30 @@ std::optional<double> isoDiameter_mm(std::string_view text) {
 }
 
 const std::vector<Form>& forms() {
+  using assets::BurProfile;
+  const auto revolved = [](BurProfile profile, const char* pattern) {
+    return Form{assets::kBurProfileKeys[static_cast<std::size_t>(profile)],
+                ShapeKind::revolved,
+                pattern,
+                {kRadius, {"length", 0.1, 40.0}},
+                profile};
+  };
   static const std::vector<Form> kKnown = {
       {"round", ShapeKind::sphere, "round:D", {kDiameter}},
       {"fissure", ShapeKind::cylinder, "fissure:D,L", {kDiameter, {"length", 0.1, 40.0}}},
       {"sphere", ShapeKind::sphere, "sphere:R", {kRadius}},
       {"capsule", ShapeKind::capsule, "capsule:R,L", {kRadius, {"length", 0.0, 40.0}}},
       {"cylinder", ShapeKind::cylinder, "cylinder:R,L", {kRadius, {"length", 0.1, 40.0}}},
-      {"cone", ShapeKind::cone, "cone:R,L", {kRadius, {"length", 0.1, 40.0}}}};
+      {"cone", ShapeKind::cone, "cone:R,L", {kRadius, {"length", 0.1, 40.0}}},
+      revolved(BurProfile::wheel, "wheel:R,L"),
+      revolved(BurProfile::inverted_cone, "inverted-cone:R,L"),
+      revolved(BurProfile::taper, "taper:R,L"),
+      revolved(BurProfile::round_taper, "round-taper:R,L"),
+      revolved(BurProfile::torpedo, "torpedo:R,L"),
+      revolved(BurProfile::flame, "flame:R,L"),
+      revolved(BurProfile::pear, "pear:R,L"),
+      revolved(BurProfile::egg, "egg:R,L"),
+      revolved(BurProfile::round_cylinder, "round-cylinder:R,L")};
   return kKnown;
 }
 
@@ -84,6 +104,16 @@ std::string alternatives(std::vector<std::string> ways) {
   const std::string last = std::move(ways.back());
   ways.pop_back();
   return joined(ways) + " or " + last;
+}
+
+/// Refuses a revolved head that is too short for its outline.
+BurShape notFolded(const BurShape& head, const std::string& text) {
+  if (head.kind != ShapeKind::revolved) return head;
+  const double least_mm = assets::leastBurLength_mm(head.profile, head.radius_mm);
+  if (head.length_mm < least_mm)
+    throw UsageError(fmt::format("--tool {}: the length is too short for this form, give at least {:.3g} mm", text,
+                                 std::ceil(1000.0 * least_mm) / 1000.0));
+  return head;
 }
 
 /// None: it is none of them.
@@ -144,6 +174,7 @@ std::string fileForm() { return std::string(kFilePattern); }
 std::string headForms() {
   std::vector<std::string> patterns;
   for (const Form& form : forms()) patterns.emplace_back(form.pattern);
+  patterns.emplace_back(kIsoPattern);
   return alternatives(std::move(patterns));
 }
 
@@ -158,21 +189,23 @@ std::string handInstrumentForms() {
   return alternatives({haptics::kHandInstrumentKeys.begin() + 1, haptics::kHandInstrumentKeys.end()});
 }
 
-std::map<ShapeKind, std::string_view> headKinds() {
-  std::map<ShapeKind, std::string_view> kinds;
+std::multimap<ShapeKind, std::string_view> headKinds() {
+  std::multimap<ShapeKind, std::string_view> kinds;
   for (const Form& form : forms())
-    if (!form.isOrdered()) kinds[form.kind] = form.key;
+    if (!form.isOrdered()) kinds.emplace(form.kind, form.key);
   return kinds;
 }
 
 BurShape headFrom(const std::string& text) {
   const std::string_view whole = text;
   const std::string_view key = whole.substr(0, whole.find(':'));
+  if (key == kIso)
+    return notFolded(isoBurFrom(whole.substr(std::min(whole.size(), kIso.size() + 1)), "--tool " + text), text);
   for (const Form& form : forms()) {
     if (key != form.key) continue;
     const std::string_view numbers = key.size() == whole.size() ? std::string_view{} : whole.substr(key.size() + 1);
     const auto values = measuresIn(numbers, form.measures, "--tool " + text, form.pattern);
-    return {form.kind, values[0], values.size() > 1 ? values[1] : 0.0};
+    return notFolded({form.kind, values[0], values.size() > 1 ? values[1] : 0.0, form.profile}, text);
   }
   throw UsageError("--tool " + text + ": no such head, give " + headForms() + " in mm");
 }
@@ -184,7 +217,7 @@ haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
   if (key == "forceps") throw UsageError("--tool " + text + ": forceps have no size, write forceps alone");
   if (key == kElevator) return elevatorFrom(text);
   if (key == kFile) return canalFileFrom(text);
-  if (std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
+  if (key != kIso && std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
     throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps, or " +
                      elevatorForms() + ", or " + handInstrumentForms() + ", or " + fileForm());
   const BurShape head = headFrom(text);
@@ -200,7 +233,7 @@ haptics::Shaft shaftFrom(const std::string& text) {
 
 std::string textOf(const BurShape& head) {
   for (const Form& form : forms())
-    if (form.kind == head.kind && !form.isOrdered())
+    if (form.kind == head.kind && form.profile == head.profile && !form.isOrdered())
       return fmt::format("{}:{}", form.key, head.radius_mm) +
              (form.measures.size() > 1 ? fmt::format(",{}", head.length_mm) : "");
   return "unknown";

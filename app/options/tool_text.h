@@ -1,8 +1,9 @@
 // Tools as text, as a dentist orders them: `round:D`, `fissure:D,L` (D the diameter in mm or an ISO 6360 size as iso023
 // = 2.3 mm, L the length of the head); or by shape: heads `sphere:R`, `capsule:R,L` (L the cylindrical part),
-// `cylinder:R,L`, `cone:R,L` (R at the base, L high) and shafts `R,L`, all in mm. Start-up only. Throws UsageError with
-// the accepted forms. `forceps`, `elevator:KIND` and hand instruments (`scalpel:15`, `curette`, …) are tools without a
-// head.
+// `cylinder:R,L`, `cone:R,L` (R at the base, L high), `flame:R,L` and other outlines (assets/bur_outline; R the
+// largest, L the whole length) and shafts `R,L`, all in mm; or `iso:289/016` (iso_bur). Start-up only. Throws
+// UsageError with the accepted forms. `forceps`, `elevator:KIND` and hand instruments (`scalpel:15`, `curette`, …) are
+// tools without a head.
 #pragma once
 
 #include <map>
@@ -22,7 +23,7 @@ inline std::string headHelp() {
 }
 
 /// "sphere", "capsule", …
-std::map<haptics::ShapeKind, std::string_view> headKinds();
+std::multimap<haptics::ShapeKind, std::string_view> headKinds();
 
 /// Radius 0.1..20, length 0.1..40 mm (a capsule's from 0).
 haptics::BurShape headFrom(const std::string& text);

@@ -32,6 +32,7 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   frame.bur_length_mm = head.length_mm;
   frame.shaft_radius_mm = command.tool.shaft.radius_mm;
   frame.bur_form = static_cast<assets::BurForm>(head.kind);
+  frame.bur_profile = head.profile;
   frame.tool_visible = tick.dt_s > 0.0;
   if (!frame.tool_visible) return frame;
   if (!haptics::has(tick.faults, haptics::Fault::bad_pose)) frame.X_PT.rotation = tick.heldRotation();

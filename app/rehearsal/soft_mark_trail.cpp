@@ -23,7 +23,8 @@ constexpr double kUnseen = 0.02;
 /// The head as a ball swept along its axis.
 SoftCut headAt(const haptics::Tick& tick, const haptics::BurShape& head) {
   const bool is_cone = head.kind == haptics::ShapeKind::cone;
-  const double radius_mm = is_cone ? kConeRadius * head.radius_mm : head.radius_mm;
+  const double widest_mm = head.kind == haptics::ShapeKind::revolved ? haptics::largestBall_mm(head) : head.radius_mm;
+  const double radius_mm = is_cone ? kConeRadius * widest_mm : widest_mm;
   const double half_mm = std::max(0.0, haptics::halfHeight_mm(head) - radius_mm);
   const glm::dvec3 along = tick.heldRotation() * glm::dvec3(0.0, 0.0, half_mm);
   return {{tick.proxy_P.mm - along}, {tick.proxy_P.mm + along}, radius_mm};

@@ -14,9 +14,13 @@
 namespace app {
 namespace {
 
-constexpr std::array<std::string_view, 4> kShapes = {"sphere", "capsule", "cylinder", "cone"};
+constexpr std::array<std::string_view, haptics::kShapeKinds> kShapes = {"sphere", "capsule", "cylinder", "cone",
+                                                                        "revolved"};
 
 std::string_view keyOf(haptics::ShapeKind kind) { return kShapes[static_cast<std::size_t>(kind) % kShapes.size()]; }
+std::string_view keyOf(assets::BurProfile profile) {
+  return assets::kBurProfileKeys[static_cast<std::size_t>(profile) % assets::kBurProfiles];
+}
 std::string_view keyOf(haptics::LawKind kind) {
   return haptics::kLaws[static_cast<std::size_t>(kind) % haptics::kLaws.size()].key;
 }
@@ -43,6 +47,7 @@ void setByKey(Kind& kind, std::string_view key) {
                                  : std::same_as<Kind, haptics::ElevatorKind>   ? haptics::kElevatorKeys.size()
                                  : std::same_as<Kind, haptics::HandInstrument> ? haptics::kHandInstrumentKeys.size()
                                  : std::same_as<Kind, haptics::WearLaw>        ? kWearLaws.size()
+                                 : std::same_as<Kind, assets::BurProfile>      ? assets::kBurProfiles
                                                                                : kShapes.size();
   for (std::size_t i = 0; i < kCount; ++i)
     if (keyOf(static_cast<Kind>(i)) == key) kind = static_cast<Kind>(i);
@@ -58,9 +63,10 @@ void visitByTissue(const std::string& key, auto& factors, Visit&& visit) {
 template <class Visit>
 void visitTool(auto& tool, Visit&& visit) {
   auto& [head, shaft, handpiece, grips, elevator, hand_instrument, file] = tool;
-  auto& [kind, radius_mm, length_mm] = head;
+  auto& [kind, radius_mm, length_mm, profile] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("tool.head.kind", kind), visit("tool.head.radius_mm", radius_mm), visit("tool.head.length_mm", length_mm);
+  visit("tool.head.profile", profile);
   visit("tool.shaft.radius_mm", shaft_radius_mm), visit("tool.shaft.length_mm", shaft_length_mm);
   visit("tool.handpiece", handpiece), visit("tool.grips", grips);
   visit("tool.elevator", elevator), visit("tool.hand_instrument", hand_instrument);

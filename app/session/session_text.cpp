@@ -75,7 +75,7 @@ void forEachParameter(auto& jaw, auto&& visit) {
 /// Whether there is a handpiece is the device's, not the tray's.
 void forEachNumber(auto& tool, auto&& visit) {
   auto& [head, shaft, handpiece, grips, elevator, hand_instrument, file] = tool;
-  auto& [kind, radius_mm, length_mm] = head;
+  auto& [kind, radius_mm, length_mm, profile] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
   visit("radius_mm", radius_mm), visit("length_mm", length_mm);
   visit("shaft_radius_mm", shaft_radius_mm), visit("shaft_length_mm", shaft_length_mm);
@@ -114,6 +114,7 @@ json setupJson(const SessionSetup& setup) {
                 {"grips", tool.grips},
                 {"elevator", static_cast<int>(tool.elevator)},
                 {"hand_instrument", static_cast<int>(tool.hand_instrument)}};
+    if (tool.head.kind == haptics::ShapeKind::revolved) one["profile"] = static_cast<int>(tool.head.profile);
     if (tool.isFile()) one["file"] = fileJson(tool.file);
     forEachNumber(tool, [&](const char* key, double value) { one[key] = value; });
     object["tray"].push_back(std::move(one));
@@ -228,8 +229,11 @@ SessionSetup setupFrom(const json& object) {
       if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::suction))
         throw damagedSession("it has no valid tray");
       tool.hand_instrument = static_cast<haptics::HandInstrument>(by_hand);
-      if (kind < 0 || kind > static_cast<int>(haptics::ShapeKind::cone)) throw damagedSession("it has no valid tray");
+      const int profile = valueOf(one, "profile", 0);
+      if (kind < 0 || kind >= haptics::kShapeKinds || profile < 0 || profile >= static_cast<int>(assets::kBurProfiles))
+        throw damagedSession("it has no valid tray");
       tool.head.kind = static_cast<haptics::ShapeKind>(kind);
+      tool.head.profile = static_cast<assets::BurProfile>(profile);
       if (const auto file = one.find("file"); file != one.end() && file->is_object()) tool.file = fileFrom(*file);
       forEachNumber(tool, [&](const char* key, double& value) { value = valueOf(one, key, value); });
       setup.tray.push_back(haptics::sanitised(tool));

@@ -17,11 +17,12 @@ assets::HandpieceParameters drawnAs(const haptics::Tool& tool) {
   drawn.form = static_cast<assets::BurForm>(tool.head.kind);
   drawn.bur_radius_mm = tool.head.radius_mm;
   drawn.bur_length_mm = tool.head.length_mm;
+  drawn.profile = tool.head.profile;
   drawn.neck_radius_mm = tool.shaft.radius_mm;
   drawn.handpiece = tool.handpiece;
   return drawn;
 }
-static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));
+static_assert(static_cast<int>(assets::BurForm::revolved) == static_cast<int>(haptics::ShapeKind::revolved));
 
 assets::ElevatorForm formOf(haptics::ElevatorKind kind) {
   return static_cast<assets::ElevatorForm>(static_cast<int>(kind) - 1);

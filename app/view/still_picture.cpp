@@ -64,14 +64,14 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // A new member does not compile until it is compared; quality and display are not the scene's; field,
   // glass and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, shaft, angle, gap, ruler, magnified, slices, tool, shades, handpiece, X_PO,
-                                second, glass, pieces, window, site, field, marks, beads, obstacles, flap, gum,
+                                length, profile, shaft, angle, gap, ruler, magnified, slices, tool, shades, handpiece,
+                                X_PO, second, glass, pieces, window, site, field, marks, beads, obstacles, flap, gum,
                                 flap_serial, gum_serial] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
       a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
     return false;
   if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
-      a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
+      a.bur_profile != b.bur_profile || a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
     return false;
   if (a.slices_beside_bur_P_mm != b.slices_beside_bur_P_mm || a.face_window_mm != b.face_window_mm ||
       a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.beads != b.beads ||

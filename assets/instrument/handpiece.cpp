@@ -99,6 +99,28 @@ MeshPart burHead(const HandpieceParameters& parameters) {
 
 // Outline of a long head from tip to neck in smooth stretches of (radius, z).
 using Stretch = std::vector<glm::dvec2>;
+/// Edges where a flat end or two segments meet at more than 20 degrees.
+std::vector<Stretch> revolvedStretches(const HandpieceParameters& parameters, double neck) {
+  const BurOutline outline = burOutline(parameters.profile, parameters.bur_radius_mm, parameters.bur_length_mm);
+  std::vector<glm::dvec2> knots;
+  const auto add = [&](const glm::dvec2& knot) {
+    if (knots.empty() || glm::distance(knots.back(), knot) > 1e-6) knots.push_back(knot);
+  };
+  add({0.0, outline.z_mm[0]});
+  for (std::size_t n = 0; n < outline.count; ++n) add({outline.radius_mm[n], outline.z_mm[n]});
+  add({std::min(neck, knots.back().x), knots.back().y});
+  const double cosine = std::cos(20.0 * kPi / 180.0);
+  std::vector<Stretch> stretches;
+  for (std::size_t n = 0; n + 1 < knots.size(); ++n) {
+    const glm::dvec2 way = knots[n + 1] - knots[n];
+    const bool edge = n == 0 || glm::dot(glm::normalize(way), glm::normalize(knots[n] - knots[n - 1])) < cosine;
+    if (edge) stretches.push_back({knots[n]});
+    const int steps = std::max(2, static_cast<int>(std::ceil(glm::length(way) / (0.25 * parameters.bur_radius_mm))));
+    for (int k = 1; k <= steps; ++k) stretches.back().push_back(knots[n] + way * (static_cast<double>(k) / steps));
+  }
+  return stretches;
+}
+
 std::vector<Stretch> outlineOf(const HandpieceParameters& parameters, double neck) {
   const double radius = parameters.bur_radius_mm, half = 0.5 * parameters.bur_length_mm;
   constexpr int kSteps = 24;
@@ -112,6 +134,7 @@ std::vector<Stretch> outlineOf(const HandpieceParameters& parameters, double nec
             straight({radius, half}, {neck, half})};
   if (parameters.form == BurForm::cone)
     return {straight({0.0, -half}, {radius, half}), straight({radius, half}, {neck, half})};
+  if (parameters.form == BurForm::revolved) return revolvedStretches(parameters, neck);
   // Round ends, the upper one up to the neck.
   Stretch stretch;
   for (int n = 0; n <= kSteps; ++n) {
@@ -162,7 +185,15 @@ MeshPart bur(const HandpieceParameters& parameters) {
   // z at which the round end has the neck's radius.
   const double shoulder = std::sqrt(std::max(0.0, 0.98 * radius * radius - neck * neck));
   const bool round = parameters.form == BurForm::round, capsule = parameters.form == BurForm::capsule;
-  const double start = round ? shoulder : capsule ? half + shoulder : half;
+  double start = round ? shoulder : capsule ? half + shoulder : half;
+  if (parameters.form == BurForm::revolved) {
+    // A round end goes into the neck where it is as thin.
+    const BurOutline outline = burOutline(parameters.profile, radius, parameters.bur_length_mm);
+    for (std::size_t n = outline.count; n-- > 0 && outline.radius_mm[outline.count - 1] <= 0.0;) {
+      start = outline.z_mm[n];
+      if (outline.radius_mm[n] >= neck) break;
+    }
+  }
   MeshPart part = round ? burHead(parameters) : longHead(parameters, neck);
   append(part, revolved({{start - (round || capsule ? 0.15 * radius : 0.0), neck},
                          {start + 0.6, neck * 0.92},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calibration/geometry/pose.h"
 #include "haptics/bone/face_share_body.h"
@@ -32,6 +33,82 @@ AxialShare<double> smallSphere(double R, double eta, const glm::dvec3& p) {
   return {per_ball * lens.volume, radial, radial * p.z};
 }
 
+OutlineFoot<double> sideFoot(const BurCoverage& bur, double rho, double z) {
+  OutlineFoot<double> foot{1e300, 0.0, 0.0, 0.0, 0.0};
+  for (int n = 0; n < bur.segments; ++n) foot = nearerFoot(bur.segment[static_cast<std::size_t>(n)], rho, z, foot);
+  return foot;
+}
+
+/// Direction across a segment of the outline, outwards.
+struct Across {
+  double out, up;
+};
+/// Beyond every voxel of a volume.
+constexpr double kFar = 1e6;
+
+/// Segments of an outline in voxels, with normals and curvatures at the knots.
+void setSegments(const BurShape& shape, double per_mm, BurCoverage& bur) {
+  const assets::BurOutline outline = revolvedOutline(shape);
+  std::array<double, assets::kMostKnots> rho{}, z{};
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < outline.count; ++n) {
+    const double r = outline.radius_mm[n] * per_mm, h = outline.z_mm[n] * per_mm;
+    if (count > 0 && std::hypot(r - rho[count - 1], h - z[count - 1]) < 1e-9) continue;
+    rho[count] = r, z[count] = h, ++count;
+  }
+  if (count < 2) return;
+  const std::size_t pieces = count - 1;
+  const bool flat_low = rho[0] > 0.0, flat_high = rho[pieces] > 0.0;
+  std::array<double, assets::kMostKnots> length{}, bend{};
+  std::array<Across, assets::kMostKnots> across{}, normal{};
+  for (std::size_t n = 0; n < pieces; ++n) {
+    length[n] = std::hypot(rho[n + 1] - rho[n], z[n + 1] - z[n]);
+    across[n] = {(z[n + 1] - z[n]) / length[n], (rho[n] - rho[n + 1]) / length[n]};
+  }
+  const auto angle = [](const Across& a, const Across& b) {
+    return std::atan2(a.out * b.up - a.up * b.out, a.out * b.out + a.up * b.up);
+  };
+  for (std::size_t n = 0; n < count; ++n) {
+    if (n == 0 || n == pieces) {
+      // A round end's normal is the axis; a flat end's side meets it at an edge and is straight.
+      const Across& beside = across[n == 0 ? 0 : pieces - 1];
+      const bool flat = n == 0 ? flat_low : flat_high;
+      const double half_length = 0.5 * length[n == 0 ? 0 : pieces - 1];
+      normal[n] = flat ? beside : Across{0.0, n == 0 ? -1.0 : 1.0};
+      const double turn = n == 0 ? angle(normal[n], beside) : angle(beside, normal[n]);
+      bend[n] = flat ? beside.out / rho[n] : 2.0 * turn / half_length;
+    } else {
+      const Across sum{across[n - 1].out + across[n].out, across[n - 1].up + across[n].up};
+      const double long_as = std::hypot(sum.out, sum.up);
+      normal[n] = {sum.out / long_as, sum.up / long_as};
+      bend[n] = angle(across[n - 1], across[n]) / (0.5 * (length[n - 1] + length[n])) + normal[n].out / rho[n];
+    }
+  }
+  bur.segments = static_cast<int>(pieces);
+  for (std::size_t n = 0; n < pieces; ++n) {
+    const double per_length = 1.0 / length[n];
+    bur.segment[n] = {rho[n],
+                      z[n],
+                      -across[n].up,
+                      across[n].out,
+                      length[n],
+                      n == 0 && flat_low ? -kFar : 0.0,
+                      n + 1 == pieces && flat_high ? kFar : length[n],
+                      normal[n].out,
+                      normal[n].up,
+                      (normal[n + 1].out - normal[n].out) * per_length,
+                      (normal[n + 1].up - normal[n].up) * per_length,
+                      bend[n],
+                      (bend[n + 1] - bend[n]) * per_length};
+  }
+  bur.end_low = flat_low ? bur.half : kFar;
+  bur.end_high = flat_high ? bur.half : kFar;
+  // Of the edge from which a voxel reaches farthest.
+  bur.side_cos = 1.0, bur.side_sin = 0.0;
+  for (const auto& [is_flat, side] : {std::pair(flat_low, across[0]), std::pair(flat_high, across[pieces - 1])})
+    if (is_flat && side.out < bur.side_cos) bur.side_cos = side.out, bur.side_sin = std::abs(side.up);
+}
+
 VoxelShare shareOfPart(const BurCoverage& bur, const glm::dvec3& p) {
   const AxialShare<double> share = [&] {
     switch (bur.kind) {
@@ -43,6 +120,10 @@ VoxelShare shareOfPart(const BurCoverage& bur, const glm::dvec3& p) {
         return shareOfFaces<kCylinderFaces>(bur, p.x, p.y, p.z, 1e-12);
       case ShapeKind::cone:
         return shareOfFaces<kConeFaces>(bur, p.x, p.y, p.z, 1e-12);
+      case ShapeKind::revolved: {
+        const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+        return shareOfRevolved(sideFoot(bur, rho, p.z), bur.end_low, bur.end_high, bur.eta, rho, p.z, 1e-12);
+      }
     }
     return AxialShare<double>{};
   }();
@@ -64,6 +145,17 @@ double touchedReach(const BurCoverage& bur, double cos_axis) {
       const double tip = more * (1.0 - bur.side_sin) / bur.side_cos;
       return std::max(s * base + c * high, s * tip - c * high);
     }
+    case ShapeKind::revolved: {
+      // Every knot moved as far as an edge's voxels reach.
+      const double wider = more * (1.0 + bur.side_sin) / bur.side_cos;
+      double reach = 0.0;
+      for (int n = 0; n <= bur.segments; ++n) {
+        const OutlineSegment<double>& segment = bur.segment[static_cast<std::size_t>(n < bur.segments ? n : n - 1)];
+        const double along = n < bur.segments ? 0.0 : segment.length;
+        reach = std::max(reach, s * (segment.rho + along * segment.way_rho) + c * (segment.z + along * segment.way_z));
+      }
+      return reach + s * wider + std::abs(c) * more;
+    }
   }
   return 0.0;
 }
@@ -78,13 +170,17 @@ BurCoverage::BurCoverage(const assets::VolumeGrid& grid, const BurShape& shape,
       half(shape.kind == ShapeKind::sphere ? 0.0 : 0.5 * shape.length_mm / grid.spacing_mm) {
   const glm::dmat3 to_P = glm::mat3_cast(X_PT.rotation);
   to_T = glm::transpose(to_P);
-  const bool flat = kind == ShapeKind::cylinder || kind == ShapeKind::cone;
+  const bool flat = kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::revolved;
   if (!(radius > 0.0) || !std::isfinite(radius) || !(half >= 0.0) || !std::isfinite(half) || (flat && half == 0.0) ||
       !isFinite(centre) || !isFinite(to_P[0]) || !isFinite(to_P[1]) || !isFinite(to_P[2]))
     return;
   const double slant = std::hypot(radius, 2.0 * half);
   side_sin = radius / slant;
   side_cos = 2.0 * half / slant;
+  if (kind == ShapeKind::revolved) {
+    setSegments(shape, 1.0 / grid.spacing_mm, *this);
+    if (segments == 0) return;
+  }
 
   // A ball that is not small against the head meets more than one face: use smaller balls.
   const double thinnest = flat ? std::min(radius, half) : radius;
@@ -112,6 +208,12 @@ double BurCoverage::beyondFaces(const glm::dvec3& p_T) const {
       return std::max(std::sqrt(p_T.x * p_T.x + p_T.y * p_T.y) - radius, high);
     case ShapeKind::cone:
       return std::max(std::sqrt(p_T.x * p_T.x + p_T.y * p_T.y) * side_cos - (p_T.z + half) * side_sin, high);
+    case ShapeKind::revolved: {
+      // Outside the cylinder about the head that is enough.
+      const double rho = std::sqrt(p_T.x * p_T.x + p_T.y * p_T.y), outer = std::max(rho - radius, high);
+      if (outer > 6.0) return outer;
+      return std::max({sideFoot(*this, rho, p_T.z).distance, -p_T.z - end_low, p_T.z - end_high});
+    }
   }
   return 0.0;
 }
@@ -142,6 +244,16 @@ HeadShape BurCoverage::kernelShape() const {
   head.side_sin = static_cast<float>(side_sin);
   head.side_cos = static_cast<float>(side_cos);
   head.eta = static_cast<float>(eta);
+  head.end_low = static_cast<float>(end_low);
+  head.end_high = static_cast<float>(end_high);
+  head.segments = segments;
+  for (int n = 0; n < segments; ++n) {
+    const OutlineSegment<double>& from = segment[static_cast<std::size_t>(n)];
+    const auto f = [](double value) { return static_cast<float>(value); };
+    head.segment[n] = {f(from.rho),     f(from.z),    f(from.way_rho),  f(from.way_z), f(from.length),
+                       f(from.first),   f(from.last), f(from.out),      f(from.up),    f(from.more_out),
+                       f(from.more_up), f(from.bend), f(from.more_bend)};
+  }
   for (int n = 0; n < 64; ++n) {
     const glm::dvec3 place = to_T * glm::dvec3(n & 3, n >> 2 & 3, n >> 4);
     head.x[n] = static_cast<float>(place.x);

@@ -3,9 +3,12 @@
 // in blocks (bone/head_kernels); no allocation, no throw. Sphere: the exact lens. Other shapes: the plane limit,
 //   c = (2 + 3t - t^3)/4 - 3/32 k eta (1 - t^2)^2,     t = -distance / eta, k the sum of the principal curvatures
 // (the ball's cap less the deviation of the face from its tangent plane, exact to second order in eta/R), and where two
-// faces meet the product of both, so that edges neither grow nor shrink. First moment: the cap's, 3/16 eta (1 - t^2)^2
+// faces meet the product of both, so that edges neither grow nor shrink; a revolved head's side is one face, with the
+// distance to the nearest segment of its outline. First moment: the cap's, 3/16 eta (1 - t^2)^2
 // from the voxel's centre inwards (reference/physics 2.1, 2.3, 5). Heads thinner than 3 eta: voxels are subdivided.
 #pragma once
+
+#include <array>
 
 #include "assets/volume_grid.h"
 #include "calibration/geometry/frames.h"
@@ -46,10 +49,13 @@ class BurCoverage {
   glm::dmat3 to_T{1.0};    ///< rotates an index difference into T
   ShapeKind kind = ShapeKind::sphere;
   double radius = 0.0, half = 0.0;        ///< voxels; half the length
-  double side_sin = 0.0, side_cos = 1.0;  ///< of the cone's half angle
-  int parts = 1;                          ///< subdivisions of a voxel's edge
-  double voxel_reach = 0.0;               ///< from a voxel's middle to the far side of its farthest ball
-  double eta = 0.0;                       ///< radius of the ball of a part
+  double side_sin = 0.0, side_cos = 1.0;  ///< of the cone's half angle; of the sharpest flat end of a revolved head
+  double end_low = 0.0, end_high = 0.0;   ///< of a revolved head's flat ends from the middle; far away: none
+  std::array<OutlineSegment<double>, kMostSegments> segment{};
+  int segments = 0;
+  int parts = 1;             ///< subdivisions of a voxel's edge
+  double voxel_reach = 0.0;  ///< from a voxel's middle to the far side of its farthest ball
+  double eta = 0.0;          ///< radius of the ball of a part
 };
 
 }  // namespace haptics

@@ -178,12 +178,8 @@ CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
 }
 
 int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept {
-  const double R = head.radius_mm, L = head.length_mm;
-  const double surface_per_pi = head.kind == ShapeKind::sphere     ? 4.0 * R * R
-                                : head.kind == ShapeKind::capsule  ? 4.0 * R * R + 2.0 * R * L
-                                : head.kind == ShapeKind::cylinder ? 2.0 * R * R + 2.0 * R * L
-                                                                   : R * R + R * std::hypot(R, L);
-  const double radius = 0.5 * std::sqrt(surface_per_pi) / bone.grid().spacing_mm;  // of the ball of this surface
+  const double radius =
+      0.5 * std::sqrt(surfacePerPi_mm2(head)) / bone.grid().spacing_mm;  // of the ball of this surface
   const double max_loss = *std::max_element(step.loss.begin(), step.loss.end());
   int interleave = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
   while (interleave > 1 && !(max_loss * interleave <= 0.75)) interleave /= 2;

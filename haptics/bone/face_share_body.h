@@ -40,7 +40,45 @@ inline Real atLeast(Real value, Real least) {
 inline float rootOf(float x) { return __builtin_sqrtf(x); }
 inline double rootOf(double x) { return __builtin_sqrt(x); }
 
-inline constexpr int kCapsuleFaces = 1, kCylinderFaces = 2, kConeFaces = 3;  // ShapeKind
+inline constexpr int kCapsuleFaces = 1, kCylinderFaces = 2, kConeFaces = 3, kRevolvedFaces = 4;  // ShapeKind
+
+/// Nearest place of an outline so far: squared distance, signed distance outwards, normal and curvature there.
+template <class Real>
+struct OutlineFoot {
+  Real square, distance, out, up, bend;
+};
+
+/// A segment is nearer, or not. Its normal and curvature run from knot to knot, so that no edge is felt between two
+/// segments that meet at a small angle.
+template <class Segment, class Real>
+inline OutlineFoot<Real> nearerFoot(const Segment& segment, Real rho, Real z, const OutlineFoot<Real>& so_far) {
+  constexpr Real kZero = 0;
+  const Real across = rho - segment.rho, along = z - segment.z;
+  const Real t = across * segment.way_rho + along * segment.way_z,
+             off = across * segment.way_z - along * segment.way_rho;
+  const Real low = t < segment.first ? segment.first : t, at = low > segment.last ? segment.last : low, beyond = t - at;
+  const Real square = off * off + beyond * beyond, away = rootOf(square), side = off < kZero ? -away : away;
+  const Real from = t < kZero ? kZero : t, part = from > segment.length ? segment.length : from;
+  const bool nearer = square < so_far.square;
+  return {nearer ? square : so_far.square, nearer ? side : so_far.distance,
+          nearer ? segment.out + part * segment.more_out : so_far.out,
+          nearer ? segment.up + part * segment.more_up : so_far.up,
+          nearer ? segment.bend + part * segment.more_bend : so_far.bend};
+}
+
+/// A voxel under a revolved head whose nearest place of the outline is `foot`: the side, cut by flat ends.
+template <class Real>
+inline AxialShare<Real> shareOfRevolved(const OutlineFoot<Real>& foot, Real end_low, Real end_high, Real eta, Real rho,
+                                        Real z, Real tiny) {
+  constexpr Real kZero = 0, kOne = 1;
+  const Real per_eta = kOne / eta, per_rho = kOne / atLeast(rho, tiny), up = z < kZero ? -kOne : kOne;
+  const Real over = z < kZero ? -z - end_low : z - end_high;
+  const FaceShare<Real> end = behindFace(over, kZero, eta, per_eta);
+  const FaceShare<Real> side = behindFace(foot.distance, bendOf(foot.bend, eta), eta, per_eta);
+  const Real fraction = side.fraction * end.fraction, shift = side.shift * end.fraction;
+  return {fraction, fraction - shift * foot.out * per_rho,
+          fraction * z - side.fraction * end.shift * up - shift * foot.up};
+}
 
 /// A voxel at (x, y, z) in T under a capsule, cylinder or cone with radius, half, side_sin, side_cos and eta.
 template <int kKind, class Head, class Real>

@@ -8,10 +8,22 @@
 
 namespace haptics {
 
+/// A piece of a revolved head's outline, from a knot upwards: (out, up) is the normal, `bend` the sum of the
+/// curvatures, both at the knot and what they gain per length. Its line goes on beyond the knots at a flat end.
+template <class Real>
+struct OutlineSegment {
+  Real rho, z, way_rho, way_z, length, first, last;
+  Real out, up, more_out, more_up, bend, more_bend;
+};
+inline constexpr int kMostSegments = 15;
+
 struct HeadShape {
   int kind;  ///< ShapeKind
   float radius, half, side_sin, side_cos, eta;
   float x[64], y[64], z[64];  ///< of a block's voxels from its first
+  float end_low, end_high;    ///< heights of flat ends from the middle; far away: none
+  int segments;               ///< of a revolved head
+  OutlineSegment<float> segment[kMostSegments];
 };
 
 struct HeadBlock {

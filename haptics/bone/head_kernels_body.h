@@ -10,7 +10,8 @@ namespace haptics {
 namespace {
 
 constexpr float kPi = 3.14159265358979323846f;
-constexpr int kSphere = 0, kCapsule = kCapsuleFaces, kCylinder = kCylinderFaces, kCone = kConeFaces;  // ShapeKind
+constexpr int kSphere = 0, kCapsule = kCapsuleFaces, kCylinder = kCylinderFaces, kCone = kConeFaces,
+              kRevolved = kRevolvedFaces;  // ShapeKind
 constexpr int kLanes = 16, kRows = 4;
 
 template <int kKind>
@@ -30,9 +31,62 @@ inline AxialShare<float> shareAt(const HeadShape& head, float x, float y, float 
   }
 }
 
+/// The segments that can be nearest to a voxel of a block: within twice the block's radius of the nearest one.
+struct NearSegments {
+  int first, end;
+};
+inline NearSegments segmentsNear(const HeadShape& head, const float* first) {
+  const float mx = first[0] + 0.5f * head.x[63], my = first[1] + 0.5f * head.y[63], mz = first[2] + 0.5f * head.z[63];
+  const float rho = rootOf(mx * mx + my * my);
+  float away[kMostSegments], least = 1e30f;
+  for (int n = 0; n < head.segments; ++n) {
+    const OutlineFoot<float> foot = nearerFoot(head.segment[n], rho, mz, OutlineFoot<float>{1e30f, 0, 0, 0, 0});
+    away[n] = rootOf(foot.square);
+    least = away[n] < least ? away[n] : least;
+  }
+  constexpr float kAcross = 5.3f;  // of a block's voxels, with room for rounding
+  NearSegments near{0, head.segments};
+  while (near.first + 1 < near.end && away[near.first] > least + kAcross) ++near.first;
+  while (near.end - 1 > near.first && away[near.end - 1] > least + kAcross) --near.end;
+  return near;
+}
+
+/// All voxels of a block under a revolved head, segment by segment.
+inline void revolvedShares(const HeadShape& head, const float* first, AxialShare<float>* share) {
+  constexpr int kVoxels = kLanes * kRows;
+  const float fx = first[0], fy = first[1], fz = first[2];
+  alignas(64) float rho[kVoxels], z[kVoxels], square[kVoxels], distance[kVoxels], out[kVoxels], up[kVoxels],
+      bend[kVoxels];
+  for (int n = 0; n < kVoxels; ++n) {
+    const float x = fx + head.x[n], y = fy + head.y[n];
+    rho[n] = rootOf(x * x + y * y);
+    z[n] = fz + head.z[n];
+    square[n] = 1e30f;
+    distance[n] = out[n] = up[n] = bend[n] = 0.0f;
+  }
+  const NearSegments near = segmentsNear(head, first);
+  for (int s = near.first; s < near.end; ++s) {
+    const OutlineSegment<float> segment = head.segment[s];
+    for (int n = 0; n < kVoxels; ++n) {
+      const OutlineFoot<float> foot =
+          nearerFoot(segment, rho[n], z[n], OutlineFoot<float>{square[n], distance[n], out[n], up[n], bend[n]});
+      square[n] = foot.square, distance[n] = foot.distance, out[n] = foot.out, up[n] = foot.up, bend[n] = foot.bend;
+    }
+  }
+  for (int n = 0; n < kVoxels; ++n)
+    share[n] = shareOfRevolved(OutlineFoot<float>{square[n], distance[n], out[n], up[n], bend[n]}, head.end_low,
+                               head.end_high, head.eta, rho[n], z[n], 1e-6f);
+}
+
 template <int kKind>
 void coverAs(const HeadShape& head, const float* first, float* fraction) {
   const float fx = first[0], fy = first[1], fz = first[2];
+  if constexpr (kKind == kRevolved) {
+    AxialShare<float> share[kLanes * kRows];
+    revolvedShares(head, first, share);
+    for (int n = 0; n < kLanes * kRows; ++n) fraction[n] = share[n].fraction;
+    return;
+  }
   for (int n = 0; n < kLanes * kRows; ++n)
     fraction[n] = shareAt<kKind>(head, fx + head.x[n], fy + head.y[n], fz + head.z[n]).fraction;
 }
@@ -49,9 +103,16 @@ HeadSums sumAs(const HeadShape& head, const HeadBlock& block) {
   constexpr int kVoxels = kLanes * kRows;
   const float fx = block.first[0], fy = block.first[1], fz = block.first[2];
   alignas(64) float fraction[kVoxels], moment[3][kVoxels], w[kVoxels];
+  [[maybe_unused]] AxialShare<float> revolved[kKind == kRevolved ? kVoxels : 1];
+  if constexpr (kKind == kRevolved) revolvedShares(head, block.first, revolved);
   for (int n = 0; n < kVoxels; ++n) {
     const float x = fx + head.x[n], y = fy + head.y[n], z = fz + head.z[n];
-    const AxialShare<float> share = shareAt<kKind>(head, x, y, z);
+    const AxialShare<float> share = [&] {
+      if constexpr (kKind == kRevolved)
+        return revolved[n];
+      else
+        return shareAt<kKind>(head, x, y, z);
+    }();
     fraction[n] = share.fraction;
     moment[0][n] = share.radial * x;
     moment[1][n] = share.radial * y;
@@ -105,8 +166,10 @@ void coverUnderHead(const HeadShape& head, const float first[3], float* fraction
       return coverAs<kCapsule>(head, first, fraction);
     case kCylinder:
       return coverAs<kCylinder>(head, first, fraction);
-    default:
+    case kCone:
       return coverAs<kCone>(head, first, fraction);
+    default:
+      return coverAs<kRevolved>(head, first, fraction);
   }
 }
 
@@ -118,8 +181,10 @@ HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept {
       return sumAs<kCapsule>(head, block);
     case kCylinder:
       return sumAs<kCylinder>(head, block);
-    default:
+    case kCone:
       return sumAs<kCone>(head, block);
+    default:
+      return sumAs<kRevolved>(head, block);
   }
 }
 

@@ -92,6 +92,24 @@ void visitHeadSurface(const BurShape& head, const glm::dvec3& towards_T, double 
       visitFrustum({R, half}, {0.0, half}, {0.0, 1.0}, 6, visit);
       break;
     }
+    case ShapeKind::revolved: {
+      // About as many rings as the others have, by length along the outline; one at least a frustum.
+      const assets::BurOutline outline = revolvedOutline(head);
+      const auto knot = [&](std::size_t n) { return glm::dvec2(outline.radius_mm[n], outline.z_mm[n]); };
+      const std::size_t last = outline.count - 1;
+      double whole = 0.0;
+      for (std::size_t n = 0; n < last; ++n) whole += glm::distance(knot(n), knot(n + 1));
+      if (knot(0).x > 0.0) visitFrustum({0.0, -half}, knot(0), {0.0, -1.0}, 6, visit);
+      for (std::size_t n = 0; n < last; ++n) {
+        const glm::dvec2 way = knot(n + 1) - knot(n);
+        const double length = glm::length(way);
+        if (!(length > 0.0)) continue;
+        const int rings = std::max(1, static_cast<int>(std::lround(24.0 * length / whole)));
+        visitFrustum(knot(n), knot(n + 1), glm::dvec2(way.y, -way.x) / length, rings, visit);
+      }
+      if (knot(last).x > 0.0) visitFrustum(knot(last), {0.0, half}, {0.0, 1.0}, 6, visit);
+      break;
+    }
   }
 }
 

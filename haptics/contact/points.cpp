@@ -6,6 +6,7 @@
 #include "calibration/geometry/units.h"
 #include "haptics/contact/cap.h"
 #include "haptics/contact/field_sample.h"
+#include "haptics/tool/flat_overlap.h"
 
 namespace haptics {
 namespace {
@@ -21,14 +22,41 @@ struct Cloud {
   glm::dvec3 position{0.0};     ///< sum of positions
   glm::dvec3 from_axis{0.0};    ///< sum of vectors from the nearest point of the axis or its segment
   glm::dvec3 out_of_axis{0.0};  ///< the same, normalised
+  glm::dvec3 outwards{0.0};     ///< of a revolved head: sum of the normals of its nearest faces
 };
 
 /// Points of Kronecker's lattice in the head's box (steps of powers of 1 / 1.2207, the root of x^4 = x + 1), those
 /// inside.
+/// Radius of a revolved head at a height, and the outward normal (out, up) of its side there.
+struct Girth {
+  double radius, out, up;
+};
+Girth girthAt(const assets::BurOutline& outline, double z) {
+  std::size_t n = 0;
+  while (n + 2 < outline.count && z > outline.z_mm[n + 1]) ++n;
+  const double r0 = outline.radius_mm[n], r1 = outline.radius_mm[n + 1], z0 = outline.z_mm[n];
+  const double way = std::max(1e-9, outline.z_mm[n + 1] - z0), length = std::hypot(r1 - r0, way);
+  return {std::max(0.0, r0 + (z - z0) / way * (r1 - r0)), way / length, (r0 - r1) / length};
+}
+
+/// Normal of the nearest face of a revolved head from a place inside it.
+glm::dvec3 nearestFace(const assets::BurOutline& outline, double half, const glm::dvec3& position_T) {
+  const double rho = std::hypot(position_T.x, position_T.y);
+  const Girth girth = girthAt(outline, position_T.z);
+  const double to_side = (girth.radius - rho) * girth.out;
+  const bool flat_low = outline.radius_mm[0] > 0.0, flat_high = outline.radius_mm[outline.count - 1] > 0.0;
+  const bool below = position_T.z < 0.0;
+  if ((below ? flat_low : flat_high) && half - std::abs(position_T.z) < to_side) return {0.0, 0.0, below ? -1.0 : 1.0};
+  const double per_rho = girth.out / std::max(rho, 1e-9);
+  return {per_rho * position_T.x, per_rho * position_T.y, girth.up};
+}
+
 template <class Visit>
 void visitSamplePoints(const BurShape& head, Visit&& visit) {
   constexpr glm::dvec3 kStep(0.81917251339616442, 0.67104360670378920, 0.54970047790197026);
   const double R = head.radius_mm, half = halfHeight_mm(head);
+  const bool revolved = head.kind == ShapeKind::revolved, upright = revolved || head.kind == ShapeKind::cone;
+  const assets::BurOutline outline = revolved ? revolvedOutline(head) : assets::BurOutline{};
   const double box_mm3 = 8.0 * R * R * half;
   const int tried = std::min(8 * kSamplePoints, static_cast<int>(0.5 * kSamplePoints * box_mm3 / volume_mm3(head)));
   glm::dvec3 unit(0.5);
@@ -41,9 +69,13 @@ void visitSamplePoints(const BurShape& head, Visit&& visit) {
     if (head.kind == ShapeKind::sphere) inside = radius2 + position_T.z * position_T.z <= R * R;
     if (head.kind == ShapeKind::capsule) inside = radius2 + beyond * beyond <= R * R;
     if (head.kind == ShapeKind::cone) inside = std::sqrt(radius2) * head.length_mm <= R * (position_T.z + half);
+    if (revolved) {
+      const double girth = girthAt(outline, position_T.z).radius;
+      inside = radius2 <= girth * girth;
+    }
     if (!inside) continue;
     visit(position_T);
-    visit(glm::dvec3(-position_T.x, -position_T.y, head.kind == ShapeKind::cone ? position_T.z : -position_T.z));
+    visit(glm::dvec3(-position_T.x, -position_T.y, upright ? position_T.z : -position_T.z));
   }
 }
 
@@ -51,6 +83,8 @@ Cloud cloudIn(const ToolInBone& at) {
   Cloud cloud;
   const double half = 0.5 * at.head.length_mm;
   const ToolSampler sampler(at.bodies, at.X_PT);
+  const bool revolved = at.head.kind == ShapeKind::revolved;
+  const assets::BurOutline outline = revolved ? revolvedOutline(at.head) : assets::BurOutline{};
   visitSamplePoints(at.head, [&](const glm::dvec3& position_T) {
     cloud.all += 1.0;
     const FieldSample sample = sampler.at(position_T);
@@ -58,6 +92,10 @@ Cloud cloudIn(const ToolInBone& at) {
     cloud.count += sample.solid;
     cloud.dense += sample.solid * at.tissue.factor[std::min<std::size_t>(sample.label, assets::kTissueCount - 1)];
     cloud.position += sample.solid * position_T;
+    if (revolved) {
+      cloud.outwards += sample.solid * nearestFace(outline, half, position_T);
+      return;
+    }
     glm::dvec3 from_axis(position_T.x, position_T.y, 0.0);
     if (at.head.kind == ShapeKind::capsule) {
       from_axis.z = position_T.z - std::clamp(position_T.z, -half, half);
@@ -144,6 +182,15 @@ Reading readCone(const BurShape& head, const Cloud& cloud, double volume) {
   return {(1.0 - share) * cone + share * base, 1.0, out / std::max(1.0, glm::length(out)), 1.0};
 }
 
+/// By the normals of the nearest faces: those of a flat contact agree, those all round cancel.
+Reading readRevolved(const BurShape& head, const Cloud& cloud, double volume) {
+  const double agree = glm::length(cloud.outwards) / cloud.count;
+  const glm::dvec3 out = -directed(cloud.outwards, 0.2 * cloud.count);
+  const double length = glm::length(out);
+  const double depth = flatDepth_mm(head, volume, length > 0.0 ? out.z / length : 0.0);
+  return {depth, 1.0, out, std::min(1.0, 2.0 * agree)};
+}
+
 Reading readCloud(const BurShape& head, const Cloud& cloud, double volume, double spacing_mm) {
   switch (head.kind) {
     case ShapeKind::sphere:
@@ -154,6 +201,8 @@ Reading readCloud(const BurShape& head, const Cloud& cloud, double volume, doubl
       return readCylinder(head, cloud, volume);
     case ShapeKind::cone:
       return readCone(head, cloud, volume);
+    case ShapeKind::revolved:
+      return readRevolved(head, cloud, volume);
   }
   return {};
 }

@@ -96,12 +96,13 @@ struct Range {
 class AxisSpans {
  public:
   explicit AxisSpans(const BurCoverage& bur) : centre_(bur.centre), axis_(bur.to_T[0].z, bur.to_T[1].z, bur.to_T[2].z) {
-    const bool flat = bur.kind == ShapeKind::cylinder || bur.kind == ShapeKind::cone;
+    const bool slanted = bur.kind == ShapeKind::cone || bur.kind == ShapeKind::revolved;
+    const bool flat = bur.kind == ShapeKind::cylinder || slanted;
     // Discs reach across the axis, balls in all directions; a voxel within reach of two faces of an edge is farther
     // out.
     reach_ = (flat ? glm::sqrt(glm::max(glm::dvec3(0.0), 1.0 - axis_ * axis_)) : glm::dvec3(1.0)) * bur.radius;
     const double at_an_edge = flat ? 1.0 / std::min(bur.side_cos, 0.7) : 1.0;
-    reach_ += bur.voxel_reach * at_an_edge * (bur.kind == ShapeKind::cone ? 2.0 : 1.0);
+    reach_ += bur.voxel_reach * at_an_edge * (slanted ? 2.0 : 1.0);
   }
 
   /// The part of `span` near the blocks with this index along an axis; empty: from > to.

@@ -47,6 +47,14 @@ double slidingArm_mm(const BurShape& head, double depth_mm, double sine) noexcep
       return R * (s * s + 2.0 / 3.0 * (1.0 - s * s));
     case ShapeKind::cone:
       return R * (0.5 * s * s + 2.0 / 3.0 * (1.0 - s * s));
+    case ShapeKind::revolved: {
+      // The side's mean radius over its height.
+      const assets::BurOutline outline = revolvedOutline(head);
+      double sum = 0.0;
+      for (std::size_t n = 0; n + 1 < outline.count; ++n)
+        sum += 0.5 * (outline.radius_mm[n] + outline.radius_mm[n + 1]) * (outline.z_mm[n + 1] - outline.z_mm[n]);
+      return sum / head.length_mm * s * s + 2.0 / 3.0 * R * (1.0 - s * s);
+    }
   }
   return 0.0;
 }

@@ -27,7 +27,13 @@ class HeadProfile {
   explicit HeadProfile(const BurShape& head) : head_(head), half_(0.5 * head.length_mm) {
     const double R = head.radius_mm, slant = std::hypot(R, head.length_mm), girth = 2.0 * calibration::kPi * R;
     using enum ShapeKind;
-    if (head.kind == sphere || head.kind == capsule) {
+    if (head.kind == revolved) {
+      outline_ = revolvedOutline(head);
+      const double low = outline_.radius_mm[0], high = outline_.radius_mm[outline_.count - 1];
+      tip_ = calibration::kPi * low * low;
+      end_ = calibration::kPi * high * high;
+      for (std::size_t n = 0; n + 1 < outline_.count; ++n) side_ += frustum_mm2(n);
+    } else if (head.kind == sphere || head.kind == capsule) {
       if (head.kind == sphere) half_ = 0.0;
       tip_ = end_ = girth * R;
       side_ = girth * 2.0 * half_;
@@ -47,6 +53,7 @@ class HeadProfile {
   /// The point with `below_mm2` of the area between it and the tip.
   ProfilePoint at(double below_mm2) const {
     const double R = head_.radius_mm;
+    if (head_.kind == ShapeKind::revolved) return onOutline(below_mm2);
     if (below_mm2 < tip_) return tip(below_mm2 / tip_);
     below_mm2 -= tip_;
     if (below_mm2 < side_) {
@@ -60,6 +67,32 @@ class HeadProfile {
   }
 
  private:
+  double frustum_mm2(std::size_t n) const {
+    const double r0 = outline_.radius_mm[n], r1 = outline_.radius_mm[n + 1];
+    return calibration::kPi * (r0 + r1) * std::hypot(r1 - r0, outline_.z_mm[n + 1] - outline_.z_mm[n]);
+  }
+
+  /// The area up to a radius of a disc or a frustum grows with the radius squared.
+  ProfilePoint onOutline(double below_mm2) const {
+    const std::size_t last = outline_.count - 1;
+    if (below_mm2 < tip_) return {outline_.radius_mm[0] * std::sqrt(below_mm2 / tip_), -half_, 0.0, -1.0};
+    below_mm2 -= tip_;
+    for (std::size_t n = 0; n < last; ++n) {
+      const double area_mm2 = frustum_mm2(n);
+      if (below_mm2 >= area_mm2) {
+        below_mm2 -= area_mm2;
+        continue;
+      }
+      const double r0 = outline_.radius_mm[n], r1 = outline_.radius_mm[n + 1], part = below_mm2 / area_mm2;
+      const double r = std::sqrt(r0 * r0 + part * (r1 * r1 - r0 * r0));
+      const double way_r = r1 - r0, way_z = outline_.z_mm[n + 1] - outline_.z_mm[n], length = std::hypot(way_r, way_z);
+      const double t = std::abs(way_r) > 1e-9 ? (r - r0) / way_r : part;
+      return {r, outline_.z_mm[n] + t * way_z, way_z / length, -way_r / length};
+    }
+    const double left = end_ > 0.0 ? 1.0 - std::min(1.0, below_mm2 / end_) : 0.0;
+    return {outline_.radius_mm[last] * std::sqrt(left), half_, 0.0, 1.0};
+  }
+
   /// At the end at -z, with `part` of its area towards the axis: half a ball or a disc.
   ProfilePoint tip(double part) const {
     const double R = head_.radius_mm;
@@ -70,6 +103,7 @@ class HeadProfile {
   }
 
   BurShape head_;
+  assets::BurOutline outline_{};
   double half_, tip_ = 0.0, side_ = 0.0, end_ = 0.0, cone_out_ = 1.0, cone_up_ = 0.0;
 };
 

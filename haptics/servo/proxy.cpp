@@ -66,19 +66,10 @@ glm::dvec3 allowed(const glm::dvec3& to_hand, const Constraint& a, const Constra
   return to_hand + along_a * a.normal + along_b * b.normal;
 }
 
-/// Radius of the largest ball inside the head.
-double thinnestRadius_mm(const BurShape& head) {
-  if (head.kind == ShapeKind::cone) {
-    const double slant_mm = std::hypot(head.radius_mm, head.length_mm);
-    return head.radius_mm * head.length_mm / (head.radius_mm + slant_mm);
-  }
-  return head.kind == ShapeKind::cylinder ? std::min(head.radius_mm, 0.5 * head.length_mm) : head.radius_mm;
-}
-
 }  // namespace
 
 double maxLawDepth_mm(const BurShape& head) {
-  const double r = thinnestRadius_mm(head);
+  const double r = largestBall_mm(head);
   const double plate_mm3 =
       calibration::kPi * kThinnestPlate_mm * (r * r - kThinnestPlate_mm * kThinnestPlate_mm / 12.0);
   double deepest_mm = std::min(0.5 * r, capHeight_mm(r, kShareOfPlate * std::max(0.0, plate_mm3)));
@@ -87,8 +78,7 @@ double maxLawDepth_mm(const BurShape& head) {
     deepest_mm =
         std::min(deepest_mm, std::pow(1.5 * kShareOfPlate * kThinnestPlate_mm * std::sqrt(0.5 * r), 2.0 / 3.0));
   // A flat end shares its depth times its area.
-  if (head.kind == ShapeKind::cylinder || head.kind == ShapeKind::cone)
-    deepest_mm = std::min(deepest_mm, kShareOfPlate * kThinnestPlate_mm);
+  if (hasFlatEnd(head)) deepest_mm = std::min(deepest_mm, kShareOfPlate * kThinnestPlate_mm);
   return deepest_mm;
 }
 
@@ -116,7 +106,7 @@ Proxy::State Proxy::update(const SolidBodies& bodies, const LawSettings& law, co
                            double max_stiffness_N_per_mm) noexcept {
   // Steps are so short that no plate fits between two evaluations; a micrometre is not worth another.
   const bool with_shaft = tool.shaft.length_mm > 0.0 && tool.shaft.radius_mm > 0.0;
-  double longest_mm = 0.5 * thinnestRadius_mm(tool.head);
+  double longest_mm = 0.5 * largestBall_mm(tool.head);
   if (with_shaft) longest_mm = std::min(longest_mm, 0.5 * tool.shaft.radius_mm);
   const double enough_mm = 1e-3;
   // Fewer evaluations where they are expensive: the proxy continues in the next tick.

@@ -172,7 +172,7 @@ class LeastOver {
 
 /// Outlines of a head or a shaft; edges and tips beside the faces that meet there.
 struct Outlines {
-  std::array<Outline, 5> part{};
+  std::array<Outline, assets::kMostKnots + 5> part{};
   std::size_t count = 0;
 
   void add(const Outline& one) { part[count++] = one; }
@@ -201,6 +201,18 @@ void addHead(const BurShape& head, Outlines& outlines) {
       outlines.addLine({half, r}, {half, 0.0});
       outlines.addEdge({-half, 0.0}), outlines.addEdge({half, r});
       return;
+    case ShapeKind::revolved: {
+      const assets::BurOutline outline = revolvedOutline(head);
+      const std::size_t last = outline.count - 1;
+      const auto knot = [&](std::size_t n) { return OutlinePoint(outline.z_mm[n], outline.radius_mm[n]); };
+      for (std::size_t n = 0; n < last; ++n)
+        if (knot(n) != knot(n + 1)) outlines.addLine(knot(n), knot(n + 1));
+      for (const std::size_t n : {std::size_t{0}, last}) {
+        if (knot(n).y > 0.0) outlines.addLine({knot(n).x, 0.0}, knot(n));
+        outlines.addEdge(knot(n));
+      }
+      return;
+    }
   }
 }
 
@@ -208,7 +220,8 @@ void addHead(const BurShape& head, Outlines& outlines) {
 double shaftFront_mm(const Tool& tool) {
   const double r = tool.shaft.radius_mm, head_r = tool.head.radius_mm;
   if (r >= head_r) return 0.0;
-  const bool is_round = tool.head.kind == ShapeKind::sphere || tool.head.kind == ShapeKind::capsule;
+  const bool is_round = tool.head.kind == ShapeKind::sphere || tool.head.kind == ShapeKind::capsule ||
+                        (tool.head.kind == ShapeKind::revolved && tool.head.profile == assets::BurProfile::egg);
   return halfHeight_mm(tool.head) - (is_round ? head_r - std::sqrt(head_r * head_r - r * r) : 0.0);
 }
 
@@ -240,7 +253,8 @@ double inField_mm(const StructureDistance& structure, const Tool& tool, const To
 class ToTool {
  public:
   explicit ToTool(const Tool& tool)
-      : kind_(tool.head.kind),
+      : outline_(tool.head.kind == ShapeKind::revolved ? revolvedOutline(tool.head) : assets::BurOutline{}),
+        kind_(tool.head.kind),
         r_(static_cast<float>(tool.head.radius_mm)),
         half_(static_cast<float>(0.5 * tool.head.length_mm)),
         front_(static_cast<float>(shaftFront_mm(tool))),
@@ -267,6 +281,8 @@ class ToTool {
         return length(std::max(0.0F, across - r_), std::max(0.0F, std::abs(z) - half_));
       case ShapeKind::cone:
         return toCone(across, z);
+      case ShapeKind::revolved:
+        return std::max(0.0F, static_cast<float>(assets::outlineDistance_mm(outline_, across, z)));
     }
     return 0.0F;
   }
@@ -280,6 +296,7 @@ class ToTool {
     return length(across - t * r_, from_tip - t * high);
   }
 
+  assets::BurOutline outline_;
   ShapeKind kind_;
   float r_, half_, front_, end_, shaft_r_;
 };

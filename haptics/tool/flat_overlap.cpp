@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "calibration/geometry/units.h"
 
@@ -43,26 +44,45 @@ struct Piece {
 };
 
 struct Pieces {
-  std::array<Piece, 3> piece;
-  std::size_t count;
+  std::array<Piece, assets::kMostKnots> piece{};
+  std::size_t count = 0;
+
+  Pieces() = default;
+  Pieces(std::initializer_list<Piece> all) {
+    for (const Piece& one : all) piece[count++] = one;
+  }
 };
+
+/// Frustums.
+Pieces revolvedPieces(const BurShape& shape) {
+  const assets::BurOutline outline = revolvedOutline(shape);
+  Pieces pieces;
+  for (std::size_t n = 0; n + 1 < outline.count; ++n) {
+    const double from = outline.z_mm[n], to = outline.z_mm[n + 1], r = outline.radius_mm[n];
+    if (!(to - from > 1e-9)) continue;
+    const double slope = (outline.radius_mm[n + 1] - r) / (to - from), at_0 = r - slope * from;
+    pieces.piece[pieces.count++] = {from, to, at_0 * at_0, 2.0 * at_0 * slope, slope * slope};
+  }
+  return pieces;
+}
 
 Pieces piecesOf(const BurShape& shape) {
   const double R = shape.radius_mm, r2 = R * R, half = 0.5 * shape.length_mm;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      return {{{{-R, R, r2, 0.0, -1.0}, {}, {}}}, 1};
+      return {{-R, R, r2, 0.0, -1.0}};
     case ShapeKind::capsule:
-      return {{{{-half - R, -half, r2 - half * half, -2.0 * half, -1.0},
-                {-half, half, r2, 0.0, 0.0},
-                {half, half + R, r2 - half * half, 2.0 * half, -1.0}}},
-              3};
+      return {{-half - R, -half, r2 - half * half, -2.0 * half, -1.0},
+              {-half, half, r2, 0.0, 0.0},
+              {half, half + R, r2 - half * half, 2.0 * half, -1.0}};
     case ShapeKind::cylinder:
-      return {{{{-half, half, r2, 0.0, 0.0}, {}, {}}}, 1};
+      return {{-half, half, r2, 0.0, 0.0}};
     case ShapeKind::cone: {
       const double slope2 = r2 / (shape.length_mm * shape.length_mm);
-      return {{{{-half, half, slope2 * half * half, 2.0 * slope2 * half, slope2}, {}, {}}}, 1};
+      return {{-half, half, slope2 * half * half, 2.0 * slope2 * half, slope2}};
     }
+    case ShapeKind::revolved:
+      return revolvedPieces(shape);
   }
   return {};
 }
@@ -243,8 +263,7 @@ FlatOverlap flatOverlap(const BurShape& shape, double depth_mm, double cos_axis)
   const double whole = fullDepth_mm(shape, cos_axis);
   if (!(depth_mm > 0.0)) return {};
   if (depth_mm >= whole) {
-    const double along = shape.kind == ShapeKind::cone ? 0.25 * shape.length_mm : 0.0;
-    return {volume_mm3(shape), 0.0, 0.0, along};
+    return {volume_mm3(shape), 0.0, 0.0, centroid_mm(shape)};
   }
   const Sums sums = sumsAt<false>(shape, depth_mm, cos_axis);
   if (!(sums.volume > 0.0)) return {};

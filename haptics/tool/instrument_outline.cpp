@@ -25,8 +25,18 @@ void addRow(InstrumentOutline& outline, double low_mm, double high_mm, double ra
         radius_mm);
 }
 
+/// The largest balls inside, at even heights.
+void addRevolved(InstrumentOutline& outline, const BurShape& head) {
+  const assets::BurOutline form = revolvedOutline(head);
+  for (std::size_t n = 0; n < kMaxHeadBalls; ++n) {
+    const double z_mm = head.length_mm * ((static_cast<double>(n) + 0.5) / kMaxHeadBalls - 0.5);
+    add(outline, z_mm, -assets::outlineDistance_mm(form, 0.0, z_mm));
+  }
+}
+
 void addHead(InstrumentOutline& outline, const BurShape& head) {
   const double half_mm = halfHeight_mm(head), r = head.radius_mm;
+  if (head.kind == ShapeKind::revolved) return addRevolved(outline, head);
   if (head.kind != ShapeKind::cone)
     return addRow(outline, -std::max(0.0, half_mm - r), std::max(0.0, half_mm - r), std::min(r, half_mm),
                   kMaxHeadBalls);

@@ -25,6 +25,8 @@ double burDistance_mm(const Frame& frame, const glm::dvec2& p) {
       const bool inside = p.y < half && p.x * 2.0 * half < radius * (p.y + half);
       return inside ? -nearest : nearest;
     }
+    case assets::BurForm::revolved:
+      return assets::outlineDistance_mm(assets::burOutline(frame.bur_profile, radius, 2.0 * half), std::abs(p.x), p.y);
   }
   return 0.0;
 }
@@ -38,6 +40,7 @@ double burReach_mm(const Frame& frame) {
       return radius + half;
     case assets::BurForm::cylinder:
     case assets::BurForm::cone:
+    case assets::BurForm::revolved:
       break;
   }
   return std::hypot(radius, half);

@@ -12,12 +12,20 @@
 namespace haptics {
 namespace {
 
+using assets::BurProfile;
 using calibration::kPi;
 
-const std::vector<BurShape> kShapes = {{ShapeKind::sphere, 1.3, 0.0},   {ShapeKind::capsule, 0.8, 3.0},
-                                       {ShapeKind::capsule, 0.8, 0.0},  {ShapeKind::cylinder, 0.6, 4.0},
-                                       {ShapeKind::cylinder, 2.0, 0.5}, {ShapeKind::cone, 1.0, 3.0},
-                                       {ShapeKind::cone, 2.0, 0.7}};
+const std::vector<BurShape> kShapes = {{ShapeKind::sphere, 1.3, 0.0},
+                                       {ShapeKind::capsule, 0.8, 3.0},
+                                       {ShapeKind::capsule, 0.8, 0.0},
+                                       {ShapeKind::cylinder, 0.6, 4.0},
+                                       {ShapeKind::cylinder, 2.0, 0.5},
+                                       {ShapeKind::cone, 1.0, 3.0},
+                                       {ShapeKind::cone, 2.0, 0.7},
+                                       {ShapeKind::revolved, 0.8, 6.0, BurProfile::flame},
+                                       {ShapeKind::revolved, 0.8, 4.0, BurProfile::torpedo},
+                                       {ShapeKind::revolved, 1.2, 3.0, BurProfile::pear},
+                                       {ShapeKind::revolved, 1.0, 1.5, BurProfile::inverted_cone}};
 
 TEST(BurShape, HasTheVolumeThatItsDistanceEncloses) {
   for (const BurShape& shape : kShapes) {
@@ -62,6 +70,11 @@ TEST(BurShape, IsDrawnBackIntoItsRange) {
   EXPECT_EQ(sanitised(BurShape{ShapeKind::cone, 99.0, 99.0}), (BurShape{ShapeKind::cone, 6.0, 20.0}));
   EXPECT_EQ(sanitised(BurShape{ShapeKind::cylinder, nan, nan}), (BurShape{ShapeKind::cylinder, 2.0, 0.1}));
   EXPECT_EQ(sanitised(BurShape{static_cast<ShapeKind>(9), 1.0, 1.0}), (BurShape{ShapeKind::sphere, 1.0, 0.0}));
+  // Never shorter than its outline, never an outline that there is not.
+  EXPECT_EQ(sanitised(BurShape{ShapeKind::revolved, 1.0, 0.5, BurProfile::flame}).length_mm, 2.0);
+  EXPECT_EQ(sanitised(BurShape{ShapeKind::revolved, 1.0, 5.0, static_cast<BurProfile>(200)}).profile,
+            BurProfile::wheel);
+  EXPECT_EQ(sanitised(BurShape{ShapeKind::cone, 1.0, 5.0, BurProfile::pear}).profile, BurProfile::wheel);
 }
 
 TEST(Tool, HasAShaftThatIsNoThickerThanItsShankAndHead) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
@@ -34,6 +35,22 @@ inline double headDistance_mm(const BurShape& head, const calibration::Point<cal
     case ShapeKind::cone: {
       const double away = std::min(edgeDistance_mm(top, rim, p), edgeDistance_mm(rim, bottom, p));
       return std::abs(p.y) < half && p.x < R * (p.y + half) / head.length_mm ? -away : away;
+    }
+    case ShapeKind::revolved: {
+      // Inside: the outline is crossed once on the way out.
+      const assets::BurOutline outline = revolvedOutline(head);
+      std::vector<glm::dvec2> corners{bottom};
+      for (std::size_t n = 0; n < outline.count; ++n) corners.emplace_back(outline.radius_mm[n], outline.z_mm[n]);
+      corners.push_back(top);
+      double away = 1e300;
+      int crossed = 0;
+      for (std::size_t n = 0; n + 1 < corners.size(); ++n) {
+        const glm::dvec2 &a = corners[n], &b = corners[n + 1];
+        if (a == b) continue;
+        away = std::min(away, edgeDistance_mm(a, b, p));
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) ++crossed;
+      }
+      return crossed % 2 == 1 ? -away : away;
     }
   }
   return 0.0;

@@ -56,7 +56,8 @@ TEST(LawLimits, AnswerAsTheLawItselfInFlatBone) {
 
 TEST(LawLimits, RefuseWhatADeviceCannotHoldAndNameWhatItCan) {
   for (const LawName& name : kLaws)
-    for (ShapeKind shape : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone}) {
+    for (ShapeKind shape :
+         {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone, ShapeKind::revolved}) {
       LawSettings law;
       law.kind = name.kind;
       const BurShape head{shape, 1.0, shape == ShapeKind::sphere ? 0.0 : 2.0};

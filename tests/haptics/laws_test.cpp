@@ -153,7 +153,8 @@ TEST(Laws, ThatAreConservativeGiveNoEnergyOnAClosedPathAboutAnEdge) {
 TEST(Laws, AnswerNothingInAirAndNoNumberOnlyWithNothing) {
   const Phantom phantom = halfSpace(3.0, 0.2);
   for (const LawName& name : kLaws)
-    for (ShapeKind shape : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone}) {
+    for (ShapeKind shape :
+         {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone, ShapeKind::revolved}) {
       const BurShape head{shape, 1.0, shape == ShapeKind::sphere ? 0.0 : 2.0};
       const LawSettings law = settingsOf(name.kind);
       EXPECT_EQ(contactAt(law, phantom, {0.0, 0.0, 2.6}, head).force_P_N.xyz, glm::dvec3(0.0)) << name.key;
@@ -167,7 +168,8 @@ TEST(Laws, PushEveryShapeTheyAdmitOutOfFlatBone) {
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
   const Phantom phantom = halfSpace(4.0, 0.2, normal);
   for (LawKind kind : kTried)
-    for (ShapeKind shape : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone}) {
+    for (ShapeKind shape :
+         {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone, ShapeKind::revolved}) {
       const LawName& name = kLaws[static_cast<std::size_t>(kind)];
       const BurShape head{shape, 1.5, shape == ShapeKind::sphere ? 0.0 : 3.0};
       const double reach = reach_mm(head, -normal.z);
@@ -213,7 +215,8 @@ TEST(Laws, AreAsStiffAsTheTissueTheyMeet) {
 
 TEST(Shell, PressesWithTheAreaThatAnyShapeHasInFlatBone) {
   const LawSettings law = settingsOf(LawKind::shell);
-  for (ShapeKind shape : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone})
+  for (ShapeKind shape :
+       {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::cone, ShapeKind::revolved})
     for (const glm::dvec3& direction :
          {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.1, 0.4), glm::dvec3(0.8, 0.0, -0.5)}) {
       const glm::dvec3 normal = glm::normalize(direction);

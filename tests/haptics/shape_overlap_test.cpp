@@ -21,7 +21,16 @@ using calibration::Tool;
 const std::vector<BurShape> kShapes = {{ShapeKind::sphere, 1.3, 0.0},
                                        {ShapeKind::capsule, 1.0, 2.5},
                                        {ShapeKind::cylinder, 1.0, 3.0},
-                                       {ShapeKind::cone, 1.2, 3.0}};
+                                       {ShapeKind::cone, 1.2, 3.0},
+                                       {ShapeKind::revolved, 1.2, 1.2, assets::BurProfile::wheel},
+                                       {ShapeKind::revolved, 1.0, 1.5, assets::BurProfile::inverted_cone},
+                                       {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::taper},
+                                       {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::round_taper},
+                                       {ShapeKind::revolved, 1.0, 3.0, assets::BurProfile::torpedo},
+                                       {ShapeKind::revolved, 1.0, 3.5, assets::BurProfile::flame},
+                                       {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::pear},
+                                       {ShapeKind::revolved, 1.2, 2.8, assets::BurProfile::egg},
+                                       {ShapeKind::revolved, 1.0, 3.0, assets::BurProfile::round_cylinder}};
 
 class Poses {
  public:
@@ -86,7 +95,11 @@ TEST(ShapeOverlap, EqualsTheSumVoxelByVoxelInRandomBone) {
   const Cubelets cubelets(phantom.grid, phantom.solid, label);
   const SolidField field = cubelets.field();
   for (int trial = 0; trial < 200; ++trial) {
-    const BurShape shape{static_cast<ShapeKind>(trial % 4), poses.number(0.1, 2.5), poses.number(0.2, 5.0)};
+    BurShape shape{static_cast<ShapeKind>(trial % kShapeKinds), poses.number(0.1, 2.5), poses.number(0.2, 5.0)};
+    if (shape.kind == ShapeKind::revolved) {
+      shape.profile = static_cast<assets::BurProfile>(trial / kShapeKinds % 9);
+      shape.length_mm = std::max(shape.length_mm, assets::leastBurLength_mm(shape.profile, shape.radius_mm));
+    }
     const Pose<Patient, Tool> X_PT{poses.turn(), poses.place(4.0)};
     expectSame(shapeOverlap(field, shape, X_PT, {}), slowShapeOverlap(field, shape, X_PT), 20.0);
   }

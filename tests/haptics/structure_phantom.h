@@ -14,6 +14,7 @@
 #include "calibration/geometry/pose.h"
 #include "calibration/geometry/segment.h"
 #include "haptics/tool/tool.h"
+#include "tests/haptics/head_distance.h"
 
 namespace haptics::phantom {
 
@@ -75,6 +76,8 @@ inline double toHead_mm(const BurShape& head, const glm::dvec3& p_T_mm) {
       const glm::dvec3 p(across_mm, 0.0, z), tip(0.0, 0.0, -half), rim(r, 0.0, half), base(0.0, 0.0, half);
       return std::min(calibration::distanceToSegment(p, tip, rim), calibration::distanceToSegment(p, rim, base));
     }
+    case ShapeKind::revolved:
+      return std::max(0.0, headDistance_mm(head, {p_T_mm}));
   }
   return 0.0;
 }

@@ -17,6 +17,8 @@ bool isCovered(const haptics::BurShape& head, const glm::dvec3& q, double margin
       return std::hypot(r, q.z - std::clamp(q.z, -half_mm, half_mm)) <= reach_mm;
     case haptics::ShapeKind::cylinder:
       return r <= reach_mm && std::abs(q.z) <= half_mm + margin_mm;
+    case haptics::ShapeKind::revolved:
+      return assets::outlineDistance_mm(haptics::revolvedOutline(head), r, q.z) <= margin_mm;
     case haptics::ShapeKind::cone:
       break;
   }

@@ -19,6 +19,41 @@ TEST(ToolText, ReadsEveryHead) {
   EXPECT_EQ(headFrom("cone:1,3"), (BurShape{ShapeKind::cone, 1.0, 3.0}));
 }
 
+TEST(ToolText, ReadsEveryRevolvedHeadAndWritesItBack) {
+  for (std::size_t n = 0; n < assets::kBurProfiles; ++n) {
+    const std::string text = std::string(assets::kBurProfileKeys[n]) + ":0.8,6.5";
+    const BurShape head{ShapeKind::revolved, 0.8, 6.5, static_cast<assets::BurProfile>(n)};
+    EXPECT_EQ(headFrom(text), head);
+    EXPECT_EQ(textOf(head), text);
+    EXPECT_EQ(toolFrom(text, "").head, head);
+  }
+}
+
+TEST(ToolText, ReadsBursByTheirIsoNumber) {
+  EXPECT_EQ(headFrom("iso:289/016"), (BurShape{ShapeKind::revolved, 0.8, 8.0, assets::BurProfile::torpedo}));
+  EXPECT_EQ(headFrom("iso:289/016,6"), (BurShape{ShapeKind::revolved, 0.8, 6.0, assets::BurProfile::torpedo}));
+  EXPECT_EQ(headFrom("iso:198/021").profile, assets::BurProfile::round_taper);
+  EXPECT_EQ(headFrom("iso:001/023"), (BurShape{ShapeKind::sphere, 1.15, 0.0}));
+  for (const auto& [bad, why] : {std::pair{"iso:", "that is no ISO number"},
+                                 {"iso", "that is no ISO number"},
+                                 {"iso:289", "that is no ISO number"},
+                                 {"iso:289/x", "that is no ISO number"},
+                                 {"iso:777/016", "no such ISO shape is made"},
+                                 {"iso:289/000", "diameter is out of range"},
+                                 {"iso:289/016,0", "length is out of range"},
+                                 {"iso:289/016,nan", "length is out of range"},
+                                 {"iso:001/016,3", "length is out of range"},
+                                 {"iso:289/080", "too short for this form"},
+                                 {"flame:1,1", "too short for this form, give at least 2 mm"},
+                                 {"flame:1", "the length is missing"},
+                                 {"pear:x,3", "the radius is not a number"},
+                                 {"flame", "the radius"}}) {
+    const std::string said = tests::refusalOf<UsageError>([&, text = bad] { toolFrom(text, ""); });
+    EXPECT_NE(said.find(why), std::string::npos) << bad << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << bad;
+  }
+}
+
 TEST(ToolText, ReadsForcepsAndBurs) {
   EXPECT_EQ(toolFrom("forceps", ""), haptics::forcepsTool());
   EXPECT_EQ(toolFrom("round:2.0", "0.5,12"), (haptics::Tool{headFrom("round:2.0"), {0.5, 12.0}}));

@@ -85,6 +85,15 @@ TEST(CommandKeys, NameLawsShapesAndTissues) {
   EXPECT_EQ(back.tool.hand_instrument, haptics::HandInstrument::curette);
 }
 
+TEST(CommandKeys, NameTheOutlineOfARevolvedHead) {
+  for (std::size_t n = 0; n < assets::kBurProfiles; ++n) {
+    haptics::Command command;
+    command.tool.head = {haptics::ShapeKind::revolved, 0.8, 8.0, static_cast<assets::BurProfile>(n)};
+    EXPECT_NE(commandText(command).find("\"tool.head.kind\":\"revolved\""), std::string::npos);
+    EXPECT_EQ(again(command).tool.head, command.tool.head);
+  }
+}
+
 TEST(CommandKeys, OfAnotherProgramArePassedByAndMissingOnesDefaulted) {
   const haptics::Command read =
       commandFromText(R"({"serial":4,"law.kind":"gravity","coolant_ml_per_min":40,"nested":{"a":[1,2]}})");

@@ -74,7 +74,9 @@ TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
     command.serial = part + 1;
     command.law.kind = haptics::kLaws[part % haptics::kLaws.size()].kind;
     command.law.agus.stiffness_N_per_mm = 0.5 + 0.1 * static_cast<double>(part);
-    if (part > 0) command.tool.head = {static_cast<haptics::ShapeKind>(part % 4), 0.8, 1.2};
+    if (part > 0)
+      command.tool.head = {static_cast<haptics::ShapeKind>(part % haptics::kShapeKinds), 0.8, 1.5,
+                           part % 2 == 0 ? assets::BurProfile::torpedo : assets::BurProfile::pear};
     if (part % 2 == 1) command.tool.shaft = {0.4, 6.0};
     std::vector<haptics::Tick> ticks;
     for (std::size_t n = part * kEach; n < (part + 1) * kEach; ++n) {

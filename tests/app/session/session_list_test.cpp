@@ -163,7 +163,8 @@ TEST(SessionSetup, IsStoredWithTheSession) {
   jaw.opening_mm = 28.5;
   start.setup.built_in = jaw;
   start.setup.tray = {{{haptics::ShapeKind::sphere, 1.5, 0.0}, {0.9, 25.0}},
-                      {{haptics::ShapeKind::capsule, 0.8, 4.125}, {0.5, 20.0}}};
+                      {{haptics::ShapeKind::capsule, 0.8, 4.125}, {0.5, 20.0}},
+                      {{haptics::ShapeKind::revolved, 0.8, 8.0, assets::BurProfile::flame}, {0.5, 20.0}}};
   start.setup.down_P = glm::dvec3(0.0, 0.6, -0.8);
   start.setup.former = FormerSession{"2026-11-19-tooth-48.molar", 61.25, 0xfedcba9876543210u};
   const std::string path = (at.sessions / "a.molar").string();
