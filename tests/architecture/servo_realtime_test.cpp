@@ -33,7 +33,8 @@ TEST(ServoRealTime, NeitherAllocatesNorBlocksInTenThousandTicksOfCarving) {
       command.serial = 1 + static_cast<std::uint64_t>(n / 500);
       // Every law with every head, with and without a shaft.
       command.law.kind = haptics::kLaws[static_cast<std::size_t>(n / 500) % haptics::kLaws.size()].kind;
-      command.tool.head = {static_cast<haptics::ShapeKind>(n / 500 % 4), 0.5 + 0.2 * (n / 500 % 8), 1.5};
+      command.tool.head = {static_cast<haptics::ShapeKind>(n / 500 % haptics::kShapeKinds), 0.5 + 0.2 * (n / 500 % 8),
+                           1.5, static_cast<assets::BurProfile>(n / 2500 % 9)};
       if (n / 500 % 3 != 0) command.tool.shaft = {0.5, 9.0};
       commands.publish(command);
     }
@@ -83,7 +84,8 @@ TEST(ServoRealTime, NeitherAllocatesNorBlocksWhileTheBurCutsAJawAndAMovedTooth) 
       const int change = n / 300;
       ++command.serial;
       command.law.kind = haptics::kLaws[static_cast<std::size_t>(change) % haptics::kLaws.size()].kind;
-      command.tool.head = {static_cast<haptics::ShapeKind>(change % 4), 0.5 + 0.2 * (change % 8), 1.5};
+      command.tool.head = {static_cast<haptics::ShapeKind>(change % haptics::kShapeKinds), 0.5 + 0.2 * (change % 8),
+                           1.5, static_cast<assets::BurProfile>(change / 5 % 9)};
     }
     in_contact += servo.step(hand, command, 0.001).overlap_mm3 > 0.0 ? 1 : 0;
   }

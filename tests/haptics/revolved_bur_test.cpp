@@ -113,7 +113,7 @@ TEST(RevolvedBur, CoversVoxelByVoxelWhatTheHeadsOfTheSameFormCover) {
        0.6,
        -9.0,
        1.3,
-       0.1},
+       0.14},
       {{ShapeKind::revolved, 1.2, 2.4, BurProfile::egg}, {ShapeKind::sphere, 1.2, 0.0}, 0.0, -9.0, 9.0, 0.1}};
   for (const Twin& twin : twins) {
     const BurCoverage revolved(grid, twin.revolved, kPose);

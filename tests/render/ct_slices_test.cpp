@@ -170,6 +170,11 @@ TEST(CtSlices, MeasureTheBurWithTheSignOfItsInside) {
   EXPECT_NEAR(distance(BurForm::cone, {0, 0, -3}), 1.0, 1e-12);
   EXPECT_NEAR(distance(BurForm::cone, {0, 0, 1.9}), -0.1, 1e-9);  // under its base
   EXPECT_NEAR(distance(BurForm::cone, {0.5, 0, 0}), 0.0, 1e-12);  // half way up
+  frame.bur_profile = assets::BurProfile::taper;
+  EXPECT_NEAR(distance(BurForm::revolved, {0.6, 0, -2}), 0.0, 1e-12);  // the lower rim
+  EXPECT_NEAR(distance(BurForm::revolved, {0.8, 0, 0}), 0.0, 1e-12);   // half way up
+  EXPECT_NEAR(distance(BurForm::revolved, {0, 0, -3}), 1.0, 1e-12);
+  EXPECT_NEAR(distance(BurForm::revolved, {0, 0, 1.9}), -0.1, 1e-9);
 }
 
 TEST(CtSlices, OutlineTheCanal) {

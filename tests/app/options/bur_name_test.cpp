@@ -13,6 +13,8 @@ TEST(BurName, IsShapeDiameterAndIsoSize) {
   EXPECT_EQ(burName({ShapeKind::cylinder, 0.8, 4.5}), "fissure 1.6 mm, ISO 016");
   EXPECT_EQ(burName({ShapeKind::capsule, 0.6, 4.0}), "round-end fissure 1.2 mm, ISO 012");
   EXPECT_EQ(burName({ShapeKind::cone, 1.0, 5.0}), "cone 2.0 mm, ISO 020");
+  EXPECT_EQ(burName({ShapeKind::revolved, 0.8, 8.0, assets::BurProfile::round_taper}),
+            "round-end taper 1.6 mm, ISO 016");
 }
 
 TEST(BurName, NamesInstrumentsThatAreNoBurs) {

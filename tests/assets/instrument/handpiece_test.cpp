@@ -85,6 +85,32 @@ TEST(Handpiece, FacesOutward) {
   }
 }
 
+TEST(Handpiece, BladesFollowTheOutlineOfEveryRevolvedHead) {
+  const double radius_mm = 0.8, length_mm = 4.0;
+  for (std::size_t n = 0; n < kBurProfiles; ++n) {
+    const auto profile = static_cast<BurProfile>(n);
+    const BurOutline outline = burOutline(profile, radius_mm, length_mm);
+    const MeshModel model = surgicalHandpiece({.bur_radius_mm = radius_mm,
+                                               .form = BurForm::revolved,
+                                               .bur_length_mm = length_mm,
+                                               .profile = profile,
+                                               .neck_radius_mm = 0.3});
+    double widest_mm = 0.0, lowest_mm = 0.0, farthest_out_mm = -1.0, nearest_mm = -1.0;
+    for (const glm::dvec3 p : tests::partNamed(model, "Bur").position_mm) {
+      if (p.z > 0.8) continue;  // the egg's neck
+      const double distance_mm = outlineDistance_mm(outline, std::hypot(p.x, p.y), p.z);
+      widest_mm = std::max(widest_mm, std::hypot(p.x, p.y));
+      lowest_mm = std::min(lowest_mm, p.z);
+      farthest_out_mm = std::max(farthest_out_mm, distance_mm);
+      if (std::abs(p.z) < 0.8) nearest_mm = std::max(nearest_mm, distance_mm);
+    }
+    EXPECT_LT(widest_mm, radius_mm + 1e-5);
+    EXPECT_NEAR(lowest_mm, -0.5 * length_mm, 1e-5) << kBurProfileKeys[n];
+    EXPECT_LT(farthest_out_mm, 1e-5) << kBurProfileKeys[n];
+    EXPECT_NEAR(nearest_mm, 0.0, 1e-5) << kBurProfileKeys[n];
+  }
+}
+
 TEST(Handpiece, BladesFollowTheOutlineOfEveryShape) {
   const double radius_mm = 0.8, length_mm = 4.0, half_mm = 0.5 * length_mm;
   for (const BurForm form : {BurForm::capsule, BurForm::cylinder, BurForm::cone}) {
