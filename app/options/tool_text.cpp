@@ -38,7 +38,7 @@ struct Form {
 };
 
 constexpr std::string_view kElevator = "elevator", kFile = "k-file", kIso = "iso";
-constexpr const char* kIsoPattern = "iso:SHAPE/DIAMETER in tenths of a mm";
+constexpr const char* kIsoPattern = "iso:SHAPE/TENTHS";
 constexpr const char* kFilePattern = "k-file:SIZE,LENGTH with ,niti or ,bent:DEGREES behind it";
 
 const Measure kRadius{"radius", 0.1, 20.0}, kDiameter{"diameter", 0.2, 40.0, 0.5};

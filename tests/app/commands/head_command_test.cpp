@@ -23,7 +23,10 @@ const std::vector<HeadOverBone> kHeads = {
     {"sphere:1.5", 1.5, 4.0 / 3.0 * pi * 3.375, pi * 0.25 * (1.5 - 0.5 / 3.0)},
     {"capsule:1,2", 2.0, 4.0 / 3.0 * pi + 2.0 * pi, pi * 0.25 * (1.0 - 0.5 / 3.0)},
     {"cylinder:1,3", 1.5, 3.0 * pi, 0.5 * pi},
-    {"cone:1.5,2", 1.0, 1.5 * pi, pi / 3.0 * std::pow(0.5 * 1.5 / 2.0, 2) * 0.5}};
+    {"cone:1.5,2", 1.0, 1.5 * pi, pi / 3.0 * std::pow(0.5 * 1.5 / 2.0, 2) * 0.5},
+    {"wheel:1,1.5", 0.75, 1.5 * pi, 0.5 * pi},
+    // Its lower end is 0.6 of the radius.
+    {"taper:1,3", 1.5, 1.96 * pi, pi / 6.0 * (0.36 + 0.4 + 0.4 / 0.9)}};
 
 class HeadCommand : public ProgramTest {};
 

@@ -125,7 +125,7 @@ TEST(ToolText, NamesTheErrorAndTheAcceptedForms) {
   EXPECT_NE(complaint("cylinder:99,2").find("the radius is out of range, give 0.1 to 20 mm"), std::string::npos);
   EXPECT_NE(complaint("capsule:1,99").find("the length is out of range, give 0 to 40 mm"), std::string::npos);
   EXPECT_NE(complaint("capsule:1,x").find("the length is not a number"), std::string::npos);
-  EXPECT_NE(complaint("disc:1").find("sphere:R, capsule:R,L, cylinder:R,L or cone:R,L"), std::string::npos);
+  EXPECT_NE(complaint("disc:1").find("sphere:R, capsule:R,L, cylinder:R,L, cone:R,L, wheel:R,L"), std::string::npos);
 }
 
 TEST(ToolText, ReadsAShaft) {
