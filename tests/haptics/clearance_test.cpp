@@ -10,8 +10,12 @@ namespace {
 
 using phantom::ToolPose;
 
-constexpr std::array<BurShape, 4> kHeads{BurShape{ShapeKind::sphere, 2.0, 0.0}, BurShape{ShapeKind::capsule, 1.2, 4.0},
-                                         BurShape{ShapeKind::cylinder, 2.0, 5.0}, BurShape{ShapeKind::cone, 2.0, 6.0}};
+constexpr std::array<BurShape, 6> kHeads{BurShape{ShapeKind::sphere, 2.0, 0.0},
+                                         BurShape{ShapeKind::capsule, 1.2, 4.0},
+                                         BurShape{ShapeKind::cylinder, 2.0, 5.0},
+                                         BurShape{ShapeKind::cone, 2.0, 6.0},
+                                         BurShape{ShapeKind::revolved, 1.8, 6.0, assets::BurProfile::flame},
+                                         BurShape{ShapeKind::revolved, 1.8, 5.0, assets::BurProfile::pear}};
 
 TEST(StructureDistance, IsTheDistanceToTheNearestVoxelNearAndFar) {
   const phantom::VoxelStructure crown = phantom::crown(0.5);
@@ -100,10 +104,18 @@ double sampled_mm(const assets::StructureDistance& distance, const BurShape& hea
     if (head.kind == ShapeKind::capsule)
       r = std::sqrt(std::max(0.0, r * r - std::pow(std::max(0.0, std::abs(z) - straight), 2)));
     if (head.kind == ShapeKind::cone) r *= (z + half) / (2.0 * half);
+    if (head.kind == ShapeKind::revolved) {
+      const assets::BurOutline outline = revolvedOutline(head);
+      std::size_t k = 0;
+      while (k + 2 < outline.count && z > outline.z_mm[k + 1]) ++k;
+      r = glm::mix(outline.radius_mm[k], outline.radius_mm[k + 1],
+                   (z - outline.z_mm[k]) / (outline.z_mm[k + 1] - outline.z_mm[k]));
+    }
     ring(z, r);
   }
   for (double r = 0.0; r < head.radius_mm + 1e-9 && head.kind != ShapeKind::capsule; r += step_mm) {
-    ring(half, r);
+    const double top = head.kind == ShapeKind::revolved ? 0.6 * head.radius_mm : head.radius_mm;
+    if (r < top + 1e-9) ring(half, r);
     if (head.kind == ShapeKind::cylinder) ring(-half, r);
   }
   return least_mm;

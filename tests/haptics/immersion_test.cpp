@@ -15,7 +15,8 @@ using calibration::Tool;
 const std::vector<BurShape> kShapes = {{ShapeKind::sphere, 1.5, 0.0},
                                        {ShapeKind::capsule, 1.0, 2.5},
                                        {ShapeKind::cylinder, 1.0, 3.0},
-                                       {ShapeKind::cone, 1.2, 3.0}};
+                                       {ShapeKind::cone, 1.2, 3.0},
+                                       {ShapeKind::revolved, 1.0, 3.2, assets::BurProfile::torpedo}};
 
 Immersion contactAt(const SolidField& field, const BurShape& head, const Pose<Patient, Tool>& X_PT) {
   const TissueStiffness tissue;
