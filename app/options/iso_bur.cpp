@@ -24,7 +24,7 @@ struct IsoShape {
 };
 
 // Unverified: from makers' lists, not from the standard.
-constexpr auto kShapes = std::to_array<IsoShape>({
+constexpr auto kIsoShapes = std::to_array<IsoShape>({
     {1, ShapeKind::sphere, BurProfile::wheel, 0.0, 1.0},
     {10, ShapeKind::revolved, BurProfile::inverted_cone, 0.0, 1.0},
     {42, ShapeKind::revolved, BurProfile::wheel, 0.0, 0.35},
@@ -60,7 +60,7 @@ constexpr int kLeastTenths = 2, kMostTenths = 120;
 }  // namespace
 
 std::string isoShapes() {
-  return joined(kShapes, [](const IsoShape& shape) { return fmt::format("{:03}", shape.number); });
+  return joined(kIsoShapes, [](const IsoShape& shape) { return fmt::format("{:03}", shape.number); });
 }
 
 haptics::BurShape isoBurFrom(std::string_view text, const std::string& option) {
@@ -71,7 +71,7 @@ haptics::BurShape isoBurFrom(std::string_view text, const std::string& option) {
   if (!number || !tenths)
     throw UsageError(option + ": that is no ISO number, give iso:SHAPE/DIAMETER in tenths of a mm, as iso:289/016");
   const IsoShape* found = nullptr;
-  for (const IsoShape& shape : kShapes)
+  for (const IsoShape& shape : kIsoShapes)
     if (shape.number == *number) found = &shape;
   if (found == nullptr) throw UsageError(option + ": no such ISO shape is made, give one of " + isoShapes());
   if (*tenths < kLeastTenths || *tenths > kMostTenths)
