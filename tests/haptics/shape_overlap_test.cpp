@@ -21,16 +21,17 @@ using calibration::Tool;
 const std::vector<BurShape> kShapes = {{ShapeKind::sphere, 1.3, 0.0},
                                        {ShapeKind::capsule, 1.0, 2.5},
                                        {ShapeKind::cylinder, 1.0, 3.0},
-                                       {ShapeKind::cone, 1.2, 3.0},
-                                       {ShapeKind::revolved, 1.2, 1.2, assets::BurProfile::wheel},
-                                       {ShapeKind::revolved, 1.0, 1.5, assets::BurProfile::inverted_cone},
-                                       {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::taper},
-                                       {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::round_taper},
-                                       {ShapeKind::revolved, 1.0, 3.0, assets::BurProfile::torpedo},
-                                       {ShapeKind::revolved, 1.0, 3.5, assets::BurProfile::flame},
-                                       {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::pear},
-                                       {ShapeKind::revolved, 1.2, 2.8, assets::BurProfile::egg},
-                                       {ShapeKind::revolved, 1.0, 3.0, assets::BurProfile::round_cylinder}};
+                                       {ShapeKind::cone, 1.2, 3.0}};
+
+const std::vector<BurShape> kRevolved = {{ShapeKind::revolved, 1.2, 1.2, assets::BurProfile::wheel},
+                                         {ShapeKind::revolved, 1.0, 1.5, assets::BurProfile::inverted_cone},
+                                         {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::taper},
+                                         {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::round_taper},
+                                         {ShapeKind::revolved, 1.0, 3.0, assets::BurProfile::torpedo},
+                                         {ShapeKind::revolved, 1.0, 3.5, assets::BurProfile::flame},
+                                         {ShapeKind::revolved, 1.1, 3.0, assets::BurProfile::pear},
+                                         {ShapeKind::revolved, 1.2, 2.8, assets::BurProfile::egg},
+                                         {ShapeKind::revolved, 1.0, 3.0, assets::BurProfile::round_cylinder}};
 
 class Poses {
  public:
@@ -122,7 +123,9 @@ TEST(ShapeOverlap, IsTheSumOfSpheresForASphere) {
 TEST(ShapeOverlap, IsTheWholeHeadInsideSolidBone) {
   Poses poses(6);
   const Phantom phantom = block(4.0, 0.1);
-  for (const BurShape& shape : kShapes)
+  std::vector<BurShape> all = kShapes;
+  all.insert(all.end(), kRevolved.begin(), kRevolved.end());
+  for (const BurShape& shape : all)
     for (int trial = 0; trial < 5; ++trial) {
       const ShapeOverlap overlap = shapeOverlap(phantom.field(), shape, {poses.turn(), poses.place(0.5)}, {});
       const double whole = volume_mm3(shape);
@@ -180,7 +183,9 @@ TEST(ShapeOverlap, HasTheAreaThatItsVolumeLosesByMovingAVoxel) {
   constexpr double kSpacing_mm = 0.2;
   Phantom phantom = block(2.5, kSpacing_mm);
   for (auto& solid : phantom.solid) solid = static_cast<std::uint8_t>(std::max(0.0, poses.number(-128.0, 255.0)));
-  for (const BurShape& shape : kShapes)
+  std::vector<BurShape> all = kShapes;
+  all.insert(all.end(), kRevolved.begin(), kRevolved.end());
+  for (const BurShape& shape : all)
     for (int trial = 0; trial < 20; ++trial) {
       const Pose<Patient, Tool> X_PT{poses.turn(), poses.place(3.0)};
       const glm::dvec3 area = shapeOverlap(phantom.field(), shape, X_PT, {}).area_P_mm2.xyz;

@@ -43,7 +43,7 @@ TEST(ToolText, ReadsBursByTheirIsoNumber) {
                                  {"iso:289/016,0", "length is out of range"},
                                  {"iso:289/016,nan", "length is out of range"},
                                  {"iso:001/016,3", "length is out of range"},
-                                 {"iso:289/080", "too short for this form"},
+                                 {"iso:289/100", "too short for this form"},
                                  {"flame:1,1", "too short for this form, give at least 2 mm"},
                                  {"flame:1", "the length is missing"},
                                  {"pear:x,3", "the radius is not a number"},
