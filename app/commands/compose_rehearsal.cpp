@@ -243,8 +243,8 @@ void chooseHighSpeed(RehearseOptions& options) {
   haptics::Command& command = options.plan.command;
   if (options.law == kAsked.law) {
     command.law.kind = haptics::LawKind::machining;
-    // As stiff as a small bur may be at 1 kHz.
-    command.law.machining.edge_radial_N_per_mm = 0.3;
+    // As stiff as its burs may be at 1 kHz: those of a preparation are long.
+    command.law.machining.edge_radial_N_per_mm = isPreparation(options) ? 0.02 : 0.3;
   }
   if (options.erosion == kAsked.erosion) command.erosion.kind = haptics::ErosionKind::machining;
   // 20 W at 200,000 rpm, stalls at 2 N mm: a high-speed handpiece (data sheets, unverified).

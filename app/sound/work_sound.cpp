@@ -41,7 +41,7 @@ constexpr std::array<AlarmTone, 4> kAlarms{
     {{0.0, 0.0, 1.0}, {1175.0, 880.0, 5.0}, {988.0, 988.0, 4.0}, {740.0, 740.0, 2.5}}};
 
 struct ApexBeat {
-  double Hz, times_per_s;  ///< 0: steady
+  double pitch_Hz, times_per_s;  ///< 0: steady
 };
 /// Of ApexTone.
 constexpr std::array<ApexBeat, 5> kApexBeats{
@@ -160,7 +160,7 @@ double WorkSound::apex() noexcept {
       now_.warning.apex != ApexTone::none && (is_steady || std::fmod(apex_s_ * sounds.times_per_s, 1.0) < 0.5);
   apex_s_ = now_.warning.apex == ApexTone::none ? 0.0 : apex_s_ + 1.0 / rate_Hz_;
   apex_level_ += glide_ * ((on ? 1.0 : 0.0) - apex_level_);
-  apex_phase_ += sounds.Hz / rate_Hz_;
+  apex_phase_ += sounds.pitch_Hz / rate_Hz_;
   apex_phase_ -= std::floor(apex_phase_);
   return kLoudest * apex_level_ * std::sin(kTurn * apex_phase_);
 }

@@ -34,6 +34,8 @@ std::vector<glm::dvec2> outlineOf(const Frame& frame) {
         outline.emplace_back(R * part, half * (2.0 * part - 1.0));
         outline.emplace_back(R * part, half);
         break;
+      case assets::BurForm::revolved:
+        break;  // tested with its own profiles
     }
   }
   return outline;

@@ -11,8 +11,8 @@
 namespace app {
 namespace {
 
-constexpr double kCut_mm_per_s = 3.0, kAir_mm_per_s = 25.0, kWall_mm_per_s = 2.0;
-constexpr double kLayer_mm = 0.4, kClear_mm = 1.0, kPathStep_mm = 0.2, kToCut_mm = 0.02;
+constexpr double kCut_mm_per_s = 5.0, kAir_mm_per_s = 60.0, kWall_mm_per_s = 2.0;
+constexpr double kLayer_mm = 0.8, kClear_mm = 1.0, kPathStep_mm = 0.2, kToCut_mm = 0.02;
 constexpr std::size_t kTurns = 2;  ///< around the walls: the second takes what the first left
 
 /// The end of the bur at places of the tooth's frame, and how it leans.
@@ -63,7 +63,8 @@ void cutLayers(ScriptedBur& hand, const PreparationMeasure& measure, double radi
   left.solid = measure.ideal();
   const OcclusalMap wanted(left), had(crown);
   const glm::dvec3 up(0.0, 0.0, 1.0);
-  const double reach_mm = crown.reach_mm + radius_mm, line_mm = 0.8 * radius_mm;
+  const double reach_mm = crown.reach_mm + radius_mm,
+               line_mm = (measure.rule().kind == IdealKind::crown ? 1.4 : 0.25) * radius_mm;
   const double clear_mm = crown.top_mm + kClear_mm;
   const double low_mm = measure.rule().kind == IdealKind::crown ? measure.rule().margin_height_mm : 0.0;
   for (double level_mm = crown.top_mm - kLayer_mm; level_mm > low_mm - kLayer_mm; level_mm -= kLayer_mm) {

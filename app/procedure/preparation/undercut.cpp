@@ -84,10 +84,10 @@ std::vector<float> CrownColumns::undercutMap_mm() const {
 }
 
 InsertionWay bestInsertion(const CrownColumns& columns) {
-  const auto wayOf = [&](const glm::dvec2& lean) {
+  const auto way_of = [&](const glm::dvec2& lean) {
     return InsertionWay{lean, std::atan(glm::length(lean)), columns.undercut_mm3(lean)};
   };
-  const InsertionWay axis = wayOf(glm::dvec2(0.0));
+  const InsertionWay axis = way_of(glm::dvec2(0.0));
   InsertionWay best = axis;
   const double rim = std::tan(kCone_rad);
   // A compass search: from the axis, halving the step where no neighbour is better.
@@ -96,7 +96,7 @@ InsertionWay bestInsertion(const CrownColumns& columns) {
     for (const glm::dvec2& way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
       const glm::dvec2 lean = best.lean + step * way;
       if (glm::length(lean) > rim + 1e-9) continue;
-      if (const InsertionWay one = wayOf(lean); one.undercut_mm3 < better.undercut_mm3) better = one;
+      if (const InsertionWay one = way_of(lean); one.undercut_mm3 < better.undercut_mm3) better = one;
     }
     if (better.undercut_mm3 < best.undercut_mm3)
       best = better;
