@@ -176,7 +176,8 @@ inline double outlineDistance_mm(const BurOutline& outline, double rho_mm, doubl
   line(0.0, outline.z_mm[0], outline.radius_mm[0], outline.z_mm[0]);
   for (std::size_t n = 0; n < last; ++n) {
     line(outline.radius_mm[n], outline.z_mm[n], outline.radius_mm[n + 1], outline.z_mm[n + 1]);
-    if (z_mm <= outline.z_mm[n] || z_mm >= outline.z_mm[n + 1]) continue;
+    // A place on the height of a knot belongs to both stretches.
+    if (z_mm < outline.z_mm[n] || z_mm > outline.z_mm[n + 1] || !(outline.z_mm[n + 1] > outline.z_mm[n])) continue;
     const double part = (z_mm - outline.z_mm[n]) / (outline.z_mm[n + 1] - outline.z_mm[n]);
     if (rho_mm < outline.radius_mm[n] + part * (outline.radius_mm[n + 1] - outline.radius_mm[n])) side = -1.0;
   }

@@ -34,7 +34,15 @@ assets::VolumeGrid rowGrid(const assets::VolumeGrid& tooth, const assets::ToothF
           tooth.origin_P_mm + tooth.spacing_mm * glm::dvec3(-beside, -beside, low)};
 }
 
-/// The scan as it is, beside a tooth.
+/// In the arch.
+bool isBeside(int fdi, int other) {
+  const int way = assets::positionOf(other) - assets::positionOf(fdi);
+  if (assets::quadrantOf(fdi) == assets::quadrantOf(other)) return way == 1 || way == -1;
+  return assets::positionOf(fdi) == 1 && assets::positionOf(other) == 1 &&
+         assets::isUpper(fdi) == assets::isUpper(other);
+}
+
+/// The scan as it is, beside a tooth; of other teeth the two beside it alone, as the box would cut the next ones off.
 class Row {
  public:
   Row(const assets::CtVolume& ct, int fdi) : ct_(ct), fdi_(fdi) {}
@@ -57,7 +65,7 @@ class Row {
  private:
   bool counts(std::size_t v, bool is_neighbour) const {
     const int tooth = ct_.tooth.empty() ? 0 : ct_.tooth[v];
-    if (tooth == fdi_) return false;
+    if (tooth == fdi_ || (tooth != 0 && !isBeside(fdi_, tooth))) return false;
     return !is_neighbour || tooth != 0 || assets::Tissue{ct_.label[v]} == assets::Tissue::other_teeth;
   }
 

@@ -223,9 +223,8 @@ void chooseTools(RehearseOptions& options) {
     // round one for a cavity, a narrow cylinder for its grooves.
     options.tools = {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6",
                      "wheel:1.8,1.2",     "round:1.4",     "cylinder:0.4,4"};
-    // A scripted hand works with flat ends alone, as wide as a margin or narrower than an isthmus.
-    if (options.plan.device == "scripted")
-      options.tools = {options.ideal.starts_with("crown") ? "cylinder:0.5,6" : "cylinder:0.4,4"};
+    // A scripted hand works with a flat end alone.
+    if (options.plan.device == "scripted") options.tools = {"cylinder:0.4,4"};
     return;
   }
   if (const auto task = practiceOf(options))

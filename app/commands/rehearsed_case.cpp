@@ -75,6 +75,8 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   }
   if (isPreparation(options)) {
     const auto built_in = options.patient.empty() ? std::optional(jaw) : std::nullopt;
+    // No flap is raised for it.
+    if (auto gum = closedGum(one.patient)) one.patient.gingiva = std::move(*gum);
     one.patient = preparedTooth(one.patient, built_in, *options.tooth, options.ideal, "--tooth");
     one.soft_tissue =
         softTissueAround(one.patient.gingiva, one.patient.face, assets::SoftTissueRegion{one.patient.focus_P_mm()});

@@ -17,13 +17,13 @@ namespace {
 constexpr std::array<KeyMeaning, 9> kMovements = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
-    {"Wheel", "away from you: in (root canal: along the tool)"},
+    {"Wheel", "away from you: in"},
     {"Shift+Wheel", "the same, five times as far"},
     {"Wheel", "on a CT slice: through the slices"},
     {"Right drag", "turn the view (on a desk)"},
     {"Arrows", "tilt the handpiece"},
     {"Q, E", "rotate the handpiece, twist an elevator"},
-    {"O held", "mouse and arrows move the second hand"},
+    {"O held", "the mouse moves the mirror"},
 }};
 
 constexpr bool isInOrder() {

@@ -79,7 +79,8 @@ Scale scaleOf(const Crown& crown, const PanelView& view) {
   return {0.5 * kPanel / half_mm, {0.0, view.up.z > 0.0 ? 0.5 * crown.top_mm : 0.0}};
 }
 
-Panel surfacePanel(const PreparationMeasure& measure, const PreparationOutcomes& outcomes, const PanelView& view) {
+Panel surfacePanel(const PreparationMeasure& measure, const BoxBytes& made, const PreparationOutcomes& outcomes,
+                   const PanelView& view) {
   const Crown& crown = measure.crown();
   const Scale scale = scaleOf(crown, view);
   const double voxel_mm = crown.solid.grid().spacing_mm;
@@ -90,6 +91,26 @@ Panel surfacePanel(const PreparationMeasure& measure, const PreparationOutcomes&
     for (int y = -half; y <= half; ++y)
       for (int x = -half; x <= half; ++x) panel.put(at.x + x, at.y + y, glm::dot(p, view.out), light * colour);
   };
+  // All of the crown in grey, by rays; what is measured lies over it.
+  constexpr double kOver_mm = 0.2;
+  const double reach_mm = crown.reach_mm + crown.top_mm, step_mm = 1.5 * voxel_mm;
+  for (int y = 0; y < kPanel; ++y)
+    for (int x = 0; x < kPanel; ++x) {
+      const glm::dvec2 at = scale.place_mm(x, y);
+      for (double mm = reach_mm; mm > -reach_mm; mm -= step_mm) {
+        const glm::dvec3 p = at.x * view.right + at.y * view.up + mm * view.out, p_P = crown.frame.inP(p);
+        if (p.z < 0.0 || made.nearest(p_P) < 128 || !crown.isTooth(p_P)) continue;
+        const glm::dvec3 aside_P = crown.frame.axes_P * view.right, up_P = crown.frame.axes_P * view.up,
+                         out_P = crown.frame.axes_P * view.out;
+        const auto slope = [&](const glm::dvec3& way_P) {
+          return made.at(p_P - 2.0 * voxel_mm * way_P) - made.at(p_P + 2.0 * voxel_mm * way_P);
+        };
+        const glm::dvec3 out(slope(aside_P), slope(up_P), slope(out_P));
+        const double facing = glm::length(out) > 0.0 ? std::max(0.0, out.z / glm::length(out)) : 0.0;
+        panel.put(x, y, mm - kOver_mm, (0.45 + 0.45 * facing) * kUncut);
+        break;
+      }
+    }
   for (const DeviationPlace& place : outcomes.deviation.places) {
     const glm::dvec3 out = glm::dvec3(place.out_P) * crown.frame.axes_P;
     const double facing = glm::dot(out, view.out);
@@ -142,11 +163,11 @@ render::Image preparationPicture(const PreparationMeasure& measure, const BoxByt
     drawing.text(name, corner + glm::dvec2(8.0, 0.5 * kNamesHeight), kLetters, paper::kInk, Align::left, true);
     drawing.image(panel.picture(), corner + glm::dvec2(0.0, kNamesHeight), glm::dvec2(kPanel));
   };
-  place(0, 0, kViews[0].name, surfacePanel(measure, outcomes, kViews[0]));
-  place(1, 0, kViews[1].name, surfacePanel(measure, outcomes, kViews[1]));
-  place(2, 0, kViews[2].name, surfacePanel(measure, outcomes, kViews[2]));
-  place(0, 1, kViews[3].name, surfacePanel(measure, outcomes, kViews[3]));
-  place(1, 1, kViews[4].name, surfacePanel(measure, outcomes, kViews[4]));
+  place(0, 0, kViews[0].name, surfacePanel(measure, made, outcomes, kViews[0]));
+  place(1, 0, kViews[1].name, surfacePanel(measure, made, outcomes, kViews[1]));
+  place(2, 0, kViews[2].name, surfacePanel(measure, made, outcomes, kViews[2]));
+  place(0, 1, kViews[3].name, surfacePanel(measure, made, outcomes, kViews[3]));
+  place(1, 1, kViews[4].name, surfacePanel(measure, made, outcomes, kViews[4]));
   place(3, 0, "section, distal to mesial", sectionPanel(measure, made, kViews[1]));
   place(3, 1, "section, tongue to cheek", sectionPanel(measure, made, kViews[3]));
 

@@ -11,9 +11,9 @@
 namespace app {
 namespace {
 
-constexpr double kCut_mm_per_s = 5.0, kAir_mm_per_s = 60.0, kWall_mm_per_s = 2.0;
-constexpr double kLayer_mm = 0.8, kClear_mm = 1.0, kPathStep_mm = 0.2, kToCut_mm = 0.02;
-constexpr std::size_t kTurns = 2;  ///< around the walls: the second takes what the first left
+/// As fast as a high-speed bur takes enamel in layers of this height.
+constexpr double kCut_mm_per_s = 2.0, kAir_mm_per_s = 60.0;
+constexpr double kLayer_mm = 0.4, kClear_mm = 1.0, kPathStep_mm = 0.2, kToCut_mm = 0.02;
 
 /// The end of the bur at places of the tooth's frame, and how it leans.
 class ScriptedBur {
@@ -63,10 +63,9 @@ void cutLayers(ScriptedBur& hand, const PreparationMeasure& measure, double radi
   left.solid = measure.ideal();
   const OcclusalMap wanted(left), had(crown);
   const glm::dvec3 up(0.0, 0.0, 1.0);
-  const double reach_mm = crown.reach_mm + radius_mm,
-               line_mm = (measure.rule().kind == IdealKind::crown ? 1.4 : 0.25) * radius_mm;
+  const double reach_mm = crown.reach_mm + radius_mm, line_mm = 0.25 * radius_mm;
   const double clear_mm = crown.top_mm + kClear_mm;
-  const double low_mm = measure.rule().kind == IdealKind::crown ? measure.rule().margin_height_mm : 0.0;
+  const double low_mm = measure.rule().box_side == 0 ? 0.0 : measure.rule().box_height_mm;
   for (double level_mm = crown.top_mm - kLayer_mm; level_mm > low_mm - kLayer_mm; level_mm -= kLayer_mm) {
     bool is_forth = true;
     for (double y = -reach_mm; y <= reach_mm; y += line_mm) {
@@ -90,44 +89,18 @@ void cutLayers(ScriptedBur& hand, const PreparationMeasure& measure, double radi
   hand.go({hand.at_mm().x, hand.at_mm().y, clear_mm}, up, kAir_mm_per_s, false);
 }
 
-/// Around the stump on the margin, leaning as its walls do.
-void smoothWalls(ScriptedBur& hand, const PreparationMeasure& measure, double radius_mm) {
-  const Crown& crown = measure.crown();
-  const IdealRule& rule = measure.rule();
-  const StumpWalls walls(crown, measure.ideal(), rule.margin_height_mm + rule.fillet_mm,
-                         rule.margin_height_mm + rule.fillet_mm + 1.0);
-  const double clear_mm = crown.top_mm + kClear_mm, lean = std::tan(rule.half_angle_rad);
-  const double over_mm = walls.height_mm(1) - rule.margin_height_mm;
-  const auto around = [&](std::size_t n) {
-    const double turn = StumpWalls::turn_rad(n), square = walls.squareness(n, 1);
-    const glm::dvec3 out(std::cos(turn), std::sin(turn), 0.0);
-    const glm::dvec3 shaft = glm::normalize(glm::dvec3(0.0, 0.0, 1.0) - lean / square * out);
-    // The wall drawn down to the margin, and the bur beside it.
-    const double wall_mm = walls.radius_mm(n, 1) + over_mm * lean / square;
-    return std::pair(glm::dvec3(0.0, 0.0, rule.margin_height_mm) +
-                         (wall_mm + radius_mm / (square * std::cos(rule.half_angle_rad))) * out,
-                     shaft);
-  };
-  for (std::size_t n = 0; n <= kTurns * StumpWalls::kAround; ++n) {
-    const std::size_t at = n % StumpWalls::kAround;
-    if (std::isnan(walls.radius_mm(at, 1))) continue;
-    const auto [end_mm, shaft] = around(at);
-    if (n == 0) hand.go({end_mm.x, end_mm.y, clear_mm}, shaft, kAir_mm_per_s, false);
-    hand.go(end_mm, shaft, n == 0 ? kCut_mm_per_s : kWall_mm_per_s, true);
-  }
-  hand.go({hand.at_mm().x, hand.at_mm().y, clear_mm}, glm::dvec3(0.0, 0.0, 1.0), kAir_mm_per_s, false);
-}
-
 }  // namespace
 
 std::vector<haptics::TimedHandlePose> preparationScript(const PreparationMeasure& measure,
                                                         const haptics::BurShape& bur) {
+  if (measure.rule().kind != IdealKind::cavity)
+    throw UsageError(
+        "--device scripted: no hand knows how to prepare a tooth for a crown, give mouse or poses:FILE.csv");
   if (bur.kind != haptics::ShapeKind::cylinder)
     throw UsageError("--tool: a scripted hand prepares a tooth with a flat-ended cylinder, give cylinder:R,L first");
   ScriptedBur hand(measure.crown().frame, bur);
   hand.go({0.0, 0.0, measure.crown().top_mm + kClear_mm}, {0.0, 0.0, 1.0}, kAir_mm_per_s, false);
   cutLayers(hand, measure, bur.radius_mm);
-  if (measure.rule().kind == IdealKind::crown) smoothWalls(hand, measure, bur.radius_mm);
   return hand.take();
 }
 

@@ -1,7 +1,6 @@
-// What a scripted hand does to prepare a tooth to its ideal: layer by layer with an upright bur, nowhere deeper than
-// the ideal under the whole of the bur, then, for a crown, once around its walls with the bur leaning as they do. The
-// hand plans from the ideal and feels nothing: a demonstration and a test of the measures, no master. Frame P; mm, s.
-// Start-up only, some 0.3 s.
+// What a scripted hand does to cut a cavity to its ideal: layer by layer with an upright bur, nowhere deeper than the
+// ideal under the whole of the bur. The hand plans from the ideal and feels nothing: a demonstration and a test of the
+// measures, no master. Frame P; mm, s. Start-up only, some 0.3 s.
 #pragma once
 
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace app {
 
-/// Frame D is P, the handle is the tool. `bur`: a cylinder; throws UsageError, beginning with "--tool", for another.
+/// Frame D is P, the handle is the tool. Throws UsageError for a crown, and for a bur that is no cylinder.
 std::vector<haptics::TimedHandlePose> preparationScript(const PreparationMeasure& measure,
                                                         const haptics::BurShape& bur);
 

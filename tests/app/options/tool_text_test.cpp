@@ -33,7 +33,7 @@ TEST(ToolText, ReadsBursByTheirIsoNumber) {
   EXPECT_EQ(headFrom("iso:289/016"), (BurShape{ShapeKind::revolved, 0.8, 8.0, assets::BurProfile::torpedo}));
   EXPECT_EQ(headFrom("iso:289/016,6"), (BurShape{ShapeKind::revolved, 0.8, 6.0, assets::BurProfile::torpedo}));
   EXPECT_EQ(headFrom("iso:198/021").profile, assets::BurProfile::round_taper);
-  EXPECT_EQ(headFrom("iso:001/023"), (BurShape{ShapeKind::sphere, 1.15, 0.0}));
+  EXPECT_EQ(headFrom("iso:001/023"), (BurShape{ShapeKind::sphere, 0.05 * 23, 0.0}));
   for (const auto& [bad, why] : {std::pair{"iso:", "that is no ISO number"},
                                  {"iso", "that is no ISO number"},
                                  {"iso:289", "that is no ISO number"},

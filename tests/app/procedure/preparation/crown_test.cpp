@@ -33,7 +33,6 @@ class CrownMeasures : public testing::TestWithParam<bool> {
     return measureOf(scene()).outcomesOf(scene().made(depth));
   }
 };
-INSTANTIATE_TEST_SUITE_P(Upright, CrownMeasures, testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(Askew, CrownMeasures, testing::Values(true));
 
 TEST_P(CrownMeasures, OverAndUnderAreTheDifferenceOfFrustums) {
