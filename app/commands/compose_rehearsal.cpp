@@ -17,7 +17,7 @@
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/procedure/coach/coach_file.h"
-#include "app/procedure/preparation/preparation_script.h"
+#include "app/procedure/preparation/prepared_ideal.h"
 #include "app/procedure/root_canal/dense_tooth.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/procedure/third_molar/demonstration.h"
@@ -223,8 +223,6 @@ void chooseTools(RehearseOptions& options) {
     // round one for a cavity, a narrow cylinder for its grooves.
     options.tools = {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6",
                      "wheel:1.8,1.2",     "round:1.4",     "cylinder:0.4,4"};
-    // A scripted hand works with a flat end alone.
-    if (options.plan.device == "scripted") options.tools = {"cylinder:0.4,4"};
     return;
   }
   if (const auto task = practiceOf(options))
@@ -242,8 +240,8 @@ void chooseHighSpeed(RehearseOptions& options) {
   haptics::Command& command = options.plan.command;
   if (options.law == kAsked.law) {
     command.law.kind = haptics::LawKind::machining;
-    // As stiff as its burs may be at 1 kHz: those of a preparation are long.
-    command.law.machining.edge_radial_N_per_mm = isPreparation(options) ? 0.02 : 0.3;
+    // As stiff as a small bur may be at 1 kHz.
+    command.law.machining.edge_radial_N_per_mm = 0.3;
   }
   if (options.erosion == kAsked.erosion) command.erosion.kind = haptics::ErosionKind::machining;
   // 20 W at 200,000 rpm, stalls at 2 N mm: a high-speed handpiece (data sheets, unverified).
@@ -266,7 +264,7 @@ void chooseCommand(RehearseOptions& options) {
   }
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
-  if (isRootCanal(options) || isPreparation(options)) chooseHighSpeed(options);
+  if (isRootCanal(options)) chooseHighSpeed(options);
   plan.command.wear.law = options.wear == "counters"           ? haptics::WearLaw::counters
                           : options.wear == "counters-helical" ? haptics::WearLaw::counters_helical
                                                                : haptics::WearLaw::wear;
@@ -380,17 +378,11 @@ void completeTray(RehearsalPlan& plan) {
     plan.other_tools.push_back(haptics::handInstrumentTool(kind));
 }
 
-/// The tooth has room for its ideal, and a scripted hand knows its way.
-void planPreparation(RehearsalPlan& plan) {
-  const assets::PreparedTooth& tooth = *plan.patient.prepared;
-  const assets::CtVolume& ct = plan.patient.ct;
-  Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
-  const IdealRule& rule = idealRule(tooth.ideal, "--ideal");
-  if (plan.device != "scripted") {
-    PreparedIdeal(crown, rule, "--ideal");
-    return;
-  }
-  plan.scripted_path = preparationScript({std::move(crown), rule, "--ideal"}, plan.command.tool.head);
+/// Throws UsageError where the tooth has no room for its ideal.
+void refuseUnlessRoom(const assets::Patient& patient) {
+  const assets::PreparedTooth& tooth = *patient.prepared;
+  const Crown crown(ToothBlocks(DenseTooth(patient.ct.grid, patient.ct.solid, patient.ct.label)), tooth.frame);
+  PreparedIdeal(crown, idealRule(tooth.ideal, "--ideal"), "--ideal");
 }
 
 /// What a recording has to know to be gone on from.
@@ -464,7 +456,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2]};
-  if (plan.patient.prepared) planPreparation(plan);
+  if (plan.patient.prepared) refuseUnlessRoom(plan.patient);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);

@@ -77,7 +77,11 @@ void refuseTooWide(const RehearsalPlan& plan) {
                       tool.file.size, tool.file.length_mm, tooth.fdi, widest_mm));
 }
 
-void refuseUnlessForPreparation(const RehearseOptions& options) { refuseUnlessForOneTooth(options); }
+void refuseUnlessForPreparation(const RehearseOptions& options) {
+  refuseUnlessForOneTooth(options);
+  if (options.plan.device == "scripted")
+    throw UsageError("--device scripted: no hand knows how to prepare a tooth, give mouse or poses:FILE.csv");
+}
 
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {
   const StoredStart start = SessionReader(sessionNamed(options.drawn)).start();

@@ -60,7 +60,6 @@ struct RehearsalPlan {
   std::optional<render::Backend> backend;  ///< empty: automatic
   render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   std::string device = "mouse";            ///< its address
-  std::vector<haptics::TimedHandlePose> scripted_path;  ///< of a scripted hand, frame P; empty: its own
   DeviceOptions device_options;
   std::optional<OpenedDevice> opened;  ///< the real one of the address, where it is open already
   SessionCalibration calibration;      ///< of hand and eye, as stored in the session

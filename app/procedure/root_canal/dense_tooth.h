@@ -20,7 +20,8 @@ class DenseTooth final : public assets::ToothSampler {
     const std::size_t first = grid_.index(low);
     const Same one{solid_[first], label_[first]};
     bool is_same = true;
-    assets::forVoxels(low, low + edge, [&](glm::ivec3 ijk) {
+    // A cube of several blocks may reach beyond the grid.
+    assets::forVoxels(low, glm::min(low + edge, grid_.size), [&](glm::ivec3 ijk) {
       const std::size_t v = grid_.index(ijk);
       is_same = is_same && solid_[v] == one.solid && label_[v] == one.label;
     });
