@@ -234,18 +234,20 @@ void chooseTools(RehearseOptions& options) {
         options.tools.front(), "capsule:1.05,8", "elevator:301", "forceps", "suction", "curette", "bone-file"};
 }
 
-/// A turbine and the forces of machining, where nothing else was asked for by name.
+/// A turbine; for a root canal with the forces of machining, where nothing else was asked for by name: the long burs of
+/// a preparation are stiffer by it than a device holds at 1 kHz.
 void chooseHighSpeed(RehearseOptions& options) {
   static const RehearseOptions kAsked;
   haptics::Command& command = options.plan.command;
+  // 20 W at 200,000 rpm, stalls at 2 N mm: a high-speed handpiece (data sheets, unverified).
+  command.spindle = {200'000.0, 2.0, 300'000.0, 0.1, 0.02, 0.05};
+  if (!isRootCanal(options)) return;
   if (options.law == kAsked.law) {
     command.law.kind = haptics::LawKind::machining;
     // As stiff as a small bur may be at 1 kHz.
     command.law.machining.edge_radial_N_per_mm = 0.3;
   }
   if (options.erosion == kAsked.erosion) command.erosion.kind = haptics::ErosionKind::machining;
-  // 20 W at 200,000 rpm, stalls at 2 N mm: a high-speed handpiece (data sheets, unverified).
-  command.spindle = {200'000.0, 2.0, 300'000.0, 0.1, 0.02, 0.05};
 }
 
 /// Tools, law and erosion of the first command.
@@ -264,7 +266,7 @@ void chooseCommand(RehearseOptions& options) {
   }
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
-  if (isRootCanal(options)) chooseHighSpeed(options);
+  if (isRootCanal(options) || isPreparation(options)) chooseHighSpeed(options);
   plan.command.wear.law = options.wear == "counters"           ? haptics::WearLaw::counters
                           : options.wear == "counters-helical" ? haptics::WearLaw::counters_helical
                                                                : haptics::WearLaw::wear;
