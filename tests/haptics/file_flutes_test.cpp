@@ -195,7 +195,8 @@ TEST(CanalWear, TakesNothingWhereFlutesAreFull) {
   for (int n = 0; n < 100; ++n) move(n % 50 < 25 ? -0.03 : 0.03);
   flutes.rinse(kTick_s, false, false);
   EXPECT_GT(wear.due_mm3(), 1e-8);
-  EXPECT_NEAR(flutes.held_mm3() + flutes.loose_mm3(), wear.removed_mm3() + kTaken_mm3 * kLooseChips * kUsualLinks, 1e-9);
+  EXPECT_NEAR(flutes.held_mm3() + flutes.loose_mm3(), wear.removed_mm3() + kTaken_mm3 * kLooseChips * kUsualLinks,
+              1e-9);
   EXPECT_LT(flutes.sharpness(), sharpness);
 }
 
