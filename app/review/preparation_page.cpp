@@ -43,6 +43,7 @@ std::string gatesOf(const PreparationOutcomes& of) {
 std::string crownForm(const PreparationOfSession& of) {
   const WallForm& walls = *of.outcomes.walls;
   const MarginLine& margin = *of.outcomes.margin;
+  if (!std::isfinite(walls.convergence_rad)) return "<p>No wall is prepared.</p>\n";
   const bool is_molar = assets::positionOf(of.tooth.fdi) >= 6;
   TableRows rows{
       {"P3 convergence of the walls", degreesText(walls.convergence_rad),

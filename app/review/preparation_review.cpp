@@ -57,26 +57,17 @@ OrderedJson cavityJson(const CavityForm& form) {
           {"P9_unsupported_enamel_mm2", form.unsupported_mm2}};
 }
 
-std::string asked(double value, double from, double to, const char* unit) {
-  if (!std::isfinite(value)) return "none";
-  return fmt::format("{:.1f}{}{}", value, unit,
-                     value < from ? fmt::format(", below {:g}", from)
-                     : value > to ? fmt::format(", above {:g}", to)
-                                  : std::string());
-}
-
 std::string crownTable(const PreparationOfSession& of) {
   const WallForm& walls = *of.outcomes.walls;
   const MarginLine& margin = *of.outcomes.margin;
-  std::string text =
-      fmt::format("walls converge by {} (mesial to distal {}, cheek to tongue {})\n",
-                  asked(inDegrees(walls.convergence_rad), kLeastConvergence_deg, kMostConvergence_deg, "°"),
-                  asked(inDegrees(walls.mesiodistal_rad), 0.0, 90.0, "°"),
-                  asked(inDegrees(walls.buccolingual_rad), 0.0, 90.0, "°"));
-  text += fmt::format("walls are {} high, {} of the width\n",
-                      asked(walls.height_mm, leastHeight_mm(isMolar(of.tooth.fdi)), 1e9, " mm"),
-                      fmt::format("{:.2f}{}", walls.height_over_width,
-                                  walls.height_over_width < kLeastHeightOverWidth ? ", below 0.4" : ""));
+  if (!std::isfinite(walls.convergence_rad)) return "no wall is prepared\n";
+  std::string text = fmt::format(
+      "walls converge by {:.1f}° (wanted {:g} to {:g}; mesial to distal {:.1f}°, cheek to tongue {:.1f}°)\n",
+      inDegrees(walls.convergence_rad), kLeastConvergence_deg, kMostConvergence_deg, inDegrees(walls.mesiodistal_rad),
+      inDegrees(walls.buccolingual_rad));
+  text += fmt::format("height of the walls {:.1f} mm (at least {:g}), over their width {:.2f} (at least {:g})\n",
+                      walls.height_mm, leastHeight_mm(isMolar(of.tooth.fdi)), walls.height_over_width,
+                      kLeastHeightOverWidth);
   if (std::isfinite(margin.mean_mm))
     text += fmt::format(
         "margin {:.2f} mm wide (wanted {:g}; {:.2f} to {:.2f}, waves {:.2f} mm), {:+.2f} mm above the "

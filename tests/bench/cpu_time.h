@@ -3,6 +3,8 @@
 
 #include <sys/resource.h>
 
+#include <cstdio>
+
 namespace bench {
 
 inline double cpu_ms() {
@@ -12,6 +14,14 @@ inline double cpu_ms() {
     return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
   };
   return ms(used.ru_utime) + ms(used.ru_stime);
+}
+
+/// A line with what some work costs and answers.
+template <class Work>
+void told(const char* what, const Work& work) {
+  const double began_ms = cpu_ms();
+  const double answer = work();
+  std::printf("%-34s %8.1f ms   %.4g\n", what, cpu_ms() - began_ms, answer);
 }
 
 }  // namespace bench

@@ -8,17 +8,6 @@
 #include "assets/synthetic/jaw.h"
 #include "tests/bench/cpu_time.h"
 
-namespace {
-
-template <class Work>
-void told(const char* what, const Work& work) {
-  const double began_ms = bench::cpu_ms();
-  const double answer = work();
-  std::printf("%-34s %8.1f ms   %.4g\n", what, bench::cpu_ms() - began_ms, answer);
-}
-
-}  // namespace
-
 int main() {
   const assets::JawParameters jaw;
   const app::FineTooth tooth =
@@ -27,16 +16,16 @@ int main() {
   std::printf("crown: %.1f M voxels\n", 1e-6 * static_cast<double>(crown.solid.grid().voxelCount()));
   app::IdealRule rule = app::idealRule("crown:all-ceramic", "--ideal");
   std::optional<app::PreparationMeasure> measure;
-  told("the ideal, once", [&] {
+  bench::told("the ideal, once", [&] {
     measure.emplace(crown, rule, "--ideal");
     return 0.0;
   });
   rule.occlusal_mm -= 0.2;
   rule.margin_mm -= 0.2;
   const app::BoxBytes made = app::PreparedIdeal(crown, rule, "--ideal").left(crown);
-  told("P1 to P8, after a stroke", [&] { return measure->outcomesOf(made).deviation.rms_mm; });
+  bench::told("P1 to P8, after a stroke", [&] { return measure->outcomesOf(made).deviation.rms_mm; });
   const app::PreparedIdeal ideal(crown, measure->rule(), "--ideal");
-  told("  P1", [&] { return app::removedMaterial(crown, made, measure->ideal(), ideal).under_mm3(); });
-  told("  P3, P4, P6: walls", [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
-  told("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });
+  bench::told("  P1", [&] { return app::removedMaterial(crown, made, measure->ideal(), ideal).under_mm3(); });
+  bench::told("  P3, P4, P6: walls", [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
+  bench::told("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });
 }

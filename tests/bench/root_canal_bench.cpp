@@ -7,17 +7,6 @@
 #include "assets/synthetic/built_in_teeth.h"
 #include "tests/bench/cpu_time.h"
 
-namespace {
-
-template <class Work>
-void told(const char* what, const Work& work) {
-  const double began_ms = bench::cpu_ms();
-  const double answer = work();
-  std::printf("%-34s %8.1f ms   %.4g\n", what, bench::cpu_ms() - began_ms, answer);
-}
-
-}  // namespace
-
 int main() {
   const assets::JawParameters jaw;
   const assets::Patient patient = assets::syntheticJaw(jaw);
@@ -27,12 +16,12 @@ int main() {
   const app::ToothBlocks before(*assets::fineBuiltInTooth(built, patient.ct));
   std::printf("%-34s %8.1f ms   %.1f MB\n", "tooth as it was", bench::cpu_ms() - began_ms,
               1e-6 * double(before.bytes()));
-  told("a canal: E1 to E6, E9", [&] {
+  bench::told("a canal: E1 to E6, E9", [&] {
     return app::canalOutcomes(before, before, tooth.canals, 0, app::furcationSide_P(tooth, 0)).least_wall_mm;
   });
-  told("perforations", [&] { return double(app::perforations(before, before, tooth).size()); });
-  told("roof", [&] { return app::roofOutcome(before, tooth).removed; });
-  told("outline", [&] { return app::outlineOutcome(before, before, tooth).ideal_mm2; });
-  told("lost tissue", [&] { return app::lostTissue(before, before, tooth).dentine_mm3; });
-  told("straight line to a canal", [&] { return app::straightLine(before, tooth.canals[0]).blocked_mm3; });
+  bench::told("perforations", [&] { return double(app::perforations(before, before, tooth).size()); });
+  bench::told("roof", [&] { return app::roofOutcome(before, tooth).removed; });
+  bench::told("outline", [&] { return app::outlineOutcome(before, before, tooth).ideal_mm2; });
+  bench::told("lost tissue", [&] { return app::lostTissue(before, before, tooth).dentine_mm3; });
+  bench::told("straight line to a canal", [&] { return app::straightLine(before, tooth.canals[0]).blocked_mm3; });
 }

@@ -7,7 +7,7 @@ namespace app {
 namespace {
 
 constexpr int kEdge = FineSolid::kEdge;
-constexpr int kAround = 2;  ///< blocks
+constexpr int kAround = 6;  ///< blocks: as far as a bur beside the tooth cuts a neighbour
 
 /// Whole blocks around all of the tooth over a height, and how far it reaches.
 struct Extent {

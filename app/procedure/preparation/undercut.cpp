@@ -67,22 +67,6 @@ double CrownColumns::undercut_mm3(const glm::dvec2& lean) const {
   return lost / 255.0 * column_mm_ * column_mm_ * step_mm_;
 }
 
-std::vector<float> CrownColumns::undercutMap_mm() const {
-  std::vector<float> map(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0.0F);
-  std::vector<std::uint8_t> most(map.size(), 0);
-  for (int level = levels_ - 1; level >= 0; --level)
-    for (int y = 0; y < side_; ++y)
-      for (int x = 0; x < side_; ++x) {
-        const std::uint8_t w = at(x, y, level);
-        std::uint8_t& so_far = most[static_cast<std::size_t>(y * side_ + x)];
-        if (w > so_far)
-          so_far = w;
-        else
-          map[static_cast<std::size_t>(y * side_ + x)] += static_cast<float>((so_far - w) / 255.0 * step_mm_);
-      }
-  return map;
-}
-
 InsertionWay bestInsertion(const CrownColumns& columns) {
   const auto way_of = [&](const glm::dvec2& lean) {
     return InsertionWay{lean, std::atan(glm::length(lean)), columns.undercut_mm3(lean)};

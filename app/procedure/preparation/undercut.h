@@ -18,12 +18,6 @@ class CrownColumns {
 
   /// Of a way whose slopes are `lean` a mm towards the bite, to mesial and to the cheek.
   double undercut_mm3(const glm::dvec2& lean) const;
-  /// The same by place of a column, mm; row by row, rows() of them.
-  std::vector<float> undercutMap_mm() const;
-
-  int side() const { return side_; }
-  double column_mm() const { return column_mm_; }
-  double low_mm() const { return low_mm_; }
 
  private:
   std::uint8_t at(int x, int y, int level) const {

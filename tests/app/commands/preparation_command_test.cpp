@@ -61,6 +61,7 @@ TEST_F(PreparationCommand, TellsWhatACutHasComeTo) {
   const auto of = nlohmann::json::parse(measured.out).at("preparation");
   EXPECT_GT(of.at("enamel_mm3").get<double>(), 0.1);
   EXPECT_LT(of.at("P1_under_mm3").get<double>(), untouched.at("P1_under_mm3").get<double>() - 0.1);
+  EXPECT_EQ(of.at("P7_neighbour_mm3").get<double>(), 0.0);
   EXPECT_EQ(of.at("pulp_open_mm2").get<double>(), 0.0);
   EXPECT_EQ(read("s.png").substr(1, 3), "PNG");
   EXPECT_NE(molar("metrics " + at("s.molar")).out.find("Preparation of tooth 45"), std::string::npos);
@@ -68,9 +69,20 @@ TEST_F(PreparationCommand, TellsWhatACutHasComeTo) {
   const ProgramOutput reported = molar("report " + at("s.molar") + " --out " + at("s.html"));
   ASSERT_EQ(reported.status, 0) << reported.err;
   const std::string page = read("s.html");
-  for (const char* words : {"Neighbour cut", "P3 convergence of the walls", "Against the ideal"})
+  for (const char* words : {"<b>No</b>: Neighbour cut", "No wall is prepared", "Against the ideal"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find("lingual plate"), std::string::npos) << "of an extraction";
+}
+
+TEST_F(PreparationCommand, ANeighbourThatIsCutIsTold) {
+  ASSERT_EQ(prepare(farAway(), "--ideal class-1 --record " + at("far.molar")).status, 0);
+  const assets::PreparedTooth tooth = toothOf("far.molar");
+  EXPECT_EQ(tooth.ideal, "class-1");
+  // Down between it and the tooth behind.
+  const std::string hand = stroke(tooth.frame, {-3.9, 0.0, 12.0}, {-3.9, 0.0, 6.0}, 1.0);
+  ASSERT_EQ(prepare(hand, "--ideal class-1 --record " + at("s.molar")).status, 0);
+  const auto of = nlohmann::json::parse(molar("metrics " + at("s.molar") + " --json").out).at("preparation");
+  EXPECT_GT(of.at("P7_neighbour_mm3").get<double>(), 0.05);
 }
 
 TEST_F(PreparationCommand, RefusesInOneLine) {

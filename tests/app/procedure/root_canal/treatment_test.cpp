@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <vector>
 
 #include "app/procedure/root_canal/canal_tip.h"
+#include "app/procedure/root_canal/dense_tooth.h"
 
 namespace app {
 namespace {
@@ -20,6 +23,16 @@ assets::ToothCanals twoCanals() {
     tooth.canals.push_back(canal);
   }
   return tooth;
+}
+
+TEST(DenseTooth, ACubeAtTheGridsEndReadsNoFarther) {
+  const assets::VolumeGrid grid{{20, 20, 20}, 0.1, {}};
+  std::vector<std::uint8_t> solid(grid.voxelCount() + 40'000, 77);
+  std::fill_n(solid.begin(), grid.voxelCount(), std::uint8_t{255});
+  const std::span<const std::uint8_t> bytes(solid.data(), grid.voxelCount());
+  const auto same = DenseTooth(grid, bytes, bytes).same({16, 16, 16}, 16);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->solid, 255);
 }
 
 TEST(CanalTip, IsInTheNearestCanalAsFarAlongAsItIs) {
