@@ -16,9 +16,9 @@ inline double cpu_ms() {
   return ms(used.ru_utime) + ms(used.ru_stime);
 }
 
-/// A line with what some work costs and answers.
+/// Prints one line: what some work costs in CPU time and what it answers.
 template <class Work>
-void told(const char* what, const Work& work) {
+void printCost(const char* what, const Work& work) {
   const double began_ms = cpu_ms();
   const double answer = work();
   std::printf("%-34s %8.1f ms   %.4g\n", what, cpu_ms() - began_ms, answer);

@@ -16,16 +16,16 @@ int main() {
   std::printf("crown: %.1f M voxels\n", 1e-6 * static_cast<double>(crown.solid.grid().voxelCount()));
   app::IdealRule rule = app::idealRule("crown:all-ceramic", "--ideal");
   std::optional<app::PreparationMeasure> measure;
-  bench::told("the ideal, once", [&] {
+  bench::printCost("the ideal, once", [&] {
     measure.emplace(crown, rule, "--ideal");
     return 0.0;
   });
   rule.occlusal_mm -= 0.2;
   rule.margin_mm -= 0.2;
   const app::BoxBytes made = app::PreparedIdeal(crown, rule, "--ideal").left(crown);
-  bench::told("P1 to P8, after a stroke", [&] { return measure->outcomesOf(made).deviation.rms_mm; });
+  bench::printCost("P1 to P8, after a stroke", [&] { return measure->outcomesOf(made).deviation.rms_mm; });
   const app::PreparedIdeal ideal(crown, measure->rule(), "--ideal");
-  bench::told("  P1", [&] { return app::removedMaterial(crown, made, measure->ideal(), ideal).under_mm3(); });
-  bench::told("  P3, P4, P6: walls", [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
-  bench::told("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });
+  bench::printCost("  P1", [&] { return app::removedMaterial(crown, made, measure->ideal(), ideal).under_mm3(); });
+  bench::printCost("  P3, P4, P6: walls", [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
+  bench::printCost("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });
 }

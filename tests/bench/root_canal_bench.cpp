@@ -16,12 +16,12 @@ int main() {
   const app::ToothBlocks before(*assets::fineBuiltInTooth(built, patient.ct));
   std::printf("%-34s %8.1f ms   %.1f MB\n", "tooth as it was", bench::cpu_ms() - began_ms,
               1e-6 * double(before.bytes()));
-  bench::told("a canal: E1 to E6, E9", [&] {
+  bench::printCost("a canal: E1 to E6, E9", [&] {
     return app::canalOutcomes(before, before, tooth.canals, 0, app::furcationSide_P(tooth, 0)).least_wall_mm;
   });
-  bench::told("perforations", [&] { return double(app::perforations(before, before, tooth).size()); });
-  bench::told("roof", [&] { return app::roofOutcome(before, tooth).removed; });
-  bench::told("outline", [&] { return app::outlineOutcome(before, before, tooth).ideal_mm2; });
-  bench::told("lost tissue", [&] { return app::lostTissue(before, before, tooth).dentine_mm3; });
-  bench::told("straight line to a canal", [&] { return app::straightLine(before, tooth.canals[0]).blocked_mm3; });
+  bench::printCost("perforations", [&] { return double(app::perforations(before, before, tooth).size()); });
+  bench::printCost("roof", [&] { return app::roofOutcome(before, tooth).removed; });
+  bench::printCost("outline", [&] { return app::outlineOutcome(before, before, tooth).ideal_mm2; });
+  bench::printCost("lost tissue", [&] { return app::lostTissue(before, before, tooth).dentine_mm3; });
+  bench::printCost("straight line to a canal", [&] { return app::straightLine(before, tooth.canals[0]).blocked_mm3; });
 }
