@@ -1,9 +1,7 @@
 #include "app/rehearsal/rehearsal.h"
-#include "app/case/treated_tooth.h"
 
 #include <algorithm>
 #include <csignal>
-#include <random>
 #include <utility>
 
 #include <fmt/core.h>
@@ -13,23 +11,18 @@
 #include "app/device/emergency_exit.h"
 #include "app/device/pose_sources.h"
 #include "app/options/bur_name.h"
-#include "app/procedure/preparation/preparation_watch.h"
-#include "app/procedure/root_canal/access_watch.h"
-#include "app/procedure/root_canal/treatment_watch.h"
 #include "app/procedure/third_molar/demonstration.h"
-#include "app/rehearsal/canal_log.h"
 #include "app/rehearsal/clearance_watch.h"
 #include "app/rehearsal/coach_follower.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
-#include "app/rehearsal/file_sight.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/live_measures.h"
-#include "app/rehearsal/locator_watch.h"
 #include "app/rehearsal/operated_site.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/ruler.h"
 #include "app/rehearsal/sight_watch.h"
+#include "app/rehearsal/single_tooth_site.h"
 #include "app/rehearsal/soft_mark_trail.h"
 #include "app/rehearsal/start_pose.h"
 #include "app/rehearsal/status_reporter.h"
@@ -80,19 +73,7 @@ class Rehearsal {
     site_.emplace(OperatedSite::Links{plan_, station(), active_command_, head_up_, event_log_, !pace_.isRealTime()});
     if (plan_.procedure_steps) steps_.emplace(plan_, station().bodies(), event_log_);
     if (plan_.instructor_window) measures_.emplace(plan_.patient.ct, !pace_.isRealTime());
-    if (plan_.patient.canals) canal_log_.emplace(*plan_.patient.canals, plan_.command.wear.law);
-    if (plan_.patient.canals)
-      access_.emplace(*plan_.patient.canals, isRoofOpen(*plan_.patient.canals, plan_.patient.ct));
-    if (plan_.patient.canals && pace_.isRealTime() && !plan_.is_assessed)
-      treatment_.emplace(*plan_.patient.canals, plan_.patient.ct,
-                         plan_.scanned_solid.empty() ? plan_.patient.ct.solid : plan_.scanned_solid,
-                         station().bodies());
-    if (plan_.patient.prepared && pace_.isRealTime() && !plan_.is_assessed)
-      preparation_.emplace(*plan_.patient.prepared, plan_.patient.ct,
-                           plan_.scanned_solid.empty() ? plan_.patient.ct.solid : plan_.scanned_solid,
-                           station().bodies());
-    if (plan_.patient.canals && plan_.locator)
-      locator_.emplace(*plan_.patient.canals, plan_.patient.ct, *plan_.locator, locatorSeed());
+    tooth_.emplace(SingleToothSite::Links{plan_, station().bodies(), head_up_, event_log_, pace_.isRealTime()});
     if (plan_.coach) coach_.emplace(*plan_.coach, plan_.patient, event_log_, !pace_.isRealTime());
     if (plan_.evaluation) plan_.evaluation->open(plan_.risks, station().recordingFile().value_or(""));
     if (equipment_.led() != nullptr) beginOperation();
@@ -205,7 +186,7 @@ class Rehearsal {
       event_log_.note(kAssessmentEvent, std::string(kAssessmentRules));
       head_up_.say("assessment: nothing helps, everything is recorded");
     }
-    if (locator_) event_log_.note(kLocatorEvent, locator_->settings());
+    tooth_->start();
     if (steps_) steps_->start();
     if (pace_.isRealTime() && plan_.sound && !plan_.headless) sound_.emplace(plan_.played);
   }
@@ -260,13 +241,7 @@ class Rehearsal {
     stroke_times_.follow(ticks);
     soft_marks_.follow(ticks, command.tool.head);
     head_up_.follow(ticks, command.irrigating);
-    if (access_)
-      for (const haptics::Tick& tick : ticks)
-        if (const auto drop = access_->follow(tick, command.tool)) tellCanal(roofDropText(*drop), kAccessEvent);
-    if (canal_log_)
-      for (const std::string& told : canal_log_->follow(ticks, command.tool)) tellCanal(told);
-    if (station().bodies().jaw().cutsWholeBlocks() && !std::exchange(tells_blocks_, true))
-      tellCanal("the tooth's memory is full: where it is still whole it is now cut in steps of four voxels");
+    tooth_->follow(ticks, command.tool);
     clearance_.follow(ticks, command, station().commandSerial());
     if (steps_) steps_->follow(ticks, command, site_->bridge_mm(), site_->socket(), site_->flapFacts());
     if (coach_)
@@ -281,13 +256,8 @@ class Rehearsal {
 
   SoundWarning soundWarningNow() const {
     SoundWarning now = plan_.sounds_clearance ? soundWarning(clearance_.now()) : SoundWarning();
-    if (locator_ && locator_->told()) now.apex = apexTone(locator_->told()->left_mm, locator_->told()->is_apex);
+    if (const auto& told = tooth_->located()) now.apex = apexTone(told->left_mm, told->is_apex);
     return now;
-  }
-
-  /// Another locator, or another day, every time; a stepped rehearsal repeats itself.
-  std::uint64_t locatorSeed() const {
-    return pace_.isRealTime() ? std::random_device{}() : static_cast<std::uint64_t>(plan_.patient.canals->fdi);
   }
 
   /// Marks go into the recording, words do not.
@@ -340,10 +310,7 @@ class Rehearsal {
     frame_.marks = soft_marks_.marks();
     sight_.followHand(equipment_.secondHand(), newest_, active_command_.inForce().irrigating, frame_);
     frame_.pieces = movedPieces(newest_);
-    if (locator_ && locator_->follow(newest_, !active_command_.inForce().irrigating))
-      event_log_.note(kLocatorEvent, locatorText(locator_->told()));
-    if (plan_.patient.canals)
-      showFileSight(*plan_.patient.canals, newest_, active_command_.inForce().tool, plan_.first_frame.mode, frame_);
+    tooth_->followHand(newest_, active_command_.inForce(), frame_);
     view_.showFile(newest_, frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);
@@ -357,15 +324,8 @@ class Rehearsal {
     // tooth is out they are taken.
     const bool may_loosen = !demonstration_ || demonstration_->isToothOut();
     site_->follow({changed, newest_, drawn, router_.takeWay(), demonstration_.has_value(), may_loosen}, frame_);
-    if (treatment_) treatment_->follow(changed, newest_, canal_log_->use());
-    if (preparation_) preparation_->follow(changed, newest_);
+    tooth_->followBone(changed, newest_);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
-  }
-
-  void tellCanal(const std::string& line, const char* kind = kFileEvent) {
-    if (!plan_.is_assessed || kind == kFileEvent) head_up_.say(line);
-    event_log_.note(kind, line);
-    if (plan_.headless) printMessage(fmt::format("at {:.1f} s {}", newest_.t_s, line));
   }
 
   void tellStep(const std::string& line) {
@@ -407,7 +367,8 @@ class Rehearsal {
     situation.is_crown = site_->rootStress().isCrown();
     situation.canal_mm = clearance_.canal_mm();
     situation.is_blind = !plan_.shows_clearance;
-    if (access_ && hasDepthBands(plan_.patient.canals->fdi)) situation.below_cusp_mm = access_->belowCusp_mm();
+    situation.below_cusp_mm = tooth_->belowCusp_mm();
+    const std::optional<LocatorTold>& told = tooth_->located();
     return {situation,
             frame_.gap ? std::optional(frame_.gap->mm) : std::nullopt,
             task(),
@@ -418,16 +379,13 @@ class Rehearsal {
             ringShown(),
             plan_.shows_clearance ? clearance_.ruler(plan_.patient.proposed()) : std::vector<HeadUpClearance>(),
             true,
-            canal_log_ && newest_.file.stay != haptics::FileStay::none ? canal_log_->line(newest_) : std::string(),
-            locator_ && locator_->told()
-                ? std::optional(HeadUpLocator{locator_->told()->left_mm, locator_->told()->is_apex})
-                : std::nullopt};
+            tooth_->fileLine(newest_),
+            told ? std::optional(HeadUpLocator{told->left_mm, told->is_apex}) : std::nullopt};
   }
 
   /// What the work has come to so far.
   std::string outcomeLine() const {
-    if (treatment_ && treatment_->newest()) return treatmentLine(*treatment_->newest());
-    if (preparation_ && !preparation_->line().empty()) return preparation_->line();
+    if (std::string line = tooth_->outcomeLine(); !line.empty()) return line;
     return site_->socketLine();
   }
 
@@ -474,9 +432,7 @@ class Rehearsal {
       plan_.evaluation->finish();
       for (const std::string& mark : plan_.evaluation->takeMarks()) event_log_.note(kEvaluationEvent, mark);
     }
-    if (treatment_ && treatment_->times() > 0)
-      event_log_.note(kAccessEvent,
-                      fmt::format("measured {} times, {:.2f} s at most", treatment_->times(), treatment_->longest_s()));
+    tooth_->finish();
     if (steps_) steps_->finish();
     site_->finish(view_.takeChangedBricks(), station().newestTick());
     if (const std::string latency = sound_ ? sound_->latencyText() : ""; !latency.empty())
@@ -499,7 +455,7 @@ class Rehearsal {
     if (plan_.summary) figures.exposed_share = exposedShare();
     site_->describe(figures);
     if (steps_) figures.procedure = steps_->run(), figures.prediction = steps_->prediction();
-    if (canal_log_) figures.canals = canal_log_->summary();
+    figures.canals = tooth_->canals();
     figures.touched = touches_.counts();
     figures.clearance = clearancesInWords(clearance_.measures(), plan_.patient.proposed());
     figures.warnings = head_up_.warnings().counts();
@@ -528,15 +484,10 @@ class Rehearsal {
   std::optional<StatusReporter> status_reporter_;  // destroyed before view_
   render::Frame frame_;
   std::optional<OperatedSite> site_;
+  std::optional<SingleToothSite> tooth_;
   std::optional<StepFollower> steps_;
   std::optional<LiveSound> sound_;
   std::optional<CoachFollower> coach_;
-  std::optional<CanalLog> canal_log_;  ///< of a root-canal treatment
-  std::optional<LocatorWatch> locator_;
-  std::optional<AccessWatch> access_;
-  std::optional<TreatmentWatch> treatment_;      ///< told while it goes on
-  std::optional<PreparationWatch> preparation_;  ///< the same
-  bool tells_blocks_ = false;                    ///< that the live tooth is cut by whole blocks
   std::optional<LiveMeasures> measures_;
   std::vector<MeasureValue> measured_;  ///< by them, last
   Pace::Time measured_at_{};

@@ -1,0 +1,97 @@
+#include "app/rehearsal/single_tooth_site.h"
+
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "app/case/treated_tooth.h"
+#include "app/rehearsal/file_sight.h"
+
+namespace app {
+namespace {
+
+/// Another locator, or another day, every time; a stepped rehearsal repeats itself.
+std::uint64_t locatorSeed(const assets::ToothCanals& tooth, bool is_real_time) {
+  return is_real_time ? std::random_device{}() : static_cast<std::uint64_t>(tooth.fdi);
+}
+
+}  // namespace
+
+SingleToothSite::SingleToothSite(const Links& links) : links_(links) {
+  const RehearsalPlan& plan = links_.plan;
+  const assets::Patient& patient = plan.patient;
+  const std::span<const std::uint8_t> before = plan.scanned_solid.empty() ? patient.ct.solid : plan.scanned_solid;
+  // An assessment tells nothing on the way.
+  const bool measures = links_.is_real_time && !plan.is_assessed;
+  if (patient.prepared && measures) preparation_.emplace(*patient.prepared, patient.ct, before, links_.bodies);
+  if (!patient.canals) return;
+  const assets::ToothCanals& tooth = *patient.canals;
+  canal_log_.emplace(tooth, plan.command.wear.law);
+  access_.emplace(tooth, isRoofOpen(tooth, patient.ct));
+  if (measures) treatment_.emplace(tooth, patient.ct, before, links_.bodies);
+  if (plan.locator) locator_.emplace(tooth, patient.ct, *plan.locator, locatorSeed(tooth, links_.is_real_time));
+}
+
+void SingleToothSite::start() {
+  if (locator_) links_.event_log.note(kLocatorEvent, locator_->settings());
+}
+
+void SingleToothSite::tell(const std::string& line, double t_s, const char* kind) {
+  if (!links_.plan.is_assessed || kind == kFileEvent) links_.head_up.say(line);
+  links_.event_log.note(kind, line);
+  if (links_.plan.headless) printMessage(fmt::format("at {:.1f} s {}", t_s, line));
+}
+
+void SingleToothSite::follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool) {
+  if (ticks.empty()) return;
+  const double t_s = ticks.back().t_s;
+  if (access_)
+    for (const haptics::Tick& tick : ticks)
+      if (const auto drop = access_->follow(tick, tool)) tell(roofDropText(*drop), t_s, kAccessEvent);
+  if (canal_log_)
+    for (const std::string& told : canal_log_->follow(ticks, tool)) tell(told, t_s, kFileEvent);
+  if (links_.bodies.jaw().cutsWholeBlocks() && !std::exchange(tells_blocks_, true))
+    tell("the tooth's memory is full: where it is still whole it is now cut in steps of four voxels", t_s, kFileEvent);
+}
+
+void SingleToothSite::followHand(const haptics::Tick& newest, const haptics::Command& command, render::Frame& picture) {
+  if (locator_ && locator_->follow(newest, !command.irrigating))
+    links_.event_log.note(kLocatorEvent, locatorText(locator_->told()));
+  const RehearsalPlan& plan = links_.plan;
+  if (plan.patient.canals) showFileSight(*plan.patient.canals, newest, command.tool, plan.first_frame.mode, picture);
+}
+
+void SingleToothSite::followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
+  if (treatment_) treatment_->follow(bricks, newest, canal_log_->use());
+  if (preparation_) preparation_->follow(bricks, newest);
+}
+
+void SingleToothSite::finish() {
+  if (treatment_ && treatment_->times() > 0)
+    links_.event_log.note(
+        kAccessEvent, fmt::format("measured {} times, {:.2f} s at most", treatment_->times(), treatment_->longest_s()));
+}
+
+std::string SingleToothSite::outcomeLine() const {
+  if (treatment_ && treatment_->newest()) return treatmentLine(*treatment_->newest());
+  return preparation_ ? preparation_->line() : std::string();
+}
+
+std::string SingleToothSite::fileLine(const haptics::Tick& newest) const {
+  return canal_log_ && newest.file.stay != haptics::FileStay::none ? canal_log_->line(newest) : std::string();
+}
+
+std::optional<double> SingleToothSite::belowCusp_mm() const {
+  if (!access_ || !hasDepthBands(links_.plan.patient.canals->fdi)) return {};
+  return access_->belowCusp_mm();
+}
+
+const std::optional<LocatorTold>& SingleToothSite::located() const {
+  static const std::optional<LocatorTold> nothing;
+  return locator_ ? locator_->told() : nothing;
+}
+
+}  // namespace app

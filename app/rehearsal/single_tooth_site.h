@@ -1,0 +1,73 @@
+// The one tooth of a root-canal treatment or a preparation during a rehearsal, followed once a frame: files in its
+// canals, the way through its roof, the apex locator, and what the work has come to after each stroke. Gives the
+// surgeon lines, the recording events, the picture the inset at a file's tip. A rehearsal without such a tooth has one
+// too: it does nothing. Main thread; some µs a tick and a frame; measuring is done on threads of the watches.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "app/procedure/preparation/preparation_watch.h"
+#include "app/procedure/root_canal/access_watch.h"
+#include "app/procedure/root_canal/treatment_watch.h"
+#include "app/rehearsal/canal_log.h"
+#include "app/rehearsal/event_log.h"
+#include "app/rehearsal/head_up.h"
+#include "app/rehearsal/locator_watch.h"
+#include "app/rehearsal/rehearsal_plan.h"
+#include "haptics/body/bodies.h"
+#include "haptics/servo/tick.h"
+#include "render/frame.h"
+
+namespace app {
+
+class SingleToothSite {
+ public:
+  struct Links {
+    const RehearsalPlan& plan;
+    const haptics::Bodies& bodies;
+    HeadUp& head_up;
+    EventLog& event_log;
+    bool is_real_time = true;  ///< else nothing is measured on the way: a stepped rehearsal repeats itself
+  };
+  /// Before the first tick. Borrows all. Throws UsageError: the ideal does not fit the tooth.
+  explicit SingleToothSite(const Links& links);
+
+  /// The recording has begun.
+  void start();
+  /// All ticks, in order, made with the command in force.
+  void follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
+  /// Once a frame: what the newest tick is seen and heard by.
+  void followHand(const haptics::Tick& newest, const haptics::Command& command, render::Frame& picture);
+  /// Once a frame. `bricks`: of the jaw's grid, changed since the last call.
+  void followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
+  /// Before the recording is closed.
+  void finish();
+
+  /// What the work has come to so far; empty: nothing was measured.
+  std::string outcomeLine() const;
+  /// Of the file in a canal; empty: none is.
+  std::string fileLine(const haptics::Tick& newest) const;
+  /// Of a bur's end while it turns within a crown that has such bands.
+  std::optional<double> belowCusp_mm() const;
+  /// What the apex locator shows; none: it has none, or no file is in a canal.
+  const std::optional<LocatorTold>& located() const;
+  /// CanalLog::summary().
+  std::string canals() const { return canal_log_ ? canal_log_->summary() : std::string(); }
+
+ private:
+  void tell(const std::string& line, double t_s, const char* kind);
+
+  Links links_;
+  std::optional<CanalLog> canal_log_;
+  std::optional<AccessWatch> access_;
+  std::optional<LocatorWatch> locator_;
+  std::optional<TreatmentWatch> treatment_;
+  std::optional<PreparationWatch> preparation_;
+  bool tells_blocks_ = false;  ///< that the live tooth is cut by whole blocks
+};
+
+}  // namespace app
