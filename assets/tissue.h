@@ -1,9 +1,11 @@
 // The table of tissues: label values of every volume, names, grey values and factors. Help, panels, files and import
-// messages are made from it. Labels 1..9 are those of the segmentations that are imported; unknown values count as
-// `unlabelled`. Plain data; any thread. HU of adult CT: enamel 2071-2955, dentine 1323-1899 (Reshetnikov 2024),
-// cortical above 1250 (Misch D1). Removal from hardness (enamel:dentine:cortical:cancellous:pulp = 1:3:3:10:50,
-// reference/physics 6). Stiffness ordered as the moduli of reference/physics 4 (GPa: enamel 70-105, dentine 15-25,
-// cortical 10-20, cancellous 0.1-2), compressed to the range a device can render.
+// messages are made from it. Labels 1..9 are those of the segmentations that are imported, files keep the values of
+// all; unknown values count as `unlabelled`. Plain data; any thread. HU of adult CT: enamel 2071-2955, dentine
+// 1323-1899 (Reshetnikov 2024), cortical above 1250 (Misch D1). Removal from hardness
+// (enamel:dentine:cortical:cancellous:pulp = 1:3:3:10:50, reference/physics 6). Stiffness ordered as the moduli of
+// reference/physics 4 (GPa: enamel 70-105, dentine 15-25, cortical 10-20, cancellous 0.1-2), compressed to the range a
+// device can render. Carious dentine: zones of falling hardness (Pugach 2009), stiffness 0.25 and 0.6, removal 12 and 3
+// times dentine's (ratios of our own).
 #pragma once
 
 #include <array>
@@ -23,8 +25,10 @@ enum class Tissue : std::uint8_t {
   mandibular_canal = 7,  ///< with nerve and vessels
   ligament = 8,          ///< periodontal ligament or follicle
   gingiva = 9,
+  caries_soft = 10,  ///< infected: to be removed
+  caries_firm = 11,  ///< affected: may stay over the pulp
 };
-inline constexpr int kTissueCount = 10;
+inline constexpr int kTissueCount = 12;
 
 struct TissueProperties {
   std::string_view key;     ///< in files and on the command line
@@ -47,13 +51,18 @@ inline constexpr std::array<TissueProperties, kTissueCount> kTissues = {{
     {"mandibular_canal", "mandibular canal", 40.0, 50.0 / 3.0, 0.1, false, false},
     {"ligament", "ligament", 60.0, 50.0 / 3.0, 0.1, false, false},
     {"gingiva", "gingiva", 60.0, 50.0 / 3.0, 0.1, false, false},
+    {"caries_soft", "soft caries", 700.0, 12.0, 0.275, true, true},
+    {"caries_firm", "firm caries", 1250.0, 3.0, 0.66, true, true},
 }};
 
 constexpr const TissueProperties& properties(std::uint8_t label) { return kTissues[label < kTissueCount ? label : 0]; }
 
 constexpr bool isHard(std::uint8_t label) { return properties(label).hard; }
 constexpr bool isTooth(std::uint8_t label) { return properties(label).tooth; }
-/// Enamel, dentine or pulp.
+constexpr bool isCaries(std::uint8_t label) {
+  return Tissue{label} == Tissue::caries_soft || Tissue{label} == Tissue::caries_firm;
+}
+/// Enamel, dentine, pulp or caries.
 constexpr bool isToothPart(std::uint8_t label) { return isTooth(label) && Tissue{label} != Tissue::other_teeth; }
 
 }  // namespace assets

@@ -16,6 +16,8 @@ void useFeelPreset([[maybe_unused]] const std::string& name, haptics::LawSetting
   density(Tissue::enamel, 255.0);
   density(Tissue::dentine, 150.0);
   density(Tissue::pulp, 100.0);
+  density(Tissue::caries_soft, 0.25 * 150.0);
+  density(Tissue::caries_firm, 0.6 * 150.0);
 }
 
 }  // namespace app

@@ -22,6 +22,7 @@ double cutFrequency_Hz(std::uint8_t label) {
     case assets::Tissue::other_teeth:
       return 3000.0;
     case assets::Tissue::cortical:
+    case assets::Tissue::caries_firm:
       return 2200.0;
     case assets::Tissue::trabecular:
       return 1100.0;

@@ -30,6 +30,8 @@ inline constexpr std::array<TissueAppearance, assets::kTissueCount> kTissueAppea
     {{0.90f, 0.80f, 0.30f}, 0.65f, 0.5f},    // canal
     {{0.66f, 0.36f, 0.30f}, 0.6f, 0.05f},    // ligament
     {{0.60f, 0.22f, 0.22f}, 0.7f, 0.02f},    // gingiva
+    {{0.26f, 0.12f, 0.04f}, kDull, 1.0f},    // soft caries: dark brown
+    {{0.55f, 0.34f, 0.13f}, kDull, 1.0f},    // firm caries: amber
 }};
 
 }  // namespace render

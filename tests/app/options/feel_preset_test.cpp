@@ -34,5 +34,21 @@ TEST(FeelPreset, WeighsTheStiffnessByTheDensityOverTheLastHundredTicks) {
   EXPECT_NEAR(press(dentine) / in_enamel, 150.0 / 255.0, 1e-9);
 }
 
+TEST(FeelPreset, LeavesCariesAsMuchSofterThanDentineAsItIs) {
+  haptics::LawSettings law;
+  const auto shares = [&] {
+    const auto of = [&](assets::Tissue tissue) { return law.tissue.factor[static_cast<std::size_t>(tissue)]; };
+    const double dentine = of(assets::Tissue::dentine);
+    return std::array{of(assets::Tissue::caries_soft) / dentine, of(assets::Tissue::caries_firm) / dentine};
+  };
+  const auto is_as_published = [](const std::array<double, 2>& share) {
+    EXPECT_NEAR(share[0], 0.25, 1e-9);
+    EXPECT_NEAR(share[1], 0.6, 1e-9);
+  };
+  is_as_published(shares());
+  useFeelPreset(feelPresets().front(), law);
+  is_as_published(shares());
+}
+
 }  // namespace
 }  // namespace app
