@@ -17,7 +17,7 @@
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/procedure/coach/coach_file.h"
-#include "app/procedure/preparation/prepared_ideal.h"
+#include "app/procedure/preparation/preparation_script.h"
 #include "app/procedure/root_canal/dense_tooth.h"
 #include "app/procedure/steps/step_file.h"
 #include "app/procedure/third_molar/demonstration.h"
@@ -223,6 +223,7 @@ void chooseTools(RehearseOptions& options) {
     // round one for a cavity, a narrow cylinder for its grooves.
     options.tools = {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6",
                      "wheel:1.8,1.2",     "round:1.4",     "cylinder:0.4,4"};
+    if (options.plan.device == "scripted") options.tools = scriptedBurs(idealRule(options.ideal, "--ideal"));
     return;
   }
   if (const auto task = practiceOf(options))
@@ -380,11 +381,19 @@ void completeTray(RehearsalPlan& plan) {
     plan.other_tools.push_back(haptics::handInstrumentTool(kind));
 }
 
-/// Throws UsageError where the tooth has no room for its ideal.
-void refuseUnlessRoom(const assets::Patient& patient) {
-  const assets::PreparedTooth& tooth = *patient.prepared;
-  const Crown crown(ToothBlocks(DenseTooth(patient.ct.grid, patient.ct.solid, patient.ct.label)), tooth.frame);
-  PreparedIdeal(crown, idealRule(tooth.ideal, "--ideal"), "--ideal");
+/// The tooth has room for its ideal, and a scripted hand knows its way; throws UsageError where it has none.
+void planPreparation(RehearsalPlan& plan) {
+  const assets::PreparedTooth& tooth = *plan.patient.prepared;
+  const assets::CtVolume& ct = plan.patient.ct;
+  Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
+  const IdealRule& rule = idealRule(tooth.ideal, "--ideal");
+  if (plan.device != "scripted") {
+    PreparedIdeal(crown, rule, "--ideal");
+    return;
+  }
+  std::vector<haptics::Tool> tray = plan.other_tools;
+  tray.insert(tray.begin(), plan.command.tool);
+  plan.hand_script = preparationScript({std::move(crown), rule, "--ideal"}, tray);
 }
 
 /// What a recording has to know to be gone on from.
@@ -458,7 +467,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2]};
-  if (plan.patient.prepared) refuseUnlessRoom(plan.patient);
+  if (plan.patient.prepared) planPreparation(plan);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);

@@ -79,8 +79,9 @@ void refuseTooWide(const RehearsalPlan& plan) {
 
 void refuseUnlessForPreparation(const RehearseOptions& options) {
   refuseUnlessForOneTooth(options);
-  if (options.plan.device == "scripted")
-    throw UsageError("--device scripted: no hand knows how to prepare a tooth, give mouse or poses:FILE.csv");
+  static const RehearseOptions kAsked;
+  if (options.plan.device == "scripted" && options.tools != kAsked.tools)
+    throw UsageError("--tool: a scripted hand prepares a tooth with burs of its own, leave it out");
 }
 
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {

@@ -32,7 +32,7 @@ glm::dquat heldAlong(const glm::dvec3& in) {
 
 class Hand {
  public:
-  explicit Hand(FileScript& script) : script_(script) {}
+  explicit Hand(HandScript& script) : script_(script) {}
 
   /// Along the tooth: so the handle clears the crown, and the file bends into its canal.
   void take(const assets::ToothCanal& canal, const assets::ToothFrame& tooth, double length_mm) {
@@ -85,7 +85,7 @@ class Hand {
     script_.poses.push_back({t_s_, {glm::normalize(turned), handle_P}, false, 0u});
   }
 
-  FileScript& script_;
+  HandScript& script_;
   glm::dvec3 in_{0.0, 0.0, -1.0}, orifice_P_mm_{0.0};
   glm::dquat rotation_{1.0, 0.0, 0.0, 0.0};
   double length_mm_ = 25.0, deep_mm_ = 0.0, turned_rad_ = 0.0, t_s_ = 0.0;
@@ -93,9 +93,9 @@ class Hand {
 
 }  // namespace
 
-FileScript fileScript(const assets::ToothCanals& tooth, bool opens, double length_mm) {
+HandScript fileScript(const assets::ToothCanals& tooth, bool opens, double length_mm) {
   constexpr double kShortOfForamen_mm = 0.5;
-  FileScript script;
+  HandScript script;
   Hand hand(script);
   if (opens) hand.drill(accessWay_P(tooth), tooth.frame);
   for (const assets::ToothCanal& canal : tooth.canals) {

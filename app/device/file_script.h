@@ -4,20 +4,12 @@
 // and feels nothing: a demonstration and a test, no master.
 #pragma once
 
-#include <vector>
-
 #include "app/device/pose_source.h"
 #include "assets/tooth_canals.h"
-#include "haptics/device/simulated/pose_list_device.h"
 
 namespace app {
 
-struct FileScript {
-  std::vector<haptics::TimedHandlePose> poses;  ///< frame D is P, the handle is the tool
-  std::vector<TimedRequest> requests;           ///< of the tools
-};
-
 /// `opens`: the access too, else it is open. `length_mm`: of the files.
-FileScript fileScript(const assets::ToothCanals& tooth, bool opens = false, double length_mm = 25.0);
+HandScript fileScript(const assets::ToothCanals& tooth, bool opens = false, double length_mm = 25.0);
 
 }  // namespace app

@@ -75,13 +75,14 @@ PoseSource openPoseSource(const std::string& address, const DeviceOptions& optio
   return source;
 }
 
-PoseSource handAlong(std::vector<haptics::TimedHandlePose> path, const std::string& name) {
+PoseSource handAlong(HandScript script, const std::string& name) {
   // After the last pose's time, so that its tick happens too.
   constexpr double kLastTick_s = 1e-6;
   PoseSource hand;
-  auto posed = std::make_unique<haptics::PoseListDevice>(std::move(path));
+  auto posed = std::make_unique<haptics::PoseListDevice>(std::move(script.poses));
   hand.duration_s = posed->duration_s() + kLastTick_s;
   hand.device = std::move(posed);
+  hand.requests = std::move(script.requests);
   hand.name = name;
   return hand;
 }

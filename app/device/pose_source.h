@@ -61,8 +61,12 @@ PoseSource openPoseSource(const std::string& address, const DeviceOptions& optio
                           const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
                           std::optional<OpenedDevice> opened = std::nullopt);
 
-/// A hand that goes along poses, whatever it feels. Frame D is P, the handle is the tool.
-PoseSource handAlong(std::vector<haptics::TimedHandlePose> path, const std::string& name);
+/// What a scripted hand does that was planned beforehand and feels nothing.
+struct HandScript {
+  std::vector<haptics::TimedHandlePose> poses;  ///< frame D is P, the handle is the tool
+  std::vector<TimedRequest> requests;           ///< of the tools
+};
+PoseSource handAlong(HandScript script, const std::string& name);
 
 /// Whether a device ticks on its own thread, by the clock, or is stepped: its time is then the ticks it is made to
 /// make.

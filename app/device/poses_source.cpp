@@ -21,18 +21,15 @@ void refuseUnlessARehearsal(const std::vector<TimedPose>& poses, const std::stri
 PoseSource openPoses(const std::string& path, const PoseSourceContext&) {
   const std::vector<TimedPose> poses = readPoses(path);
   refuseUnlessARehearsal(poses, path);
-  std::vector<TimedRequest> requests;
-  std::vector<haptics::TimedHandlePose> handle_poses;
+  HandScript script;
   for (const TimedPose& pose : poses) {
     // The device's frame is the patient's, handle and tool coincide.
-    handle_poses.push_back(
+    script.poses.push_back(
         {pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill, pose.button ? kSecondButton : 0u});
     if (!pose.tool.empty() || !pose.action.empty())
-      requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
+      script.requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
   }
-  PoseSource source = handAlong(std::move(handle_poses), "");
-  source.requests = std::move(requests);
-  return source;
+  return handAlong(std::move(script), "");
 }
 
 }  // namespace app

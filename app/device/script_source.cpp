@@ -35,12 +35,9 @@ PoseSource openScript(const std::string& rest, const PoseSourceContext& at) {
     hand.name = rest == kFlapScript ? "scripted hand, flap" : "scripted hand, third molar";
     return hand;
   }
-  if (at.patient.canals) {
-    FileScript script = fileScript(*at.patient.canals, !isRoofOpen(*at.patient.canals, at.patient.ct));
-    hand = handAlong(std::move(script.poses), "scripted hand, root canals");
-    hand.requests = std::move(script.requests);
-    return hand;
-  }
+  if (at.patient.canals)
+    return handAlong(fileScript(*at.patient.canals, !isRoofOpen(*at.patient.canals, at.patient.ct)),
+                     "scripted hand, root canals");
   auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), cuttingMotion(cutFor(at), at.rig));
   hand.duration_s = scripted->duration_s();
   hand.device = std::move(scripted);

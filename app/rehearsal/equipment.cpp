@@ -5,8 +5,9 @@
 namespace app {
 
 Equipment::Equipment(RehearsalPlan& plan)
-    : source_(
-          openPoseSource(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
+    : source_(plan.hand_script ? handAlong(*std::move(plan.hand_script), "scripted hand, preparation")
+                               : openPoseSource(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut,
+                                                std::move(plan.opened))),
       rate_Hz_(plan.rate_Hz.value_or(source_.rate_Hz.value_or(1000.0))),
       damping_Ns_per_mm_(source_.device->capabilities().damping_Ns_per_mm),
       has_motors_(source_.device->capabilities().has_motors) {

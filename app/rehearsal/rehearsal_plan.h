@@ -60,6 +60,7 @@ struct RehearsalPlan {
   std::optional<render::Backend> backend;  ///< empty: automatic
   render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   std::string device = "mouse";            ///< its address
+  std::optional<HandScript> hand_script;   ///< what a scripted hand does; none: what it does on such a patient
   DeviceOptions device_options;
   std::optional<OpenedDevice> opened;  ///< the real one of the address, where it is open already
   SessionCalibration calibration;      ///< of hand and eye, as stored in the session

@@ -34,6 +34,14 @@ class PreparationCommand : public ProgramTest {
     }
     return write("stroke.csv", rows);
   }
+  /// What a scripted hand has made of the premolar.
+  nlohmann::json scripted(const std::string& ideal) const {
+    const ProgramOutput said =
+        molar("rehearse --task preparation --tooth 45 --headless --pace fast --device scripted --ideal " + ideal +
+              " --record " + at("s.molar"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    return nlohmann::json::parse(molar("metrics " + at("s.molar") + " --json").out).at("preparation");
+  }
   std::string farAway() const {
     return write("far.csv", "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n0,0,-300,0,1,0,0,0,0\n0.2,0,-300,0,1,0,0,0,0\n");
   }
@@ -74,6 +82,27 @@ TEST_F(PreparationCommand, TellsWhatACutHasComeTo) {
   EXPECT_EQ(page.find("lingual plate"), std::string::npos) << "of an extraction";
 }
 
+TEST_F(PreparationCommand, AScriptedHandCutsACavityToItsIdeal) {
+  const nlohmann::json of = scripted("class-1");
+  const double wanted_mm3 = of.at("P1_wanted_mm3").get<double>();
+  EXPECT_GT(wanted_mm3, 3.0);
+  EXPECT_LT(of.at("P1_under_mm3").get<double>(), 0.1 * wanted_mm3);
+  EXPECT_LT(of.at("P1_over_mm3").get<double>(), 0.05 * wanted_mm3);
+  EXPECT_NEAR(of.at("P9_isthmus_mm").get<double>(), 1.5, 0.1);
+  EXPECT_GT(of.at("P8_within_mm").at("0.2").get<double>(), 0.98);
+}
+
+TEST_F(PreparationCommand, AScriptedHandPreparesForACrownAndGrazesTheNeighboursAtMost) {
+  const nlohmann::json of = scripted("crown:all-ceramic");
+  const double wanted_mm3 = of.at("P1_wanted_mm3").get<double>();
+  EXPECT_GT(wanted_mm3, 50.0);
+  EXPECT_LT(of.at("P1_under_mm3").get<double>(), 0.05 * wanted_mm3);
+  EXPECT_LT(of.at("P1_over_mm3").get<double>(), 0.02 * wanted_mm3);
+  EXPECT_NEAR(of.at("P4_margin_mm").get<double>(), 1.0, 0.05);
+  EXPECT_GT(of.at("P8_within_mm").at("0.2").get<double>(), 0.95);
+  EXPECT_LT(of.at("P7_neighbour_mm3").get<double>(), 0.5);
+}
+
 TEST_F(PreparationCommand, ANeighbourThatIsCutIsTold) {
   ASSERT_EQ(prepare(farAway(), "--ideal class-1 --record " + at("far.molar")).status, 0);
   const assets::PreparedTooth tooth = toothOf("far.molar");
@@ -93,7 +122,7 @@ TEST_F(PreparationCommand, RefusesInOneLine) {
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   };
   refused("--task preparation --device poses:" + farAway(), "which tooth?");
-  refused("--task preparation --tooth 45 --device scripted", "no hand knows");
+  refused("--task preparation --tooth 45 --device scripted --tool round:1.2", "burs of its own");
   refused("--task preparation --tooth 45 --flap closed --device poses:" + farAway(), "is of an extraction");
   refused("--task preparation --tooth 11 --device poses:" + farAway(), "no such tooth");
   refused("--task preparation --tooth 45 --ideal crown:wood --device poses:" + farAway(), "crown:wood");

@@ -15,7 +15,7 @@ assets::ToothCanals firstMolar() { return assets::canalsOf(assets::builtInTooth(
 
 TEST(FileScript, TakesEverySizeIntoEveryForamen) {
   const assets::ToothCanals tooth = firstMolar();
-  const FileScript script = fileScript(tooth);
+  const HandScript script = fileScript(tooth);
   const auto foramina = static_cast<std::size_t>(
       std::ranges::count_if(tooth.canals, [](const assets::ToothCanal& canal) { return !canal.joins; }));
   ASSERT_GE(foramina, 2u);
@@ -28,7 +28,7 @@ TEST(FileScript, TakesEverySizeIntoEveryForamen) {
 
 TEST(FileScript, MovesNoFasterThanAHandAndToTheWorkingLength) {
   const assets::ToothCanals tooth = firstMolar();
-  const FileScript script = fileScript(tooth);
+  const HandScript script = fileScript(tooth);
   for (std::size_t n = 1; n < script.poses.size(); ++n) {
     const double s = script.poses[n].t_s - script.poses[n - 1].t_s;
     ASSERT_GT(s, 0.0) << n;
@@ -63,7 +63,7 @@ TEST(AccessScript, KeepsTheBurWithinTheChambersOutlineAndOffItsFloor) {
   EXPECT_LT(lowest_mm, tooth.chamber.roof_mm) << "through the roof";
   EXPECT_GT(lowest_mm, tooth.chamber.floor_mm + 0.2);
   EXPECT_LT(widest_mm, 0.5) << "a chamber narrower than the bur is no reason to stay out";
-  const FileScript script = fileScript(tooth, true);
+  const HandScript script = fileScript(tooth, true);
   EXPECT_EQ(script.requests[0].tool, kAccessBur);
   EXPECT_TRUE(script.poses[1].pedal);
   EXPECT_EQ(script.requests[1].tool, "k-file:10,25");
