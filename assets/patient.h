@@ -8,6 +8,7 @@
 
 #include "assets/ct_volume.h"
 #include "assets/mesh.h"
+#include "assets/metal_fragment.h"
 #include "assets/operative_site.h"
 #include "assets/prepared_tooth.h"
 #include "assets/proposed.h"
@@ -35,6 +36,7 @@ struct Patient {
   Classification classification;
   std::optional<OperativeSite> site;              ///< none: no suitable tooth is labelled
   std::optional<ToothCanals> canals;              ///< of the tooth that the volume holds, for root-canal treatment
+  std::vector<MetalFragment> fragments;           ///< of files that broke in it before
   std::optional<PreparedTooth> prepared;          ///< for a restoration; the volume holds it and its neighbours
   glm::dvec3 jaw_P_mm{0.0};                       ///< centre of the lower jaw, or of all solid
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, empty if unknown

@@ -53,6 +53,7 @@ FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std
 FrameRenderer::~FrameRenderer() = default;
 
 void FrameRenderer::setFace(const assets::MeshModel& face_P) { scene_->setModel(Model::face, face_P); }
+void FrameRenderer::setFragments(const assets::MeshModel& wires_P) { scene_->setModel(Model::fragments, wires_P); }
 void FrameRenderer::setGingiva(const assets::MeshModel& gum_P) { scene_->setModel(Model::gingiva, gum_P); }
 void FrameRenderer::setInstrument(const assets::MeshModel& instrument_T) {
   for (const Model model : {Model::instrument, Model::ghost}) scene_->setModel(model, instrument_T);

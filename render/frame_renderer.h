@@ -44,6 +44,8 @@ class FrameRenderer {
   void setGingiva(const assets::MeshModel& gum_P);
   void setInstrument(const assets::MeshModel& instrument_T);
   void setSecondInstrument(const assets::MeshModel& instrument_O);
+  /// Of broken files, in P: seen where the tooth is open or clear.
+  void setFragments(const assets::MeshModel& wires_P);
   /// Piece n of Frame::pieces in its frame Q; `solid` in the order of `grid_Q`. Drawn where a frame gives its pose,
   /// with the tissue that the volume has there in P; it shades the rest and itself. No values: removes it. Throws
   /// GpuError.

@@ -176,8 +176,8 @@ void GlSceneRenderer::drawView(const Frame& frame, const EyeBlock& block, bool m
       meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], mirrored);
   };
   constexpr std::array kOutside{Model::face, Model::instrument, Model::second_instrument};
-  constexpr std::array kInside{Model::gingiva, Model::flap,   Model::mandibular_canal, Model::ruler, Model::beads,
-                               pieceModel(0),  pieceModel(1), pieceModel(2),           pieceModel(3)};
+  constexpr std::array kInside{Model::gingiva,   Model::flap,   Model::mandibular_canal, Model::ruler,  Model::beads,
+                               Model::fragments, pieceModel(0), pieceModel(1),           pieceModel(2), pieceModel(3)};
   static_assert(kMostPieces == 4);
   constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::obstacles, Model::ghost};
   bool any_transparent = false;

@@ -16,6 +16,7 @@
 #include "app/text/usage_error.h"
 #include "app/view/radiograph_picture.h"
 #include "assets/scan/fine_radiograph.h"
+#include "assets/scan/metal_shadow.h"
 #include "assets/synthetic/built_in_teeth.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
@@ -37,19 +38,21 @@ struct RadiographOptions {
 struct Exposed {
   assets::CtVolume ct;
   std::string name;
-  std::optional<assets::JawParameters> jaw;  ///< of a built-in patient, as it was made
+  std::optional<assets::JawParameters> jaw;      ///< of a built-in patient, as it was made
+  std::vector<assets::MetalFragment> fragments;  ///< of files that broke
 };
 
 Exposed exposedOf(const RadiographOptions& options) {
   if (options.session.empty()) {
     options.patient.refuseUnlessOne("radiograph");
-    return {options.patient.load().ct, options.patient.name(), options.patient.builtInJaw()};
+    return {options.patient.load().ct, options.patient.name(), options.patient.builtInJaw(), {}};
   }
   BoneAtTime bone = boneAtTime(sessionNamed(options.session), options.to_s);
   for (const std::string& remark : bone.remarks) printMessage(remark);
   return {{bone.start.grid, {}, std::move(bone.start.label), std::move(bone.solid), std::move(bone.start.teeth)},
           options.session,
-          std::nullopt};
+          std::nullopt,
+          std::move(bone.fragments)};
 }
 
 /// The canals of a built-in tooth are in it: no voxel of a scan holds them.
@@ -73,7 +76,8 @@ int expose(const RadiographOptions& options) {
   const auto view = assets::periapicalViewOf(ct, options.fdi, options.shift_deg);
   if (!view)
     throw UsageError(fmt::format("{}: no voxel is labelled as tooth {}, see molar inspect", exposed.name, options.fdi));
-  const std::vector<float> bone_mm = weakening_mm(exposed, *view, options.fdi);
+  std::vector<float> bone_mm = weakening_mm(exposed, *view, options.fdi);
+  assets::addMetal(*view, exposed.fragments, bone_mm);
   const render::Image image = radiographPicture(*view, bone_mm, options.fdi, options.shift_deg);
   calibration::writePng(out.temporaryPath(), {image.w, image.h}, image.rgba);
   out.commit();

@@ -9,6 +9,7 @@
 #include "app/rehearsal/file_sight.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/loose_site.h"
+#include "app/session/fragments_event.h"
 #include "app/session/locator_event.h"
 #include "app/view/patient_renderer.h"
 
@@ -61,6 +62,7 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
     frame_.layers.ghost_tool = true;
     frame_.X_PT_at_hand = {other_tick->heldRotation(), other_tick->proxy_P.mm};
   }
+  showLeft(tick);
   showSecondHand(tick);
   frame_.field = surgicalField(moments.clarity());
   frame_.pieces = movedPieces(tick);
@@ -95,6 +97,14 @@ void DebriefPicture::update(const PictureChoice& choice, const calibration::Rig&
     panels = line_.panels();
   }
   renderer_->setOverlay(std::move(panels));
+}
+
+/// Of broken files, in the tooth at that moment.
+void DebriefPicture::showLeft(const haptics::Tick& tick) {
+  auto lying = fragmentsIn(run_.moments().start().setup, run_.moments().events(), tick.index);
+  if (lying == shown_fragments_) return;
+  shown_fragments_ = std::move(lying);
+  showFragments(*renderer_, shown_fragments_);
 }
 
 void DebriefPicture::showSecondHand(const haptics::Tick& tick) {

@@ -46,6 +46,7 @@ class DebriefPicture {
   static calibration::Rig firstRig(const DebriefRun& run, glm::ivec2 px, double loupes);
 
  private:
+  void showLeft(const haptics::Tick& tick);
   void showSecondHand(const haptics::Tick& tick);
   void showEdges(DebriefRun::Look look);
 
@@ -57,6 +58,7 @@ class DebriefPicture {
   std::optional<double> edges_mm_;
   render::Frame frame_;
   ClearanceWatch clearance_;
+  std::vector<assets::MetalFragment> shown_fragments_;
   HeadUp head_up_;
   HeadUpLine line_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -13,6 +14,17 @@ namespace {
 constexpr double kFilling = 0.5, kDull = 0.7;  ///< from here on told
 
 }  // namespace
+
+CanalLog::CanalLog(const assets::ToothCanals& tooth, haptics::WearLaw wear,
+                   const std::vector<assets::MetalFragment>& before)
+    : use_(tooth), wear_(wear), fragments_(before) {
+  use_.setFragments(before);
+}
+
+std::optional<std::span<const assets::MetalFragment>> CanalLog::takeFragments() {
+  if (!std::exchange(fragments_changed_, false)) return {};
+  return fragments_.lying();
+}
 
 double CanalLog::depth_mm(const haptics::Tick& tick, const assets::ToothCanal& canal) const {
   const glm::dvec3& up = use_.tooth().frame.axes_P[2];
@@ -29,9 +41,14 @@ std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, 
     const auto place = canalTip(use_.tooth(), tick.file.tip_P_mm);
     const bool was_beyond = place && beyond(place->canal);
     use_.add(tick, static_cast<int>(tool.file.size));
+    if (fragments_.follow(tick, tool.file)) {
+      use_.setFragments(fragments_.lying());
+      fragments_changed_ = true;
+    }
     if (use_.broken() > broken)
       told.push_back(fmt::format("the file has broken: {:.1f} mm of it stay in the canal, at {:.1f} N mm",
-                                 tick.file.broken_from_tip_mm, std::abs(tick.file.torque_Nmm)));
+                                 brokenOff(tick, tool.file).value_or(assets::MetalFragment{}).length_mm(),
+                                 std::abs(tick.file.torque_Nmm)));
     if (use_.isFull() && !was_full) told.push_back("the flutes of the file are full: it takes nothing there");
     if (use_.bent() > bent)
       told.push_back(
@@ -77,6 +94,7 @@ std::string CanalLog::summary() const {
   }
   if (use_.filed_mm3() > 0.0) text += fmt::format("{}{:.3f} mm³ filed", text.empty() ? "" : "; ", use_.filed_mm3());
   if (use_.debris_mm3() >= 0.001) text += fmt::format("; {:.3f} mm³ of chips left in", use_.debris_mm3());
+  for (const PlacedFragment& one : use_.lying()) text += (text.empty() ? "" : "; ") + inWords(one);
   if (use_.broken() > 0) text += fmt::format("; {} file{} broken", use_.broken(), use_.broken() == 1 ? "" : "s");
   if (!text.empty())
     text += fmt::format("; largest torque {:.0f} % of what breaks a file", 100.0 * use_.torque_share());

@@ -4,11 +4,13 @@
 // tick.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/procedure/root_canal/treatment.h"
+#include "app/session/fragment_trail.h"
 #include "assets/tooth_canals.h"
 #include "haptics/servo/tick.h"
 #include "haptics/tool/tool.h"
@@ -21,13 +23,16 @@ inline constexpr const char* kAccessEvent = "access cavity";
 
 class CanalLog {
  public:
-  explicit CanalLog(const assets::ToothCanals& tooth, haptics::WearLaw wear = haptics::WearLaw::wear)
-      : use_(tooth), wear_(wear) {}
+  /// `before`: what files had left in the tooth.
+  explicit CanalLog(const assets::ToothCanals& tooth, haptics::WearLaw wear = haptics::WearLaw::wear,
+                    const std::vector<assets::MetalFragment>& before = {});
 
   /// What happened, in order.
   std::vector<std::string> follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
 
   const FileUse& use() const { return use_; }
+  /// What broken files have left in the tooth, if that has changed since the last call.
+  std::optional<std::span<const assets::MetalFragment>> takeFragments();
 
   /// "17.2 of 20.4 mm in the distal canal, watch-winding, torque 34 %, 0.12 mm³"; "free" outside.
   std::string line(const haptics::Tick& tick) const;
@@ -39,6 +44,8 @@ class CanalLog {
 
   FileUse use_;
   haptics::WearLaw wear_;
+  FragmentTrail fragments_;
+  bool fragments_changed_ = false;
 };
 
 }  // namespace app

@@ -30,6 +30,7 @@ Continuation continuationOf(const std::string& path) {
   next.solid = std::move(bone.solid);
   next.label = std::move(bone.start.label);
   next.setup = std::move(bone.start.setup);
+  next.setup.fragments = std::move(bone.fragments);
   const double before_s = next.setup.former ? next.setup.former->duration_s : 0.0;
   next.setup.former = FormerSession{std::filesystem::path(path).filename().string(), before_s + bone.t_s,
                                     haptics::Bodies(next.grid, next.solid, next.label, bone.start.is_tooth).digest()};
@@ -52,6 +53,7 @@ std::vector<std::uint8_t> Continuation::applyTo(assets::Patient& patient) const 
     throw UsageError("--continue " + path + ": is of another patient or case, " +
                      (setup.built_in ? "or of another version of the built-in one"
                                      : "name its folder: molar rehearse PATIENT --continue " + path));
+  patient.fragments = setup.fragments;
   return std::exchange(patient.ct.solid, solid);
 }
 

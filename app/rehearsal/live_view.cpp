@@ -35,7 +35,8 @@ LiveView::LiveView(RehearsalPlan& plan, const haptics::Command& in_force, const 
       second_hand_(second_hand),
       servo_rate_Hz_(servo_rate_Hz),
       report_(std::move(report)),
-      latency_(kUsualRefresh_Hz, servo_rate_Hz) {
+      latency_(kUsualRefresh_Hz, servo_rate_Hz),
+      fragments_(plan.patient.fragments) {
   if (plan.ticking == Ticking::realtime) open();
 }
 
@@ -60,6 +61,7 @@ std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(const render::Rende
                                                              std::span<const std::uint8_t> solid) const {
   auto renderer = patientRenderer(plan_.patient, in_force_.tool, plan_.cut, solid, options);
   if (in_force_.tool.isFile()) app::showFile(*renderer, in_force_.tool.file, file_, file_X_PT_);
+  app::showFragments(*renderer, fragments_);
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
   return renderer;
 }
@@ -144,6 +146,12 @@ void LiveView::showFile(const haptics::Tick& tick, const render::Frame& frame) {
   file_ = tick.file;
   file_X_PT_ = frame.X_PT;
   if (display_) app::showFile(display_->renderer(), in_force_.tool.file, file_, file_X_PT_);
+}
+
+void LiveView::showFragments(std::span<const assets::MetalFragment> lying) {
+  fragments_.assign(lying.begin(), lying.end());
+  if (display_) app::showFragments(display_->renderer(), fragments_);
+  still_.forget();
 }
 
 void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {

@@ -58,6 +58,8 @@ class LiveView {
   void showInstrument();
   /// A root-canal file as it lies in a tick, for the frame to show next; nothing for another tool.
   void showFile(const haptics::Tick& tick, const render::Frame& frame);
+  /// What broken files have left in the tooth, from now on.
+  void showFragments(std::span<const assets::MetalFragment> lying);
   /// True if the quality changed. Never during a stroke.
   bool adaptQuality(bool in_stroke) {
     return quality_ && still_.newest() == FrameDrawing::live && quality_->update(in_stroke);
@@ -105,6 +107,7 @@ class LiveView {
   std::uint64_t frames_ = 0;
   StillPicture still_;
   haptics::FileWork file_;  ///< as drawn last
+  std::vector<assets::MetalFragment> fragments_;
   calibration::Pose<calibration::Patient, calibration::Tool> file_X_PT_;
   bool bone_changed_ = false;                    ///< since the newest frame
   std::vector<HeadUpWarning> shown_warnings_;    ///< in the newest frame

@@ -311,6 +311,7 @@ class Rehearsal {
     sight_.followHand(equipment_.secondHand(), newest_, active_command_.inForce().irrigating, frame_);
     frame_.pieces = movedPieces(newest_);
     tooth_->followHand(newest_, active_command_.inForce(), frame_);
+    if (const auto lying = tooth_->takeFragments()) view_.showFragments(*lying);
     view_.showFile(newest_, frame_);
     if (!pace_.isRealTime()) return;
     view_.uploadBone(frame_);

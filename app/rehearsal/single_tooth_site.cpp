@@ -29,7 +29,7 @@ SingleToothSite::SingleToothSite(const Links& links) : links_(links) {
   if (patient.prepared && measures) preparation_.emplace(*patient.prepared, patient.ct, before, links_.bodies);
   if (!patient.canals) return;
   const assets::ToothCanals& tooth = *patient.canals;
-  canal_log_.emplace(tooth, plan.command.wear.law);
+  canal_log_.emplace(tooth, plan.command.wear.law, patient.fragments);
   access_.emplace(tooth, isRoofOpen(tooth, patient.ct));
   if (measures) treatment_.emplace(tooth, patient.ct, before, links_.bodies);
   if (plan.locator) locator_.emplace(tooth, patient.ct, *plan.locator, locatorSeed(tooth, links_.is_real_time));
@@ -62,6 +62,10 @@ void SingleToothSite::followHand(const haptics::Tick& newest, const haptics::Com
     links_.event_log.note(kLocatorEvent, locatorText(locator_->told()));
   const RehearsalPlan& plan = links_.plan;
   if (plan.patient.canals) showFileSight(*plan.patient.canals, newest, command.tool, plan.first_frame.mode, picture);
+}
+
+std::optional<std::span<const assets::MetalFragment>> SingleToothSite::takeFragments() {
+  return canal_log_ ? canal_log_->takeFragments() : std::nullopt;
 }
 
 void SingleToothSite::followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {

@@ -42,6 +42,8 @@ class SingleToothSite {
   void follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool);
   /// Once a frame: what the newest tick is seen and heard by.
   void followHand(const haptics::Tick& newest, const haptics::Command& command, render::Frame& picture);
+  /// What broken files have left in the tooth, if that has changed since the last call.
+  std::optional<std::span<const assets::MetalFragment>> takeFragments();
   /// Once a frame. `bricks`: of the jaw's grid, changed since the last call.
   void followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
   /// Before the recording is closed.

@@ -3,6 +3,7 @@
 #include "app/case/patient_source.h"
 #include "app/options/law_text.h"
 #include "app/review/site_view.h"
+#include "app/session/fragments_event.h"
 #include "app/station/session_case.h"
 #include "assets/patient/patient_folder.h"
 
@@ -34,7 +35,9 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
   review.remarks = again.remarks;
   if (const auto treated = treatmentOfSession(session, start, again.left.solid)) {
     const std::optional<assets::CtVolume> jaw = jawOf(start, again.patient_folder);
-    review.treatment.emplace(TreatmentReview{*treated, treatmentFilms(start, again.left.solid, jaw ? &*jaw : nullptr)});
+    const auto metal = fragmentsIn(start.setup, session.events());
+    review.treatment.emplace(
+        TreatmentReview{*treated, treatmentFilms(start, again.left.solid, metal, jaw ? &*jaw : nullptr)});
   }
 
   review.preparation = preparationOfSession(start, again.left.solid);

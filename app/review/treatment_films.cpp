@@ -5,6 +5,7 @@
 #include "app/procedure/root_canal/dense_tooth.h"
 #include "app/view/radiograph_picture.h"
 #include "assets/scan/fine_radiograph.h"
+#include "assets/scan/metal_shadow.h"
 #include "assets/tissue.h"
 
 namespace app {
@@ -50,7 +51,7 @@ assets::CtVolume aloneIn(const Halved& half, int fdi) {
 }  // namespace
 
 TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
-                              const assets::CtVolume* jaw) {
+                              std::span<const assets::MetalFragment> fragments, const assets::CtVolume* jaw) {
   const int fdi = start.setup.canals->fdi;
   const Halved before = halved(start.grid, start.solid, start.label);
   const Halved after = halved(start.grid, solid_after, start.label);
@@ -60,13 +61,14 @@ TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uin
   for (const double shift_deg : kTubeShifts_deg) {
     const auto view = assets::periapicalViewOf(films.in_jaw ? *jaw : alone, fdi, shift_deg);
     if (!view) break;
-    const auto film = [&](const Halved& tooth) {
-      const std::vector<float> bone_mm =
+    const auto film = [&](const Halved& tooth, std::span<const assets::MetalFragment> metal) {
+      std::vector<float> bone_mm =
           films.in_jaw ? assets::fineRadiographOf(*jaw, fdi, DenseTooth(tooth.grid, tooth.solid, tooth.label), *view)
                        : assets::radiographOf(tooth.grid, tooth.solid, tooth.label, *view);
+      assets::addMetal(*view, metal, bone_mm);
       return radiographPicture(*view, bone_mm, fdi, shift_deg);
     };
-    films.pairs.push_back({shift_deg, film(before), film(after)});
+    films.pairs.push_back({shift_deg, film(before, start.setup.fragments), film(after, fragments)});
   }
   return films;
 }

@@ -26,8 +26,9 @@ struct TreatmentFilms {
   bool in_jaw = false;
 };
 
-/// `start`: of a session with canals; `jaw`: the scan that its tooth is of, null or without that tooth: not known.
+/// `start`: of a session with canals; `fragments`: of files, in it at the end; `jaw`: the scan that its tooth is of,
+/// null or without that tooth: not known.
 TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
-                              const assets::CtVolume* jaw);
+                              std::span<const assets::MetalFragment> fragments, const assets::CtVolume* jaw);
 
 }  // namespace app

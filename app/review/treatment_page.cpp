@@ -29,7 +29,10 @@ std::string verdict(bool is_error, const std::string& question, const std::strin
 }
 
 std::string gates(const Treatment& all) {
-  std::string holes, moved;
+  std::string holes, moved, separated;
+  if (all.broken_files > 0 || all.fragments_left > 0)
+    separated = fmt::format("{} in this session, {} in the tooth at the end", all.broken_files, all.fragments_left);
+  for (const PlacedFragment& one : all.fragments) separated += "; " + inWords(one);
   for (const Perforation& hole : all.perforations)
     holes += fmt::format("{}{}, {} mm²", holes.empty() ? "" : "; ", nameOf(hole.kind), fixedText(hole.area_mm2, 2));
   for (const TreatedCanal& canal : all.canals)
@@ -37,10 +40,7 @@ std::string gates(const Treatment& all) {
       moved += fmt::format("{}{} canal, {}", moved.empty() ? "" : "; ", canal.name,
                            lengthText(canal.outcomes.foramen_moved_mm));
   return "<div class=\"beside\">\n" + verdict(!holes.empty(), "Root or chamber perforated", holes) +
-         verdict(all.broken_files > 0, "File separated",
-                 all.broken_files > 0
-                     ? fmt::format("{} in all, {} in the tooth at the end", all.broken_files, all.fragments_left)
-                     : "") +
+         verdict(all.broken_files > 0, "File separated", separated) +
          verdict(all.isForamenMoved(), "Foramen transported", moved) + "</div>\n" +
          fmt::format("<p class=\"quiet\">A foramen counts as transported from {} on.</p>\n",
                      lengthText(kForamenMoved_mm, 1));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/procedure/root_canal/dense_tooth.h"
+#include "app/session/fragments_event.h"
 
 namespace app {
 namespace {
@@ -22,6 +23,7 @@ FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
       files.add(tick, size);
     }
   }
+  files.setFragments(fragmentsIn(session.about().setup, session.events()));
   return files;
 }
 

@@ -61,6 +61,14 @@ std::string treatmentJson(const TreatmentOfSession& of) {
   for (const TreatedCanal& canal : all.canals) canals.push_back(canalJson(canal));
   for (const Perforation& hole : all.perforations)
     holes.push_back({{"kind", nameOf(hole.kind)}, {"area_mm2", hole.area_mm2}});
+  nlohmann::ordered_json fragments = nlohmann::ordered_json::array();
+  for (const PlacedFragment& one : all.fragments)
+    fragments.push_back({{"size", one.size},
+                         {"metal", one.nickel_titanium ? "nickel-titanium" : "steel"},
+                         {"length_mm", one.length_mm},
+                         {"canal", one.canal.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(one.canal)},
+                         {"tip_from_foramen_mm",
+                          one.canal.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(one.from_foramen_mm)}});
   nlohmann::ordered_json motions = nlohmann::ordered_json::object();
   for (std::size_t n = 0; n < kFileMotions; ++n) motions[std::string(keyOf(FileMotion{n}))] = all.motion_s[n];
   const nlohmann::ordered_json json = {{"fdi", of.tooth.fdi},
@@ -90,6 +98,7 @@ std::string treatmentJson(const TreatmentOfSession& of) {
                                          {"debris_left_mm3", all.debris_left_mm3},
                                          {"broken", all.broken_files},
                                          {"fragments_left", all.fragments_left},
+                                         {"fragments", fragments},
                                          {"bent", all.bent_files}}},
                                        {"perforations", holes},
                                        {"canals", canals}};
@@ -124,6 +133,7 @@ std::string treatmentTable(const TreatmentOfSession& of) {
   text +=
       fmt::format("chips: {:.3f} mm3 left in the canals; flutes full for {:.0f} s\n", all.debris_left_mm3, all.full_s);
   if (const std::string motions = motionWords(all); !motions.empty()) text += "moved: " + motions + "\n";
+  for (const PlacedFragment& one : all.fragments) text += "fragment: " + inWords(one) + "\n";
   for (const Perforation& hole : all.perforations)
     text += fmt::format("perforation: {}, {:.2f} mm2\n", nameOf(hole.kind), hole.area_mm2);
   if (all.isForamenMoved()) text += "a foramen was moved by more than 0.1 mm\n";

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/session/fragments_event.h"
 #include "app/session/rerun.h"
 #include "app/session/session_error.h"
 #include "app/text/version.h"
@@ -30,7 +31,7 @@ std::optional<std::string> finalBoneDifference(SessionReader& session, const Sto
 
 void rerunAll(SessionReader& session, ReplayReport& report) {
   const StoredStart start = session.start();
-  haptics::Bodies bodies(start.grid, start.solid, start.label, start.is_tooth);
+  haptics::Bodies bodies = bodiesAtStart(start);
   Rerun rerun(bodies, start.soft_tissue, session.commands());
   haptics::Tick again;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
@@ -148,7 +149,7 @@ ReplayReport verify(const std::string& path) {
 ReplayedState replayTo(SessionReader& session, double t_s) {
   session.rewind();
   StoredStart start = session.start();
-  haptics::Bodies bodies(start.grid, start.solid, start.label, start.is_tooth);
+  haptics::Bodies bodies = bodiesAtStart(start);
   Rerun rerun(bodies, start.soft_tissue, session.commands());
   haptics::Tick last, last_recorded;
   std::optional<ReplayDifference> divergence;
@@ -199,6 +200,7 @@ BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
     bone.t_s = end_s;
     BoneLeft left = boneLeft(session, bone.start);
     bone.solid = std::move(left.solid);
+    bone.fragments = fragmentsIn(bone.start.setup, session.events());
     bone.remarks = std::move(left.remarks);
     return bone;
   }
@@ -206,6 +208,7 @@ BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   if (state.divergence) bone.remarks.push_back(divergenceText(state));
   bone.solid = state.bodies.solidInMouth();
   bone.t_s = state.tick.t_s + state.tick.dt_s;
+  bone.fragments = fragmentsIn(state.start.setup, session.events(), state.tick.index);
   bone.start = std::move(state.start);
   return bone;
 }

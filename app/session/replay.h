@@ -77,7 +77,8 @@ BoneLeft boneLeft(SessionReader& session, const StoredStart& start);
 /// The bone at a time.
 struct BoneAtTime {
   StoredStart start;
-  std::vector<std::uint8_t> solid;  ///< in the order of the grid
+  std::vector<std::uint8_t> solid;               ///< in the order of the grid
+  std::vector<assets::MetalFragment> fragments;  ///< of files that broke, in it
   double t_s = 0.0;
   std::vector<std::string> remarks;  ///< for people: that it was replayed, and how exact that is
 };

@@ -29,7 +29,7 @@ SessionMoments::SessionMoments(const std::string& path, const Options& options)
     : session_(path),
       start_(checkedStart(session_, path)),
       events_(session_.events()),
-      bodies_(start_.grid, start_.solid, start_.label, start_.is_tooth),
+      bodies_(bodiesAtStart(start_)),
       rerun_(bodies_, start_.soft_tissue, session_.commands(), Rerun::Keeping::all),
       between_s_(options.between_keyframes_s),
       length_s_(session_.length_s()),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/metal_fragment.h"
 #include "assets/operative_site.h"
 #include "assets/prepared_tooth.h"
 #include "assets/proposed.h"
@@ -35,6 +36,7 @@ struct SessionSetup {
   std::vector<glm::dvec3> canal_P_mm;             ///< centre line of the mandibular canal; empty: as `site`
   double canal_radius_mm = 0.0;
   std::optional<assets::ToothCanals> canals;      ///< of the tooth of a root-canal treatment; none: another operation
+  std::vector<assets::MetalFragment> fragments;   ///< of files that broke in it before
   std::optional<assets::PreparedTooth> prepared;  ///< for a restoration; none: another operation
   assets::Proposed proposed;                      ///< nobody had confirmed it when it was recorded
   std::optional<glm::dvec3> down_P;               ///< unit, along gravity as the patient lay; none: as `site`

@@ -13,6 +13,7 @@
 #include "app/session/session_setup.h"
 #include "assets/soft_tissue_field.h"
 #include "assets/volume_grid.h"
+#include "haptics/body/bodies.h"
 #include "haptics/servo/command.h"
 
 namespace app {
@@ -50,5 +51,12 @@ struct StoredStart {
   SessionSetup setup;
   std::string started_utc;  ///< empty: recorded before it was stored
 };
+
+/// The live volumes before the first tick.
+inline haptics::Bodies bodiesAtStart(const StoredStart& start) {
+  haptics::Bodies bodies(start.grid, start.solid, start.label, start.is_tooth);
+  bodies.leave(start.setup.fragments);
+  return bodies;
+}
 
 }  // namespace app

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/canals_text.h"
+#include "app/session/fragments_event.h"
 #include "app/session/session_error.h"
 #include "assets/json_depth.h"
 #include "assets/synthetic/practice_block.h"
@@ -131,6 +132,7 @@ json setupJson(const SessionSetup& setup) {
   for (const glm::dvec3& p : setup.canal_P_mm) object["canal"]["line_P_mm"].push_back(three(p));
   if (!setup.canal_P_mm.empty()) object["canal"]["radius_mm"] = setup.canal_radius_mm;
   if (setup.canals) object["root_canals"] = json::parse(canalsText(*setup.canals));
+  if (!setup.fragments.empty()) object["file_fragments"] = json::parse(fragmentsText(setup.fragments));
   if (const auto& prepared = setup.prepared) {
     json axes = json::array();
     for (int axis = 0; axis < 3; ++axis) axes.push_back(three(prepared->frame.axes_P[axis]));
@@ -190,6 +192,8 @@ void readSite(const json& object, SessionSetup& setup) {
     if (!(std::abs(glm::length(*setup.down_P) - 1.0) < 1e-3)) throw damagedSession("it has no valid site");
   }
   if (const auto canals = object.find("root_canals"); canals != object.end()) setup.canals = canalsFrom(canals->dump());
+  if (const auto metal = object.find("file_fragments"); metal != object.end())
+    setup.fragments = fragmentsFrom(metal->dump());
   if (const auto prepared = object.find("prepared"); prepared != object.end()) setup.prepared = preparedFrom(*prepared);
   const auto canal = object.find("canal");
   if (canal == object.end() || !canal->is_object()) return;

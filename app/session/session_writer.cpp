@@ -12,6 +12,8 @@
 #include "app/session/chain.h"
 #include "app/session/command_keys.h"
 #include "app/session/compressed.h"
+#include "app/session/fragment_trail.h"
+#include "app/session/fragments_event.h"
 #include "app/session/recording_file.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
@@ -54,9 +56,11 @@ struct SessionWriter::Impl {
   std::int64_t next_row = 0;
   Digest last_digest{};
   std::uint64_t ticks = 0;
+  FragmentTrail fragments;
+  std::vector<SessionCommand> in_force;  // the last one of the ticks written, and those that came after it
 
-  Impl(const std::string& name, bool overwrite, const assets::VolumeGrid& bone_grid)
-      : recording(name, overwrite), grid(bone_grid) {}
+  Impl(const std::string& name, bool overwrite, const SessionStart& start)
+      : recording(name, overwrite), grid(start.grid), fragments(start.setup.fragments), in_force{{start.command, 0}} {}
 
   void open() { database.emplace(recording.file(), SQLite::OPEN_READWRITE); }
   void close() {
@@ -93,6 +97,18 @@ struct SessionWriter::Impl {
                             compressor.compress(packTicks(block))});
     }
     ticks += ticks_now.size();
+  }
+
+  /// What broken files leave in the tooth, whenever it changes.
+  void appendFragments(const SessionBatch& batch) {
+    in_force.insert(in_force.end(), batch.commands.begin(), batch.commands.end());
+    for (const haptics::Tick& tick : batch.ticks) {
+      while (in_force.size() > 1 && in_force[1].first_tick <= tick.index) in_force.erase(in_force.begin());
+      if (!fragments.follow(tick, in_force.front().command.tool.file)) continue;
+      const auto lying = fragments.lying();
+      append("event",
+             {sqlInteger(tick.index), std::string_view(kFragmentsEvent), fragmentsText({lying.begin(), lying.end()})});
+    }
   }
 
   /// `fill(first, part)` writes the voxels of a part.
@@ -217,7 +233,7 @@ struct SessionWriter::Impl {
 };
 
 SessionWriter::SessionWriter(const std::string& path, bool overwrite, const SessionStart& start)
-    : impl_(std::make_unique<Impl>(path, overwrite, start.grid)) {
+    : impl_(std::make_unique<Impl>(path, overwrite, start)) {
   assert(start.solid.size() == start.grid.voxelCount());
   assert(start.label.empty() || start.label.size() == start.grid.voxelCount());
   assert(start.is_tooth.empty() || start.is_tooth.size() == start.grid.voxelCount());
@@ -248,6 +264,7 @@ void SessionWriter::write(const SessionBatch& batch) {
       impl_->append("command",
                     {sqlInteger(change.command.serial), sqlInteger(change.first_tick), commandText(change.command)});
     impl_->appendTicks(batch.ticks);
+    impl_->appendFragments(batch);
     for (const SessionEvent& event : batch.events)
       impl_->append("event", {sqlInteger(event.tick), event.kind, event.text});
   });

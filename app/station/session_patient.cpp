@@ -19,6 +19,7 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
     const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
     patient = treatedTooth(patient, built_in, start.setup.canals->fdi, false, "--tooth", start.grid.spacing_mm);
     patient.ct.solid = start.solid;
+    patient.fragments = start.setup.fragments;
   }
   if (const auto& prepared = start.setup.prepared) {
     const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
@@ -39,6 +40,7 @@ assets::Patient patientWithinSession(const StoredStart& start) {
   patient.ct.tooth = start.teeth;
   patient.site = start.setup.site;
   patient.canals = start.setup.canals;
+  patient.fragments = start.setup.fragments;
   patient.prepared = start.setup.prepared;
   if (const assets::Proposed& proposed = start.setup.proposed; proposed.any()) {
     patient.found = assets::Confirmation{!proposed.tooth, !proposed.canal};

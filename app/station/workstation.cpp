@@ -19,6 +19,12 @@ std::vector<std::uint8_t> voxelsOfTooth(const assets::Patient& patient) {
   return assets::voxelsOfTooth(patient.ct, patient.operatedTooth());
 }
 
+haptics::Bodies bodiesOf(const assets::Patient& patient) {
+  haptics::Bodies bodies(patient.ct.grid, patient.ct.solid, patient.ct.label, voxelsOfTooth(patient));
+  bodies.leave(patient.fragments);
+  return bodies;
+}
+
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
                                      double rate_Hz, const haptics::Command& command, haptics::TickLog& log,
                                      Ticking ticking, const assets::SoftTissueField& soft_tissue,
@@ -40,6 +46,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.setup = recording->setup;
   start.setup.site = patient.site;
   start.setup.canals = patient.canals;
+  start.setup.fragments = patient.fragments;
   start.setup.proposed = patient.proposed();
   start.setup.prepared = patient.prepared;
   start.setup.canal_P_mm = patient.mandibular_canal_P_mm;
@@ -70,7 +77,7 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
                          const std::optional<Recording>& recording, Ticking ticking, bool keeps_ticks,
                          assets::SoftTissueField soft_tissue)
     : device_(std::move(device)),
-      bodies_(patient.ct.grid, patient.ct.solid, patient.ct.label, voxelsOfTooth(patient)),
+      bodies_(bodiesOf(patient)),
       soft_tissue_(std::move(soft_tissue)),
       servo_(bodies_, &soft_tissue_),
       rate_Hz_(settings.rate_Hz),

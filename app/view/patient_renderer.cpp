@@ -56,6 +56,7 @@ std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& pa
   renderer->setScan(
       {patient.ct.hounsfield, patient.ct.solid, patient.mandibular_canal_P_mm, patient.mandibular_canal_radius_mm});
   showInstrument(*renderer, tool);
+  if (!patient.fragments.empty()) showFragments(*renderer, patient.fragments);
   return renderer;
 }
 
@@ -88,6 +89,10 @@ void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, c
                                             .torque_share = work.link_share,
                                             .stop_mm = file.stop_mm,
                                             .roll_rad = work.windup_rad}));
+}
+
+void showFragments(render::FrameRenderer& renderer, std::span<const assets::MetalFragment> fragments) {
+  renderer.setFragments(assets::fragmentWires(fragments));
 }
 
 void showForceps(render::FrameRenderer& renderer, double opening_mm) {

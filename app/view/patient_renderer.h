@@ -32,6 +32,9 @@ void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool);
 void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, const haptics::FileWork& work,
               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT);
 
+/// What broken files have left in the tooth.
+void showFragments(render::FrameRenderer& renderer, std::span<const assets::MetalFragment> fragments);
+
 /// Instead of a bur: forceps, open by `opening_mm` between the tips; for a tool whose beaks grip.
 void showForceps(render::FrameRenderer& renderer, double opening_mm);
 

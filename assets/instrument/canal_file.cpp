@@ -104,6 +104,19 @@ void colourWire(const DrawnFile& drawn, MeshPart& wire) {
   wire.colour.insert(wire.colour.end(), {colour(0), colour(kRings)});
 }
 
+MeshPart wireOf(const DrawnFile& drawn) {
+  const Way way = wayOf(drawn);
+  std::vector<Ring> rings;
+  dvec3 side(1.0, 0.0, 0.0);
+  // Not along it.
+  if (std::fabs(way.along(0.0).x) > 0.9) side = {0.0, 1.0, 0.0};
+  for (std::size_t n = 0; n <= kRings; ++n) rings.push_back(section(drawn, way, static_cast<double>(n) / kRings, side));
+  MeshPart wire = closedSweep(rings);
+  wire.name = "Wire";
+  colourWire(drawn, wire);
+  return wire;
+}
+
 MeshPart rod(double from_z_mm, double to_z_mm, std::span<const std::pair<double, double>> profile, const char* name) {
   std::vector<Ring> rings;
   for (const auto& [share, radius_mm] : profile)
@@ -115,14 +128,19 @@ MeshPart rod(double from_z_mm, double to_z_mm, std::span<const std::pair<double,
 
 }  // namespace
 
+MeshModel fragmentWires(std::span<const MetalFragment> fragments) {
+  MeshModel model;
+  for (const MetalFragment& one : fragments) {
+    const std::vector<glm::vec3> node_mm(one.node_P_mm.begin(), one.node_P_mm.end());
+    const KFile file{one.size, one.length_mm(), one.nickel_titanium ? KFileMetal::nickel_titanium : KFileMetal::steel};
+    model.parts.push_back(wireOf({.file = file, .node_T_mm = node_mm, .torque_share = {}}));
+  }
+  return model;
+}
+
 MeshModel canalFile(const DrawnFile& drawn) {
   const Way way = wayOf(drawn);
-  std::vector<Ring> rings;
-  dvec3 side(1.0, 0.0, 0.0);
-  for (std::size_t n = 0; n <= kRings; ++n) rings.push_back(section(drawn, way, static_cast<double>(n) / kRings, side));
-  MeshPart wire = closedSweep(rings);
-  wire.name = "Wire";
-  colourWire(drawn, wire);
+  MeshPart wire = wireOf(drawn);
 
   constexpr std::pair<double, double> kGrip[] = {
       {0.0, 0.9}, {0.0, 1.5}, {0.1, kHandleRadius_mm}, {0.3, 1.55}, {0.5, 1.75}, {0.8, 1.6}, {0.95, 1.8}, {1.0, 1.2}};

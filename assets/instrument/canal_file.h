@@ -9,6 +9,7 @@
 
 #include "assets/instrument/k_file.h"
 #include "assets/mesh.h"
+#include "assets/metal_fragment.h"
 
 namespace assets {
 
@@ -22,5 +23,8 @@ struct DrawnFile {
 };
 
 MeshModel canalFile(const DrawnFile& drawn);
+
+/// What broken files have left, in frame P: parts "Wire", twisted and grey as the files were.
+MeshModel fragmentWires(std::span<const MetalFragment> fragments);
 
 }  // namespace assets

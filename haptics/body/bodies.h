@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "assets/metal_fragment.h"
 #include "haptics/body/solid_bodies.h"
 #include "haptics/bone/carve.h"
 #include "haptics/bone/carved_bone.h"
@@ -29,6 +31,11 @@ class Bodies {
          std::span<const std::uint8_t> is_tooth = {});
   /// The jaw alone.
   explicit Bodies(CarvedBone jaw);
+
+  /// Steel in the jaw from the beginning, which no tool cuts and root-canal files meet (file/file_fragments). Before a
+  /// servo takes the bodies over; allocates.
+  void leave(std::vector<assets::MetalFragment> fragments) { fragments_ = std::move(fragments); }
+  std::span<const assets::MetalFragment> fragments() const { return fragments_; }
 
   /// The jaw first, then the pieces, also those that hold nothing yet.
   std::span<CarvedBone> bones() { return bones_; }
@@ -96,6 +103,7 @@ class Bodies {
   static constexpr double kAside_mm = 10'000.0;
 
   std::vector<CarvedBone> bones_;
+  std::vector<assets::MetalFragment> fragments_;
   std::array<PiecePose, kMaxPieces> X_PQ_{};
   std::array<bool, kMaxPieces> at_rest_{};
   glm::ivec3 first_brick_{0};

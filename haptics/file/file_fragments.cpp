@@ -7,12 +7,25 @@ namespace haptics {
 
 using glm::dvec3;
 
+FileFragments::FileFragments(std::span<const assets::MetalFragment> before) noexcept {
+  for (const assets::MetalFragment& one : before.first(std::min(before.size(), kMost))) {
+    Lying& lying = of_[count_++];
+    const std::size_t nodes = std::min({one.node_P_mm.size(), one.radius_mm.size(), lying.node_P_mm.size()});
+    lying.links = nodes > 0 ? nodes - 1 : 0;
+    for (std::size_t n = 0; n < nodes; ++n) {
+      lying.node_P_mm[n] = one.node_P_mm[n];
+      lying.radius_mm[n] = one.radius_mm[n];
+    }
+    lying.was_before = lying.is_met = true;
+  }
+  count();
+}
+
 void FileFragments::leave(const FileFragment& fragment, const FileChain& broken,
                           const StrokeHistory& strokes) noexcept {
-  if (count_ == kMost) {
-    ++untold_;
-    return;
-  }
+  // What was undone cannot be redone after another one.
+  forgetUndone();
+  if (count_ == kMost) return;
   Lying& lying = of_[count_++];
   lying = {};
   lying.links = fragment.links;
@@ -22,13 +35,20 @@ void FileFragments::leave(const FileFragment& fragment, const FileChain& broken,
   lying.strokes_since = strokes.strokes() > 0 ? 1 : 0;
 }
 
+void FileFragments::forgetUndone() noexcept {
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < count_; ++n)
+    if (!of_[n].is_undone) of_[kept++] = of_[n];
+  count_ = kept;
+}
+
 void FileFragments::count() noexcept {
   met_ = 0;
   for (std::size_t n = 0; n < count_; ++n) met_ += of_[n].is_met && !of_[n].is_undone;
 }
 
 std::size_t FileFragments::lying() const noexcept {
-  std::size_t lying = untold_;
+  std::size_t lying = 0;
   for (std::size_t n = 0; n < count_; ++n) lying += !of_[n].is_undone;
   return lying;
 }
@@ -42,14 +62,10 @@ void FileFragments::follow(const StrokeHistory& strokes, bool restored) noexcept
   last_place_ = place;
   has_place_ = true;
   if (strokes_more == 0 || count_ == 0) return;
-  if (!restored && strokes_more > 0) {
-    // A new stroke: what was undone cannot be redone.
-    std::size_t kept = 0;
-    for (std::size_t n = 0; n < count_; ++n)
-      if (!of_[n].is_undone) of_[kept++] = of_[n];
-    count_ = kept;
-  }
+  // A new stroke: what was undone cannot be redone.
+  if (!restored && strokes_more > 0) forgetUndone();
   for (std::size_t n = 0; n < count_; ++n) {
+    if (of_[n].was_before) continue;
     of_[n].strokes_since += strokes_more;
     if (restored) of_[n].is_undone = of_[n].strokes_since < 1;
   }

@@ -39,7 +39,8 @@ struct FileWork {
   std::uint8_t fragments = 0;       ///< of separated files in the tooth; also told while no file is held
   bool keeps_bend = false;          ///< steel bent too far in this tick
   bool unsettled = false;           ///< not at rest within a tick's steps
-  /// Nodes from the handle to the tip, for the picture; a replay makes them again.
+  /// Nodes from the handle to the tip, for the picture; a replay makes them again. In the tick in which it breaks still
+  /// those of the whole file.
   std::array<glm::vec3, kUsualLinks + 1> node_P_mm{};
   std::array<float, kUsualLinks + 1> link_share{};  ///< of torque over breaking torque, of the link before each node
 };

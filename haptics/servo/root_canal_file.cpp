@@ -168,7 +168,11 @@ void RootCanalFile::tell(const FileTick& tick) noexcept {
   work_.keeps_bend = tick.set;
   work_.unsettled = tick.unsettled;
   for (std::size_t n = 0; n <= kUsualLinks; ++n) {
-    work_.node_P_mm[n] = glm::vec3(state.shape.node_mm[std::min(n, chain.links)]);
+    // Beyond a break what has just separated, still where it was.
+    const std::size_t beyond = n > chain.links && tick.broken_link ? n - chain.links : 0;
+    work_.node_P_mm[n] = glm::vec3(beyond > 0 && file_->fragment()
+                                       ? file_->fragment()->node_P_mm[std::min(beyond, file_->fragment()->links)]
+                                       : state.shape.node_mm[std::min(n, chain.links)]);
     const std::size_t i = std::max<std::size_t>(n, 1);
     const double torque_Nmm = chain.twist_Nmm_per_rad[i] * (state.roll_rad[i - 1] - state.roll_rad[i]);
     work_.link_share[n] = i <= chain.links ? static_cast<float>(std::fabs(torque_Nmm) / chain.breaking_Nmm[i]) : 0.0f;

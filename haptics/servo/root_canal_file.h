@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "haptics/body/bodies.h"
 #include "haptics/file/canal_wear.h"
@@ -44,6 +45,9 @@ class RootCanalFile {
     bool files = false;  ///< it may take something of the wall
     CarveResult removed;
   };
+
+  /// With what earlier files have left in the tooth.
+  explicit RootCanalFile(std::span<const assets::MetalFragment> before = {}) noexcept : fragments_(before) {}
 
   /// `tool`: with a file. Changed blocks are saved to `strokes`.
   Felt update(Bodies& bodies, StrokeHistory& strokes, const Tool& tool, const FileReference& reference,

@@ -32,7 +32,8 @@ Placements placementsIn(const Frame& frame) {
         {.opacity = frame.ruler ? kRulerOverlay : 0.0f},
         {.opacity = shown(!frame.beads.empty())},
         {.opacity = layers.obstacles && !frame.obstacles.middle_P_mm.empty() ? kObstacles : 0.0f},
-        {.opacity = shown(layers.gingiva && frame.flap != nullptr)}}}};
+        {.opacity = shown(layers.gingiva && frame.flap != nullptr)},
+        {.opacity = 1.0f}}}};
   for (std::size_t n = 0; n < kMostPieces; ++n)
     placements[static_cast<std::size_t>(pieceModel(n))] = {
         .P_from_mesh = frame.pieces[n] ? frame.pieces[n]->matrix() : glm::dmat4(1.0),

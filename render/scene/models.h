@@ -26,6 +26,7 @@ enum class Model {
   beads,
   obstacles,
   flap,
+  fragments,
   first_piece
 };
 inline constexpr std::size_t kModels = static_cast<std::size_t>(Model::first_piece) + kMostPieces;
@@ -48,9 +49,10 @@ enum class Finish {
 };
 
 constexpr Finish finishOf(Model model) {
-  constexpr std::array kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
-                               Finish::guide, Finish::guide,   Finish::instrument, Finish::guide,
-                               Finish::guide, Finish::tooth,   Finish::obstacle,   Finish::gingiva};
+  constexpr std::array kFinish{Finish::skin,      Finish::gingiva, Finish::instrument, Finish::instrument,
+                               Finish::guide,     Finish::guide,   Finish::instrument, Finish::guide,
+                               Finish::guide,     Finish::tooth,   Finish::obstacle,   Finish::gingiva,
+                               Finish::instrument};
   if (model >= Model::first_piece) return Finish::piece;
   return kFinish[static_cast<std::size_t>(model)];
 }

@@ -170,6 +170,81 @@ TEST(RootCanalFile, AFragmentIsMetByLaterFilesUntilItsStrokeIsUndone) {
   EXPECT_GT(at.tip_mm(), held_mm + 2.0) << "the way is free";
 }
 
+/// All strokes, until so many fragments lie in the tooth.
+void redo(Breaking& at, int fragments) {
+  for (int n = 0; n < 20 && at.tick.file.fragments != fragments; ++n) {
+    ++at.command.redo_serial;
+    ++at.command.serial;
+    for (int wait = 0; wait < 200; ++wait) at.move(0.0);
+  }
+}
+
+TEST(RootCanalFile, AFragmentComesBackWithItsStroke) {
+  Breaking at;
+  at.to(15.3, 0.01);
+  for (int n = 0; n < 3000 && at.tick.file.broken_from_tip_mm == 0.0; ++n) at.move(0.0, 0.029);
+  ASSERT_EQ(at.tick.file.fragments, 1);
+  const double break_mm = at.tip_mm();
+  at.to(-0.5, -0.03);
+  for (int n = 0; n < 20 && at.tick.file.fragments > 0; ++n) {
+    ++at.command.undo_serial;
+    ++at.command.serial;
+    for (int wait = 0; wait < 200; ++wait) at.move(0.0);
+  }
+  ASSERT_EQ(at.tick.file.fragments, 0);
+  redo(at, 1);
+  EXPECT_EQ(at.tick.file.fragments, 1);
+  at.take(10);
+  at.to(break_mm + 1.5, 0.01);
+  EXPECT_LT(at.tip_mm(), break_mm + 0.4) << "met again";
+  at.to(-0.5, -0.03);
+
+  // Undone once more, and the tooth is filed on: it cannot come back.
+  for (int n = 0; n < 20 && at.tick.file.fragments > 0; ++n) {
+    ++at.command.undo_serial;
+    ++at.command.serial;
+    for (int wait = 0; wait < 200; ++wait) at.move(0.0);
+  }
+  ASSERT_EQ(at.tick.file.fragments, 0);
+  at.take(20);
+  at.to(13.0, 0.01);
+  at.to(-0.5, -0.03);
+  redo(at, 1);
+  EXPECT_EQ(at.tick.file.fragments, 0);
+}
+
+TEST(RootCanalFile, TheTickOfABreakHasTheWholeFile) {
+  Breaking at;
+  at.to(15.3, 0.01);
+  Tick before;
+  for (int n = 0; n < 3000 && at.tick.file.broken_from_tip_mm == 0.0; ++n) {
+    before = at.tick;
+    at.move(0.0, 0.029);
+  }
+  ASSERT_GT(at.tick.file.broken_from_tip_mm, 0.0);
+  for (std::size_t n = 0; n < before.file.node_P_mm.size(); ++n)
+    EXPECT_LT(glm::distance(at.tick.file.node_P_mm[n], before.file.node_P_mm[n]), 0.05) << n;
+  const auto broken = static_cast<std::size_t>(
+      std::lround((21.0 - at.tick.file.broken_from_tip_mm) / 21.0 * static_cast<double>(kUsualLinks)));
+  EXPECT_LT(glm::distance(glm::dvec3(at.tick.file.node_P_mm[broken]), at.tick.file.tip_P_mm), 1e-5);
+  at.move(0.0);
+  EXPECT_EQ(at.tick.file.node_P_mm[broken], at.tick.file.node_P_mm.back()) << "then what is left of it";
+}
+
+TEST(FileFragments, OfBeforeAreMetAtOnceAndNoStrokeTakesThemBack) {
+  const StrokeHistory strokes(CarvedBone({glm::ivec3(8), 0.1, glm::dvec3(0.0)}, std::vector<std::uint8_t>(512), {}));
+  const assets::MetalFragment steel{25, false, {{0.0, 0.0, 0.0}, {0.0, 0.0, -2.0}}, {0.15, 0.13}};
+  FileFragments fragments(std::span(&steel, 1));
+  EXPECT_TRUE(fragments.isMet());
+  EXPECT_EQ(fragments.lying(), 1u);
+  SectionContact contact;
+  fragments.press({0.1, 0.0, -1.0}, 0.1, contact);
+  // Radii 0.1 and 0.14, 0.1 apart.
+  EXPECT_NEAR(contact.normal_N, FileFragments::kMet_N_per_mm * 0.14, 0.02);
+  fragments.follow(strokes, true);
+  EXPECT_EQ(fragments.lying(), 1u);
+}
+
 TEST(CanalWear, TakesNothingWhereFlutesAreFull) {
   phantom::CanalWall canal(phantom::bentCanal(0.7));
   CarvedBone bone(canal.field.grid, canal.field.solid, {});

@@ -9,7 +9,7 @@ namespace app {
 Follower::Follower(StoredStart start, std::vector<std::string> ids)
     : start_(std::move(start)),
       about_(ids.empty() ? SessionCase() : caseOfSession(start_)),
-      bodies_(start_.grid, start_.solid, start_.label, start_.is_tooth),
+      bodies_(bodiesAtStart(start_)),
       rerun_(bodies_, start_.soft_tissue, {}),
       measures_(start_, about_, bodies_, std::move(ids)) {
   rerun_.expectMore();

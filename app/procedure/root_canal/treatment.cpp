@@ -102,6 +102,7 @@ Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& befor
   all.broken_files = files.broken(), all.bent_files = files.bent();
   all.torque_share = files.torque_share(), all.filed_mm3 = files.filed_mm3(), all.filing_s = files.filing_s();
   all.debris_left_mm3 = files.debris_mm3(), all.full_s = files.full_s(), all.fragments_left = files.fragments();
+  all.fragments = files.lying();
   for (std::size_t n = 0; n < kFileMotions; ++n) all.motion_s[n] = files.motion().seconds(FileMotion{n});
   return all;
 }

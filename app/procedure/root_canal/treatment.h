@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "app/procedure/root_canal/canal_outcomes.h"
 #include "app/procedure/root_canal/file_motion.h"
 #include "app/procedure/root_canal/perforation.h"
+#include "app/procedure/root_canal/placed_fragment.h"
 #include "haptics/file/canal_wear.h"
 #include "haptics/servo/tick.h"
 
@@ -33,6 +35,8 @@ class FileUse {
   explicit FileUse(const assets::ToothCanals& tooth);
   /// `size`: of the file in the hand; 0: none. Ticks in order, without gaps in the hand.
   void add(const haptics::Tick& tick, int size);
+  /// What lies in the tooth now, whole (session/fragment_trail, fragments_event).
+  void setFragments(std::span<const assets::MetalFragment> lying) { lying_ = placed(tooth_, lying); }
 
   const assets::ToothCanals& tooth() const { return tooth_; }
   const TipTrack& tip(std::size_t canal) const { return canals_[canal].tip; }
@@ -43,6 +47,7 @@ class FileUse {
   int broken() const { return broken_; }
   /// In the tooth now; an undo takes them back.
   int fragments() const { return fragments_; }
+  const std::vector<PlacedFragment>& lying() const { return lying_; }
   /// Chips that are not out of the canals.
   double debris_mm3() const { return debris_mm3_; }
   /// Of the file in the hand, and how long any filed with full ones.
@@ -61,6 +66,7 @@ class FileUse {
 
   assets::ToothCanals tooth_;
   std::vector<Canal> canals_;
+  std::vector<PlacedFragment> lying_;
   double torque_share_ = 0.0, filed_mm3_ = 0.0, filing_s_ = 0.0;
   double debris_mm3_ = 0.0, full_s_ = 0.0;
   int broken_ = 0, bent_ = 0, fragments_ = 0;
@@ -87,7 +93,8 @@ struct Treatment {
   OutlineOutcome outline;
   std::vector<Perforation> perforations;
   int broken_files = 0, bent_files = 0;
-  int fragments_left = 0;  ///< in the tooth at the end
+  int fragments_left = 0;                 ///< in the tooth at the end, of all its sessions
+  std::vector<PlacedFragment> fragments;  ///< they
   double torque_share = 0.0, filed_mm3 = 0.0, filing_s = 0.0;
   double debris_left_mm3 = 0.0;                 ///< chips that are not out of the canals
   double full_s = 0.0;                          ///< against the wall with full flutes

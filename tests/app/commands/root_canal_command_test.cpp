@@ -1,5 +1,7 @@
 // `molar rehearse --task root-canal`: a treatment from the open cavity to its measures, and what is refused.
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -83,6 +85,62 @@ TEST_F(RootCanalCommand, GoesOnWhereItEnded) {
   ASSERT_TRUE(left);
   EXPECT_NE(left->solid, before.solid) << "it was filed";
   EXPECT_EQ(SessionReader(at("t.molar")).start().solid, left->solid);
+}
+
+/// A hand that jams a file in the first canal of a session's tooth and turns it for `turned_s`, as poses of a CSV.
+std::string jamming(const assets::ToothCanals& tooth, const std::string& tool, double turned_s) {
+  const assets::ToothCanal& canal = tooth.canals.front();
+  const glm::dvec3 orifice = canal.places.front().p_P_mm, up = glm::normalize(orifice - canal.places[12].p_P_mm);
+  const glm::dquat along = glm::dquat(glm::dvec3(0.0, 0.0, 1.0), up);
+  std::ostringstream rows;
+  rows << "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,tool\n";
+  double t_s = 0.0;
+  const auto add = [&](double deep_mm, double turned_rad, double for_s) {
+    const glm::dvec3 p = orifice + (25.0 - deep_mm) * up;
+    const glm::dquat q = along * glm::angleAxis(-turned_rad, glm::dvec3(0.0, 0.0, 1.0));
+    for (const double value : {t_s, p.x, p.y, p.z, q.w, q.x, q.y, q.z}) rows << value << ',';
+    rows << tool << '\n';
+    t_s += for_s;
+  };
+  for (int n = 0; n < 100; ++n) add(-10.0, 0.0, 0.002);
+  for (double deep_mm = -10.0; deep_mm < 16.0; deep_mm += 0.04) add(deep_mm, 0.0, 0.002);
+  for (double turned = 0.0; turned < turned_s; turned += 0.004) add(16.0, 30.0 * turned, 0.004);
+  return rows.str();
+}
+
+TEST_F(RootCanalCommand, WhatABrokenFileLeavesIsInTheToothFromThenOn) {
+  ASSERT_EQ(treat("--access open --device scripted --pace fast --seconds 0.1 --record " + at("s.molar")).status, 0);
+  const assets::ToothCanals tooth = *SessionReader(at("s.molar")).about().setup.canals;
+  std::ofstream(at("p.csv")) << jamming(tooth, "k-file:40", 1.2);
+  const std::string hand = " --pace fast --tool sphere:0.5 --tool k-file:40,25 --device poses:" + at("p.csv");
+  const ProgramOutput said = treat("--access open --record " + at("b.molar") + hand);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("the file has broken"), std::string::npos) << said.err;
+  EXPECT_NE(said.out.find("of a #40 in the single canal"), std::string::npos) << said.out;
+  EXPECT_EQ(molar("replay " + at("b.molar") + " --verify").status, 0);
+
+  const auto files_of = [&](const char* session) {
+    const ProgramOutput measured = molar("metrics " + at(session) + " --json");
+    EXPECT_EQ(measured.status, 0) << measured.err;
+    return nlohmann::json::parse(measured.out).at("root_canals").at("files");
+  };
+  const auto files = files_of("b.molar");
+  ASSERT_EQ(files.at("fragments").size(), files.at("fragments_left").get<std::size_t>());
+  ASSERT_GE(files.at("fragments").size(), 1u);
+  EXPECT_EQ(files.at("fragments")[0].at("canal"), "single");
+  EXPECT_EQ(files.at("fragments")[0].at("size"), 40);
+  EXPECT_GT(files.at("fragments")[0].at("length_mm").get<double>(), 1.0);
+
+  // On the film, and in the session that goes on.
+  ASSERT_EQ(molar("radiograph --session " + at("s.molar") + " --tooth 45 --out " + at("s.png")).status, 0);
+  ASSERT_EQ(molar("radiograph --session " + at("b.molar") + " --tooth 45 --out " + at("b.png")).status, 0);
+  EXPECT_NE(read("s.png"), read("b.png"));
+  const ProgramOutput next = molar("rehearse --continue " + at("b.molar") +
+                                   " --headless --device scripted --pace fast --seconds 1 --record " + at("c.molar"));
+  ASSERT_EQ(next.status, 0) << next.err;
+  EXPECT_EQ(SessionReader(at("c.molar")).about().setup.fragments.size(), files.at("fragments").size());
+  EXPECT_EQ(files_of("c.molar").at("fragments"), files.at("fragments"));
+  EXPECT_EQ(molar("replay " + at("c.molar") + " --verify").status, 0);
 }
 
 TEST_F(RootCanalCommand, RefusesInOneLine) {

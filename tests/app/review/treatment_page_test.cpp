@@ -52,10 +52,13 @@ TEST(TreatmentPage, WhatMustNotHappenIsToldFirstAndPlainly) {
   all.perforations = {{PerforationKind::strip, 0.456, {}}};
   all.broken_files = 2;
   all.fragments_left = 1;
+  all.fragments = {{20, false, 3.14, "single", 2.36}};
   all.canals[0].outcomes.foramen_moved_mm = 0.15;
   const std::string page = pageOf(review);
   EXPECT_TRUE(tells(page, "<b>Yes</b>: Root or chamber perforated<br><span class=\"quiet\">strip, 0.46 mm²"));
-  EXPECT_TRUE(tells(page, "<b>Yes</b>: File separated<br><span class=\"quiet\">2 in all, 1 in the tooth at the end"));
+  EXPECT_TRUE(tells(page,
+                    "<b>Yes</b>: File separated<br><span class=\"quiet\">2 in this session, 1 in the tooth at the "
+                    "end; 3.1 mm of a #20 in the single canal, its tip 2.4 mm from the foramen"));
   EXPECT_TRUE(tells(page, "<b>Yes</b>: Foramen transported<br><span class=\"quiet\">single canal, 0.15 mm"));
   EXPECT_LT(page.find("Root or chamber perforated"), page.find("Access cavity"));
 }
@@ -102,7 +105,7 @@ TEST(TreatmentFilms, ShowThatACanalWasWidened) {
   };
   start.solid = drilled(0.2);
   start.label.assign(start.grid.voxelCount(), static_cast<std::uint8_t>(assets::Tissue::dentine));
-  const TreatmentFilms films = treatmentFilms(start, drilled(0.8), nullptr);
+  const TreatmentFilms films = treatmentFilms(start, drilled(0.8), {}, nullptr);
   EXPECT_FALSE(films.in_jaw);
   ASSERT_EQ(films.pairs.size(), kTubeShifts_deg.size());
   for (const FilmPair& pair : films.pairs) {
@@ -112,8 +115,17 @@ TEST(TreatmentFilms, ShowThatACanalWasWidened) {
     };
     EXPECT_LT(grey(pair.after) + 10, grey(pair.before)) << pair.shift_deg;
   }
-  const TreatmentFilms same = treatmentFilms(start, start.solid, nullptr);
+  const TreatmentFilms same = treatmentFilms(start, start.solid, {}, nullptr);
   EXPECT_EQ(same.pairs[0].before.rgba, same.pairs[0].after.rgba);
+
+  // A fragment in it is lighter than anything around.
+  const assets::MetalFragment steel{25, false, {{3.2, 3.2, 9.0}, {3.2, 3.2, 7.0}}, {0.15, 0.13}};
+  const TreatmentFilms broken = treatmentFilms(start, start.solid, std::span(&steel, 1), nullptr);
+  for (const FilmPair& pair : broken.pairs) {
+    const render::Image& film = pair.after;
+    const auto at = 4 * static_cast<std::size_t>(film.h / 2 * film.w + film.w / 2);
+    EXPECT_GT(static_cast<int>(film.rgba[at]), static_cast<int>(pair.before.rgba[at]) + 20) << pair.shift_deg;
+  }
 }
 
 }  // namespace
