@@ -76,8 +76,10 @@ nlohmann::ordered_json jsonOf(const std::vector<CanalTooth>& teeth, const Measur
 Measured measuredIn(const assets::ToothSampler& sampler, const assets::ToothCanals& tooth) {
   const ToothBlocks blocks(sampler);
   Measured all;
-  for (std::size_t n = 0; n < tooth.canals.size(); ++n)
-    all.push_back(canalOutcomes(blocks, blocks, tooth.canals, n, furcationSide_P(tooth, n)));
+  for (std::size_t n = 0; n < tooth.canals.size(); ++n) {
+    CanalSections sections(blocks, blocks, tooth.canals[n], furcationSide_P(tooth, n));
+    all.push_back(canalOutcomes(sections, 0.0));
+  }
   return all;
 }
 

@@ -75,8 +75,8 @@ void SingleToothSite::followBone(std::span<const glm::ivec3> bricks, const hapti
 
 void SingleToothSite::finish() {
   if (treatment_ && treatment_->times() > 0)
-    links_.event_log.note(
-        kAccessEvent, fmt::format("measured {} times, {:.2f} s at most", treatment_->times(), treatment_->longest_s()));
+    links_.event_log.note(kAccessEvent, fmt::format("measured {} times, {:.2f} s of the processor at most",
+                                                    treatment_->times(), treatment_->longest_s()));
 }
 
 std::string SingleToothSite::outcomeLine() const {

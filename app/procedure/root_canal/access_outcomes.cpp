@@ -58,6 +58,12 @@ double besideCanals_mm(const assets::ToothCanals& tooth, const glm::dvec3& p_P) 
   return least_mm;
 }
 
+/// Along the canal where a straight file begins, upwards.
+glm::dvec3 shaftAxis_P(const assets::ToothCanal& canal) {
+  constexpr double kTangent_mm = 0.2;
+  return glm::normalize(canal.at(kFileDepth_mm - kTangent_mm).p_P_mm - canal.at(kFileDepth_mm + kTangent_mm).p_P_mm);
+}
+
 }  // namespace
 
 RoofOutcome roofOutcome(const FineSolid& after, const assets::ToothCanals& tooth) {
@@ -70,6 +76,7 @@ RoofOutcome roofOutcome(const FineSolid& after, const assets::ToothCanals& tooth
     bool is_open = true;
     double over = 0.0;
     for (double z = middle_mm; z < top_mm; z += step_mm) {
+      if (!is_open && z >= tooth.chamber.roof_mm + kAboveRoof_mm) break;
       const double w = after.at(tooth.frame.inP({at, z}));
       if (w >= kSolid) is_open = false;
       if (z >= tooth.chamber.roof_mm && z < tooth.chamber.roof_mm + kAboveRoof_mm) over += w;
@@ -104,10 +111,11 @@ OutlineOutcome outlineOutcome(const ToothBlocks& before, const FineSolid& after,
   return out;
 }
 
-LostTissue lostTissue(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanals& tooth) {
+LostTissue lostTissue(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanals& tooth,
+                      std::span<const glm::ivec3> blocks) {
   LostTissue lost;
   const double voxel_mm3 = before.grid().voxelVolume_mm3();
-  forRemoved(before, after, [&](glm::ivec3 ijk, double solid) {
+  const auto look = [&](glm::ivec3 ijk, double solid) {
     const std::uint8_t label = toothPartAt(before, ijk);
     if (!assets::isToothPart(label)) return;
     const double mm3 = solid * voxel_mm3;
@@ -118,19 +126,49 @@ LostTissue lostTissue(const ToothBlocks& before, const FineSolid& after, const a
     if (p.z < tooth.chamber.floor_mm + kBesideOrifice_mm && besideCanals_mm(tooth, p_P) < kBesideOrifice_mm) return;
     lost.deepest_mm = std::max(lost.deepest_mm, belowCusp_mm(tooth, p_P));
     if (is_deep && p.z > tooth.chamber.floor_mm - kBelowFloor_mm) lost.floor_mm3 += mm3;
-  });
+  };
+  for (const glm::ivec3& block : blocks) forRemoved(before, after, block, look);
   return lost;
+}
+
+LostTissue& operator+=(LostTissue& lost, const LostTissue& more) {
+  lost.enamel_mm3 += more.enamel_mm3, lost.dentine_mm3 += more.dentine_mm3, lost.floor_mm3 += more.floor_mm3;
+  lost.deepest_mm = std::max(lost.deepest_mm, more.deepest_mm);
+  return lost;
+}
+
+namespace {
+
+/// Its middle, and how far around it a sample reads it.
+std::pair<glm::dvec3, double> readAround(const assets::VolumeGrid& grid, glm::ivec3 block) {
+  const glm::dvec3 middle_P =
+      grid.centre_P_mm(FineSolid::kEdge * block) + 0.5 * (FineSolid::kEdge - 1) * grid.spacing_mm;
+  return {middle_P, std::sqrt(3.0) * (0.5 * FineSolid::kEdge + 1.0) * grid.spacing_mm};
+}
+
+}  // namespace
+
+bool isOverChamber(const assets::ToothCanals& tooth, const assets::VolumeGrid& grid, glm::ivec3 block) {
+  const auto [middle_P, around_mm] = readAround(grid, block);
+  const double lowest_mm =
+      std::min(0.5 * (tooth.chamber.roof_mm + tooth.chamber.floor_mm), tooth.chamber.roof_mm + kOutlineHeight_mm);
+  return tooth.frame.local(middle_P).z > lowest_mm - around_mm;
+}
+
+bool isOverOrifice(const assets::ToothCanal& canal, const assets::VolumeGrid& grid, glm::ivec3 block) {
+  const auto [middle_P, around_mm] = readAround(grid, block);
+  // The shaft is as wide as it is.
+  return glm::dot(middle_P - canal.orifice_P_mm(), shaftAxis_P(canal)) > -around_mm - kShaftRadius_mm;
 }
 
 bool StraightLine::isFree() const { return least_angle_rad < 5.0 * std::numbers::pi / 180.0; }
 
 StraightLine straightLine(const FineSolid& after, const assets::ToothCanal& canal) {
-  constexpr double kTangent_mm = 0.2, kAngleStep_rad = 0.5 * std::numbers::pi / 180.0;
+  constexpr double kAngleStep_rad = 0.5 * std::numbers::pi / 180.0;
   constexpr int kAzimuths = 72;
   const double step_mm = after.grid().spacing_mm;
   const glm::dvec3 from = canal.at(kFileDepth_mm).p_P_mm;
-  const glm::dvec3 up =
-      glm::normalize(canal.at(kFileDepth_mm - kTangent_mm).p_P_mm - canal.at(kFileDepth_mm + kTangent_mm).p_P_mm);
+  const glm::dvec3 up = shaftAxis_P(canal);
   const glm::dvec3 other = std::abs(up.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
   const glm::dvec3 across = glm::normalize(glm::cross(up, other)), aside = glm::cross(up, across);
 

@@ -3,6 +3,8 @@
 // and after. Frame P, mm, rad. Pure; any thread; some 0.1 s each.
 #pragma once
 
+#include <span>
+
 #include "app/procedure/root_canal/tooth_blocks.h"
 #include "assets/tooth_canals.h"
 
@@ -29,7 +31,14 @@ struct LostTissue {
   double floor_mm3 = 0.0;   ///< of it below the chamber's floor, beside the orifices
   double deepest_mm = 0.0;  ///< below the cusp; canals apart
 };
-LostTissue lostTissue(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanals& tooth);
+/// Of these blocks.
+LostTissue lostTissue(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanals& tooth,
+                      std::span<const glm::ivec3> blocks);
+LostTissue& operator+=(LostTissue& lost, const LostTissue& more);
+
+/// Whether a change of a block may change what the functions above and straightLine() find.
+bool isOverChamber(const assets::ToothCanals& tooth, const assets::VolumeGrid& grid, glm::ivec3 block);
+bool isOverOrifice(const assets::ToothCanal& canal, const assets::VolumeGrid& grid, glm::ivec3 block);
 
 /// A straight file, from the canal's third millimetre upwards along its axis there.
 struct StraightLine {

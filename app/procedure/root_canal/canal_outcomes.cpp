@@ -31,23 +31,6 @@ Nearest nearestOf(const assets::ToothCanal& canal, const glm::dvec3& p_P) {
   return nearest;
 }
 
-double removedOf(const FineSolid& before, const FineSolid& after, const std::vector<assets::ToothCanal>& canals,
-                 std::size_t canal) {
-  double removed = 0.0;
-  forRemoved(before, after, [&](glm::ivec3 ijk, double solid) {
-    const glm::dvec3 p_P = before.grid().centre_P_mm(ijk);
-    const Nearest own = nearestOf(canals[canal], p_P);
-    if (own.squared_mm2 > kBeside_mm * kBeside_mm) return;
-    // What lies before the orifice belongs to the access.
-    const assets::CanalPlace &first = canals[canal].places[0], &second = canals[canal].places[1];
-    if (own.place == 0 && glm::dot(p_P - first.p_P_mm, second.p_P_mm - first.p_P_mm) < 0.0) return;
-    for (std::size_t other = 0; other < canals.size(); ++other)
-      if (other != canal && nearestOf(canals[other], p_P).squared_mm2 < own.squared_mm2) return;
-    removed += solid;
-  });
-  return removed * before.grid().voxelVolume_mm3();
-}
-
 glm::dvec3 placeOf(const CanalSection& section, const glm::dvec2& at_mm) {
   return section.centre_P_mm + at_mm.x * section.furcation_P + at_mm.y * section.aside_P;
 }
@@ -92,15 +75,11 @@ glm::dvec2 diametersOf(const CanalSection& section) {
 
 }  // namespace
 
-CanalOutcomes canalOutcomes(const ToothBlocks& before, const FineSolid& after,
-                            const std::vector<assets::ToothCanal>& canals, std::size_t which,
-                            const glm::dvec3& furcation_P) {
-  const assets::ToothCanal& canal = canals[which];
-  const auto section_at = [&](double from_foramen_mm) {
-    return canalSection(before, after, canal, furcation_P, from_foramen_mm);
-  };
+CanalOutcomes canalOutcomes(CanalSections& of, double removed_mm3) {
+  const assets::ToothCanal& canal = of.canal();
+  const auto section_at = [&](double from_foramen_mm) -> const CanalSection& { return of.at(from_foramen_mm); };
   CanalOutcomes out;
-  out.removed_mm3 = removedOf(before, after, canals, which);
+  out.removed_mm3 = removed_mm3;
   for (std::size_t n = 0; n < kSections_mm.size(); ++n) out.sections[n] = section_at(kSections_mm[n]);
 
   // Down the canal, section by section.
@@ -108,7 +87,7 @@ CanalOutcomes canalOutcomes(const ToothBlocks& before, const FineSolid& after,
   out.least_wall_mm = std::numeric_limits<double>::infinity();
   const auto steps = static_cast<int>(std::floor((canal.length_mm() - kOrifice_mm - kOpenEnds_mm) / kStep_mm));
   for (int n = steps; n >= 0; --n) {
-    const CanalSection section = section_at(kOpenEnds_mm + n * kStep_mm);
+    const CanalSection& section = section_at(kOpenEnds_mm + n * kStep_mm);
     if (n >= kAxisEnds && std::ranges::all_of(section.before_mm, [](double mm) { return std::isfinite(mm); })) {
       out.axis_before_P_mm.push_back(placeOf(section, centroid_mm(section.before_mm)));
       out.axis_after_P_mm.push_back(placeOf(section, centroid_mm(section.after_mm)));
@@ -147,7 +126,7 @@ CanalOutcomes canalOutcomes(const ToothBlocks& before, const FineSolid& after,
   }
   out.taper = (count * products - sum.x * sum.y) / (count * squares - sum.x * sum.x);
 
-  const CanalSection foramen = section_at(kOpenEnds_mm);
+  const CanalSection& foramen = section_at(kOpenEnds_mm);
   for (std::size_t ray = 0; ray < CanalSection::kRays; ++ray)
     if (std::isfinite(foramen.before_mm[ray]))
       out.foramen_moved_mm = std::max(out.foramen_moved_mm, foramen.after_mm[ray] - foramen.before_mm[ray]);
@@ -169,10 +148,38 @@ glm::dvec3 furcationSide_P(const assets::ToothCanals& tooth, std::size_t canal) 
   return (to_mesial ? 1.0 : -1.0) * tooth.frame.axes_P[0];
 }
 
-double removed_mm3(const FineSolid& before, const FineSolid& after) {
-  double removed = 0.0;
-  forRemoved(before, after, [&](glm::ivec3, double solid) { removed += solid; });
-  return removed * before.grid().voxelVolume_mm3();
+void removedOfCanals(const ToothBlocks& before, const FineSolid& after, const std::vector<assets::ToothCanal>& canals,
+                     std::span<const glm::ivec3> blocks, std::span<double> removed_mm3) {
+  const assets::VolumeGrid& grid = before.grid();
+  const double half_mm = 0.5 * std::sqrt(3.0) * FineSolid::kEdge * grid.spacing_mm;
+  std::vector<std::size_t> near;  // canals that may be nearest to a voxel of the block
+  std::vector<double> from_middle_mm(canals.size());
+  for (const glm::ivec3& block : blocks) {
+    const glm::dvec3 middle_P =
+        grid.centre_P_mm(FineSolid::kEdge * block) + 0.5 * (FineSolid::kEdge - 1) * grid.spacing_mm;
+    double least_mm = std::numeric_limits<double>::max();
+    for (std::size_t n = 0; n < canals.size(); ++n) {
+      from_middle_mm[n] = std::sqrt(nearestOf(canals[n], middle_P).squared_mm2);
+      least_mm = std::min(least_mm, from_middle_mm[n]);
+    }
+    if (least_mm > kBeside_mm + half_mm) continue;
+    near.clear();
+    for (std::size_t n = 0; n < canals.size(); ++n)
+      if (from_middle_mm[n] <= least_mm + 2.0 * half_mm) near.push_back(n);
+    forRemoved(before, after, block, [&](glm::ivec3 ijk, double solid) {
+      const glm::dvec3 p_P = grid.centre_P_mm(ijk);
+      std::size_t own = near.front();
+      Nearest nearest = nearestOf(canals[own], p_P);
+      for (std::size_t n = 1; n < near.size(); ++n)
+        if (const Nearest other = nearestOf(canals[near[n]], p_P); other.squared_mm2 < nearest.squared_mm2)
+          nearest = other, own = near[n];
+      if (nearest.squared_mm2 > kBeside_mm * kBeside_mm) return;
+      // What lies before the orifice belongs to the access.
+      const assets::CanalPlace &first = canals[own].places[0], &second = canals[own].places[1];
+      if (nearest.place == 0 && glm::dot(p_P - first.p_P_mm, second.p_P_mm - first.p_P_mm) < 0.0) return;
+      removed_mm3[own] += solid * grid.voxelVolume_mm3();
+    });
+  }
 }
 
 void TipTrack::add(double t_s, double along_mm) {

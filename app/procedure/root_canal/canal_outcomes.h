@@ -4,9 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "app/procedure/root_canal/canal_section.h"
+#include "app/procedure/root_canal/canal_sections.h"
 
 namespace app {
 
@@ -29,16 +30,15 @@ struct CanalOutcomes {
   double foramen_moved_mm = 0.0;                       ///< the most that its wall went outwards
 };
 
-/// `canals`: all of the tooth, to tell which one a voxel belongs to; `canal`: the one that is measured.
-CanalOutcomes canalOutcomes(const ToothBlocks& before, const FineSolid& after,
-                            const std::vector<assets::ToothCanal>& canals, std::size_t canal,
-                            const glm::dvec3& furcation_P);
+/// `removed_mm3`: of it (removedOfCanals()).
+CanalOutcomes canalOutcomes(CanalSections& sections, double removed_mm3);
+
+/// What was cut of blocks, added to that of each canal.
+void removedOfCanals(const ToothBlocks& before, const FineSolid& after, const std::vector<assets::ToothCanal>& canals,
+                     std::span<const glm::ivec3> blocks, std::span<double> removed_mm3);
 
 /// Towards the middle of the tooth's other orifices; of a tooth with one canal to distal.
 glm::dvec3 furcationSide_P(const assets::ToothCanals& tooth, std::size_t canal);
-
-/// What was cut of the whole field.
-double removed_mm3(const FineSolid& before, const FineSolid& after);
 
 /// Of a file's tip from the working length, 0.5 mm short of the foramen; positive: too long.
 struct LengthError {

@@ -58,8 +58,13 @@ glm::dvec2 CanalSection::wayOf(std::size_t ray) const {
   return {std::cos(turn), std::sin(turn)};
 }
 
-CanalSection canalSection(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanal& canal,
-                          const glm::dvec3& furcation_P, double from_foramen_mm) {
+glm::dvec3 CanalSection::wayInP(std::size_t ray) const {
+  const glm::dvec2 way = wayOf(ray);
+  return way.x * furcation_P + way.y * aside_P;
+}
+
+CanalSection sectionBefore(const ToothBlocks& before, const assets::ToothCanal& canal, const glm::dvec3& furcation_P,
+                           double from_foramen_mm) {
   constexpr double kTangent_mm = 0.1;
   CanalSection section;
   section.from_foramen_mm = from_foramen_mm;
@@ -70,19 +75,37 @@ CanalSection canalSection(const ToothBlocks& before, const FineSolid& after, con
   section.furcation_P = glm::normalize(furcation_P - glm::dot(furcation_P, along_P) * along_P);
   section.aside_P = glm::cross(along_P, section.furcation_P);
   for (std::size_t ray = 0; ray < CanalSection::kRays; ++ray) {
-    const glm::dvec2 way = section.wayOf(ray);
-    const glm::dvec3 way_P = way.x * section.furcation_P + way.y * section.aside_P;
+    const glm::dvec3 way_P = section.wayInP(ray);
     section.before_mm[ray] = wallOf(before, section.centre_P_mm, way_P);
-    section.after_mm[ray] = wallOf(after, section.centre_P_mm, way_P);
     section.root_mm[ray] = kNone;
     if (section.before_mm[ray] == kNone) continue;
     const double in_wall_mm = section.before_mm[ray] + before.grid().spacing_mm;
     section.root_mm[ray] = surfaceOf(before, section.centre_P_mm, way_P, in_wall_mm);
+  }
+  return section;
+}
+
+void measureAfter(CanalSection& section, const ToothBlocks& before, const FineSolid& after) {
+  section.read_mm = 0.0;
+  for (std::size_t ray = 0; ray < CanalSection::kRays; ++ray) {
+    const glm::dvec3 way_P = section.wayInP(ray);
+    section.after_mm[ray] = wallOf(after, section.centre_P_mm, way_P);
+    const double read_mm = std::min(section.after_mm[ray], kFarthestWall_mm);
+    section.read_mm = std::max(section.read_mm, read_mm + 2.5 * around(after));
+    section.is_untouched[ray] = false;
+    if (section.before_mm[ray] == kNone) continue;
     // A wall that is gone: the root is open there.
     if (section.after_mm[ray] > section.root_mm[ray]) section.after_mm[ray] = section.root_mm[ray];
     const glm::dvec3 on_wall = section.centre_P_mm + section.before_mm[ray] * way_P;
     section.is_untouched[ray] = before.at(on_wall) - after.at(on_wall) < kTouched;
+    section.read_mm = std::max(section.read_mm, section.before_mm[ray]);
   }
+}
+
+CanalSection canalSection(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanal& canal,
+                          const glm::dvec3& furcation_P, double from_foramen_mm) {
+  CanalSection section = sectionBefore(before, canal, furcation_P, from_foramen_mm);
+  measureAfter(section, before, after);
   return section;
 }
 

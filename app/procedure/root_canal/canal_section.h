@@ -18,15 +18,22 @@ struct CanalSection {
   glm::dvec3 centre_P_mm{0.0};
   glm::dvec3 furcation_P{1.0, 0.0, 0.0}, aside_P{0.0, 1.0, 0.0};  ///< unit, across the axis: ray 0, ray kRays / 4
   Radii before_mm{}, after_mm{}, root_mm{};                       ///< infinity: no wall, no surface within reach
+  double read_mm = 0.0;                                           ///< farther out nothing was asked of what it is now
   std::array<bool, kRays> is_untouched{};
 
   glm::dvec2 wayOf(std::size_t ray) const;
+  glm::dvec3 wayInP(std::size_t ray) const;
   double wall_mm(std::size_t ray) const { return root_mm[ray] - after_mm[ray]; }
 };
 
 /// `furcation_P`: towards the other root, or to distal.
 CanalSection canalSection(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanal& canal,
                           const glm::dvec3& furcation_P, double from_foramen_mm);
+
+/// The same in two steps: what it was, and what it is, of a section that knows what it was.
+CanalSection sectionBefore(const ToothBlocks& before, const assets::ToothCanal& canal, const glm::dvec3& furcation_P,
+                           double from_foramen_mm);
+void measureAfter(CanalSection& section, const ToothBlocks& before, const FineSolid& after);
 
 /// (X1 - X2) - (Y1 - Y2) of Gambill 1996 (JOE 22:369), X towards the furcation: positive where it moved there.
 double transportation_mm(const CanalSection& section);

@@ -101,6 +101,22 @@ std::string_view nameOf(PerforationKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+bool mayBePerforated(const ToothBlocks& before, const FineSolid& after, const assets::ToothFrame& frame,
+                     glm::ivec3 block) {
+  const assets::VolumeGrid& grid = before.grid();
+  const FineSolid::Block label = before.labels(block), was = before.block(block), is = after.block(block);
+  bool may = false;
+  std::size_t v = 0;
+  assets::forVoxels(4 * block, 4 * block + 4, [&](glm::ivec3 ijk) {
+    const std::size_t at = v++;
+    if (may || !assets::isToothPart(label.at(at)) || was.at(at) < kHalf || is.at(at) >= kHalf) return;
+    if (!(frame.local(grid.centre_P_mm(ijk)).z < kCervix_mm)) return;
+    for (const glm::ivec3& way : kBeside)
+      may = may || (grid.contains(ijk + way) && !assets::isToothPart(before.label(ijk + way)));
+  });
+  return may;
+}
+
 std::vector<Perforation> perforations(const ToothBlocks& before, const FineSolid& after,
                                       const assets::ToothCanals& tooth) {
   const assets::VolumeGrid& grid = before.grid();

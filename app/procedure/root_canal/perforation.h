@@ -21,6 +21,10 @@ struct Perforation {
   glm::dvec3 middle_P_mm{0.0};
 };
 
+/// Whether a block has what may be a hole: where none of those that have changed has, there is none.
+bool mayBePerforated(const ToothBlocks& before, const FineSolid& after, const assets::ToothFrame& frame,
+                     glm::ivec3 block);
+
 /// The largest first.
 std::vector<Perforation> perforations(const ToothBlocks& before, const FineSolid& after,
                                       const assets::ToothCanals& tooth);

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/procedure/root_canal/canal_tip.h"
+#include "app/procedure/root_canal/treatment_meter.h"
 
 namespace app {
 namespace {
@@ -83,28 +84,24 @@ std::string motionWords(const Treatment& treatment) {
   return words;
 }
 
+void Treatment::setFiles(const FileUse& files) {
+  broken_files = files.broken(), bent_files = files.bent();
+  fragments_left = files.fragments(), fragments = files.lying();
+  torque_share = files.torque_share(), filed_mm3 = files.filed_mm3(), filing_s = files.filing_s();
+  debris_left_mm3 = files.debris_mm3(), full_s = files.full_s();
+  for (std::size_t n = 0; n < kFileMotions; ++n) motion_s[n] = files.motion().seconds(FileMotion{n});
+}
+
 Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& before, const FineSolid& after,
                       const FileUse& files) {
-  Treatment all;
-  for (std::size_t n = 0; n < tooth.canals.size(); ++n) {
-    const assets::ToothCanal& canal = tooth.canals[n];
-    all.canals.push_back({canal.name,
-                          canalOutcomes(before, after, tooth.canals, n, furcationSide_P(tooth, n)),
-                          {},
-                          straightLine(after, canal),
-                          files.size(n)});
-    if (!files.tip(n).isEmpty()) all.canals.back().length = files.tip(n).error();
+  TreatmentMeter meter(tooth, before);
+  for (const glm::ivec3& block : changedBlocks(before, after)) {
+    ToothNow::Bytes bytes;
+    const FineSolid::Block is = after.block(block);
+    for (std::size_t v = 0; v < bytes.size(); ++v) bytes[v] = is.at(v);
+    meter.change(block, bytes);
   }
-  all.lost = lostTissue(before, after, tooth);
-  all.roof = roofOutcome(after, tooth);
-  all.outline = outlineOutcome(before, after, tooth);
-  all.perforations = perforations(before, after, tooth);
-  all.broken_files = files.broken(), all.bent_files = files.bent();
-  all.torque_share = files.torque_share(), all.filed_mm3 = files.filed_mm3(), all.filing_s = files.filing_s();
-  all.debris_left_mm3 = files.debris_mm3(), all.full_s = files.full_s(), all.fragments_left = files.fragments();
-  all.fragments = files.lying();
-  for (std::size_t n = 0; n < kFileMotions; ++n) all.motion_s[n] = files.motion().seconds(FileMotion{n});
-  return all;
+  return meter.measure(files);
 }
 
 }  // namespace app

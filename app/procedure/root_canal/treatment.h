@@ -101,6 +101,8 @@ struct Treatment {
   std::array<double, kFileMotions> motion_s{};  ///< of filing_s; the rest was held still or had no name
 
   bool isForamenMoved() const;
+  /// What files did, canals apart.
+  void setFiles(const FileUse& files);
 };
 
 /// "filing 62 %, watch-winding 25 %" of the time against the wall, the longest first; empty: none.

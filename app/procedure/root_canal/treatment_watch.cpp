@@ -1,6 +1,9 @@
 #include "app/procedure/root_canal/treatment_watch.h"
 
+#include <time.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -8,34 +11,79 @@
 #include <fmt/core.h>
 
 #include "app/procedure/root_canal/dense_tooth.h"
+#include "app/procedure/root_canal/treatment_meter.h"
 
 namespace app {
 namespace {
 
 constexpr double kLeast_mm3 = 0.005;
 
+/// Of this thread: a busy machine makes it no longer.
+double cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace
 
 struct TreatmentWatch::Copy {
-  const assets::ToothCanals& tooth;
-  ToothCopy volume;
-  std::optional<ToothBlocks> blocks;  ///< before, from the first measurement
+  assets::ToothCanals tooth;
+  const assets::CtVolume& scan;
+  std::span<const std::uint8_t> solid_before;
+  std::optional<ToothBlocks> before;  ///< once begun, as all below
+  std::optional<TreatmentMeter> meter;
+  std::vector<std::pair<glm::ivec3, ToothNow::Bytes>> changes;  ///< since the last
 
-  Copy(const assets::ToothCanals& of, const assets::CtVolume& scan, std::span<const std::uint8_t> solid_before)
-      : tooth(of), volume(scan, solid_before) {}
+  /// The tooth before anything was cut, and what an earlier session has cut of it: what does not change is known then.
+  Measured begin() {
+    before.emplace(DenseTooth(scan.grid, solid_before, scan.label));
+    meter.emplace(tooth, *before);
+    if (scan.solid.data() != solid_before.data()) takeAll();
+    meter->measure(FileUse(tooth));
+    return {};
+  }
+
+  void takeAll() {
+    const DenseTooth now(scan.grid, scan.solid, scan.label);
+    ToothNow::Bytes bytes, labels;
+    assets::forVoxels(glm::ivec3(0), now.grid().size / FineSolid::kEdge, [&](glm::ivec3 block) {
+      now.block(block, bytes, labels);
+      meter->change(block, bytes);
+    });
+  }
+
+  /// Those bricks of the live tooth.
+  void take(const haptics::Bodies& bodies, std::span<const glm::ivec3> bricks) {
+    constexpr int kBlocks = assets::kBrickVoxels / FineSolid::kEdge;
+    for (const glm::ivec3& brick : bricks) {
+      std::array<std::uint8_t, 512> bytes{};
+      bodies.jaw().copyBrick(brick, bytes);
+      assets::forVoxels(glm::ivec3(0), glm::ivec3(kBlocks), [&](glm::ivec3 part) {
+        auto& [block, to] = changes.emplace_back(kBlocks * brick + part, ToothNow::Bytes());
+        std::size_t v = 0;
+        const glm::ivec3 low = FineSolid::kEdge * part;
+        assets::forVoxels(low, low + FineSolid::kEdge, [&](glm::ivec3 within) {
+          to[v++] = bytes[assets::indexIn(glm::ivec3(assets::kBrickVoxels), within)];
+        });
+      });
+    }
+  }
 
   Measured measure(const FileUse& files) {
-    const auto start = std::chrono::steady_clock::now();
-    if (!blocks) blocks.emplace(DenseTooth(volume.grid(), volume.before(), volume.labels()));
-    Measured measured{treatmentOf(tooth, *blocks, DenseSolid(volume.grid(), volume.now()), files)};
-    measured.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double start_s = cpu_s();
+    for (const auto& [block, bytes] : std::exchange(changes, {})) meter->change(block, bytes);
+    Measured measured{meter->measure(files)};
+    measured.took_s = cpu_s() - start_s;
     return measured;
   }
 };
 
 TreatmentWatch::TreatmentWatch(const assets::ToothCanals& tooth, const assets::CtVolume& scan,
                                std::span<const std::uint8_t> before, const haptics::Bodies& bodies)
-    : copy_(std::make_unique<Copy>(tooth, scan, before)), bodies_(bodies) {}
+    : copy_(new Copy{tooth, scan, before, {}, {}, {}}), bodies_(bodies) {
+  measuring_ = std::async(std::launch::async, [copy = copy_.get()] { return copy->begin(); });
+}
 
 TreatmentWatch::~TreatmentWatch() {
   if (measuring_.valid()) measuring_.wait();
@@ -47,13 +95,15 @@ bool TreatmentWatch::follow(std::span<const glm::ivec3> bricks, const haptics::T
   if (measuring_.valid()) {
     if (measuring_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     Measured measured = measuring_.get();
-    newest_ = std::move(measured.treatment);
-    longest_s_ = std::max(longest_s_, measured.took_s);
-    ++times_;
-    is_new = true;
+    if (measured.treatment) {
+      newest_ = std::move(measured.treatment);
+      longest_s_ = std::max(longest_s_, measured.took_s);
+      ++times_;
+      is_new = true;
+    }
   }
   if (!pause_.isDue(newest, !changed_.empty())) return is_new;
-  copy_->volume.take(bodies_, std::exchange(changed_, {}));
+  copy_->take(bodies_, std::exchange(changed_, {}));
   measuring_ = std::async(std::launch::async, [copy = copy_.get(), files] { return copy->measure(files); });
   return is_new;
 }

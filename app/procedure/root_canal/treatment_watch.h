@@ -1,6 +1,6 @@
-// What a root canal treatment has come to while it goes on: treatmentOf() of a copy of the tooth that is brought up to
-// date by bricks, on a thread of its own, a moment after each stroke and every ten seconds of a long one. Main thread,
-// once a frame; microseconds. The worker takes up to half a second. Frame P.
+// What a root canal treatment has come to while it goes on: TreatmentMeter of a copy of the tooth that is
+// brought up to date by bricks, on a thread of its own, a moment after each stroke and every ten seconds of a long one.
+// Main thread, once a frame; microseconds. The worker takes a second of CPU time at the start, then a fifth. Frame P.
 #pragma once
 
 #include <future>
@@ -27,14 +27,14 @@ class TreatmentWatch {
   bool follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, const FileUse& files);
   /// None: nothing was measured yet.
   const std::optional<Treatment>& newest() const { return newest_; }
-  /// How often it was measured, and the longest of it.
+  /// How often it was measured, and the longest of it, CPU time.
   int times() const { return times_; }
   double longest_s() const { return longest_s_; }
 
  private:
   struct Copy;
   struct Measured {
-    Treatment treatment;
+    std::optional<Treatment> treatment;  ///< none: of the whole tooth, only so that it is known
     double took_s = 0.0;
   };
 

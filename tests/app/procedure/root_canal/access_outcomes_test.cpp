@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/procedure/root_canal/perforation.h"
+#include "tests/app/procedure/root_canal/at_once.h"
 #include "tests/app/procedure/root_canal/shapes.h"
 
 namespace app::round_tooth {
@@ -96,7 +97,8 @@ TEST(AccessOutcomes, AnOutlineIsComparedWithHalfAMillimetreAroundTheOrifice) {
 }
 
 TEST(AccessOutcomes, LostTissueIsThatOfTheCylinder) {
-  const LostTissue lost = lostTissue(before(), cut([](const glm::dvec3& p) { return opening(p, 1.0); }), tooth());
+  const LostTissue lost =
+      shapes::lostAtOnce(before(), cut([](const glm::dvec3& p) { return opening(p, 1.0); }), tooth());
   EXPECT_NEAR(lost.enamel_mm3, kPi * (kTop_mm - kEnamel_mm), 0.005 * kPi * (kTop_mm - kEnamel_mm));
   EXPECT_NEAR(lost.dentine_mm3, kPi * (kEnamel_mm - kRoof_mm), 0.01 * kPi * (kEnamel_mm - kRoof_mm));
   EXPECT_EQ(lost.floor_mm3, 0.0);
@@ -107,12 +109,12 @@ TEST(AccessOutcomes, AGougeOfTheFloorIsMeasuredBesideTheOrifice) {
   const auto gouge = [](const glm::dvec3& p) {
     return cylinder(std::hypot(p.x - 1.1, p.y), 0.3, p.z, kFloor_mm - 0.5, kFloor_mm + 0.5);
   };
-  const LostTissue lost = lostTissue(before(), cut(gouge), tooth());
+  const LostTissue lost = shapes::lostAtOnce(before(), cut(gouge), tooth());
   EXPECT_NEAR(lost.floor_mm3, kPi * 0.09 * 0.5, 0.03 * kPi * 0.09 * 0.5);
   EXPECT_NEAR(lost.deepest_mm, kTop_mm - kFloor_mm + 0.5, 0.06);
   // A wider orifice is none.
   const auto flare = [](const glm::dvec3& p) { return cylinder(aside(p), 0.4, p.z, kFloor_mm - 0.5, kFloor_mm + 0.5); };
-  EXPECT_EQ(lostTissue(before(), cut(flare), tooth()).floor_mm3, 0.0);
+  EXPECT_EQ(shapes::lostAtOnce(before(), cut(flare), tooth()).floor_mm3, 0.0);
 }
 
 TEST(AccessOutcomes, AWallOverAnOrificeHasToBeLeanedAround) {

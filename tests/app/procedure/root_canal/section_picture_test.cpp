@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/app/procedure/root_canal/at_once.h"
 #include "tests/app/procedure/root_canal/shapes.h"
 
 namespace app::drawn_sections {
@@ -18,7 +19,8 @@ render::Image picture(double e) {
   }));
   const shapes::ShapeSolid after(
       grid, [e](const glm::dvec3& p) { return e < 0.0 ? root(p) : std::min(root(p), std::hypot(p.x - e, p.y) - 0.3); });
-  const CanalOutcomes out = canalOutcomes(before, after, {shapes::straightCanal(10.0, 0.15)}, 0, {1.0, 0.0, 0.0});
+  const CanalOutcomes out =
+      shapes::outcomesAtOnce(before, after, {shapes::straightCanal(10.0, 0.15)}, 0, {1.0, 0.0, 0.0});
   return sectionPicture({{"36 distal", out.sections}});
 }
 
