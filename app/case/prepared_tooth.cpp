@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
+#include "app/case/closed_gum.h"
 #include "app/case/treated_tooth.h"
 #include "assets/load_error.h"
 #include "assets/tooth.h"
@@ -124,7 +127,9 @@ assets::Patient preparedTooth(const assets::Patient& whole, const std::optional<
 
   patient.classification = whole.classification;
   patient.jaw_P_mm = own.canals.frame.inP({0.0, 0.0, kCrownMiddle_mm});
-  patient.gingiva = whole.gingiva;
+  // No flap is raised for it.
+  std::optional<assets::MeshModel> gum = closedGum(whole);
+  patient.gingiva = gum ? *std::move(gum) : whole.gingiva;
   patient.has_modelled_gum = whole.has_modelled_gum;
   patient.face = whole.face;
   patient.has_built_in_face = whole.has_built_in_face;

@@ -75,9 +75,8 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
   }
   if (isPreparation(options)) {
     const auto built_in = options.patient.empty() ? std::optional(jaw) : std::nullopt;
-    // No flap is raised for it. A straight handpiece held upright would press lip and cheek all the time, where a
+    // A straight handpiece held upright would press lip and cheek all the time, where a
     // dentist's is bent: they are held away.
-    if (auto gum = closedGum(one.patient)) one.patient.gingiva = std::move(*gum);
     one.patient = preparedTooth(one.patient, built_in, *options.tooth, options.ideal, "--tooth");
     return one;
   }
