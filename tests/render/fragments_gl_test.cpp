@@ -57,7 +57,7 @@ TEST_P(FragmentsDrawn, AreSeenThroughAClearToothAlone) {
   const Image clear = picture(renderer, ViewMode::clear), opaque = picture(renderer, ViewMode::iso);
   const assets::MetalFragment one = wireInBall();
   renderer.setFragments(assets::fragmentWires(std::span(&one, 1)));
-  EXPECT_GT(pixelsThatDiffer(clear, picture(renderer, ViewMode::clear)), 200);
+  EXPECT_GT(pixelsThatDiffer(clear, picture(renderer, ViewMode::clear)), 40);
   EXPECT_LT(pixelsThatDiffer(opaque, picture(renderer, ViewMode::iso)), 5);
   renderer.setFragments({});
   EXPECT_EQ(pixelsThatDiffer(clear, picture(renderer, ViewMode::clear)), 0);
