@@ -219,10 +219,13 @@ void chooseTools(RehearseOptions& options) {
     return;
   }
   if (isPreparation(options)) {
-    // A round-ended taper for walls and margin, a torpedo for a chamfer, a flame and a wheel for the biting surface, a
-    // round one for a cavity, a narrow cylinder for its grooves.
-    options.tools = {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6",
-                     "wheel:1.8,1.2",     "round:1.4",     "cylinder:0.4,4"};
+    // A round-ended taper for walls and margin, a torpedo for a chamfer, a flame and a wheel for the biting surface;
+    // for a cavity a pear and a narrow cylinder, a round one and an inverted cone.
+    if (options.ideal.starts_with("class"))
+      options.tools = {"pear:0.5,1.2", "cylinder:0.4,4", "round:1.0", "inverted-cone:0.5,0.8", "flame:0.6,6"};
+    else
+      options.tools = {"round-taper:0.9,8", "torpedo:0.8,8",  "flame:0.6,6",
+                       "wheel:1.8,1.2",     "cylinder:0.5,6", "round:1.4"};
     if (options.plan.device == "scripted") options.tools = scriptedBurs(idealRule(options.ideal, "--ideal"));
     return;
   }

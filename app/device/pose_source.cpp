@@ -32,7 +32,10 @@ calibration::Pose<calibration::World, calibration::Tool> restingTool(const calib
                                                                      const assets::Patient& patient,
                                                                      const std::optional<assets::PlannedCut>& cut) {
   auto X_WT = restingTool();
-  const glm::dvec3 shaft_P = patient.canals ? patient.canals->frame.axes_P[2] : cut ? cut->shaft_P : glm::dvec3(0.0);
+  const glm::dvec3 shaft_P = patient.canals     ? patient.canals->frame.axes_P[2]
+                             : patient.prepared ? patient.prepared->frame.axes_P[2]
+                             : cut              ? cut->shaft_P
+                                                : glm::dvec3(0.0);
   if (shaft_P != glm::dvec3(0.0)) X_WT.rotation = glm::dquat(glm::dvec3(0, 0, 1), rig.X_WP.rotation * shaft_P);
   return X_WT;
 }

@@ -44,7 +44,7 @@ struct PoseSource {
 };
 
 /// Where the mouse's tool begins: in front of the site; the handpiece as planned for the cut or along the tooth of a
-/// root-canal treatment, else towards the viewer and down.
+/// root-canal treatment or a preparation, else towards the viewer and down.
 calibration::Pose<calibration::World, calibration::Tool> restingTool();
 calibration::Pose<calibration::World, calibration::Tool> restingTool(const calibration::Rig& rig,
                                                                      const assets::Patient& patient,

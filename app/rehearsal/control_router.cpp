@@ -48,7 +48,7 @@ void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& fram
   if (in_hand.isFile() && plan_.patient.canals && newest.file.stay != haptics::FileStay::none)
     gap_mm = std::max(kInCanal_mm, fromOrifice_mm(*plan_.patient.canals, newest.file.tip_P_mm));
   input_.setGap(gap_mm);
-  input_.setAlongTool(plan_.patient.canals.has_value());
+  input_.setAlongTool(plan_.patient.canals || plan_.patient.prepared);
   input_.setTwisting(in_hand.isElevator() || in_hand.isFile());
   readWindow(frame);
   executeScript(newest, frame);

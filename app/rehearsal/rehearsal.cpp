@@ -156,8 +156,10 @@ class Rehearsal {
   /// A mouse's tool begins a little off the bone, and its user is told which way is in.
   void placeMouse() {
     if (equipment_.mouse() == nullptr) return;
-    if (plan_.patient.canals) {
-      const calibration::Point<calibration::Patient> over{startOverCrown_P_mm(*plan_.patient.canals)};
+    const assets::Patient& patient = plan_.patient;
+    if (patient.canals || patient.prepared) {
+      const calibration::Point<calibration::Patient> over{
+          patient.canals ? startOverCrown_P_mm(*patient.canals) : startOverCrown_P_mm(*patient.prepared, patient.ct)};
       router_.placeHandAt((plan_.rig.X_WP * over).mm);
       return head_up_.say("over the crown: the wheel goes in along the instrument");
     }

@@ -88,4 +88,15 @@ glm::dvec3 startOverCrown_P_mm(const assets::ToothCanals& tooth) {
   return tooth.frame.inP({middle, highest_mm + kStartGap_mm});
 }
 
+glm::dvec3 startOverCrown_P_mm(const assets::PreparedTooth& tooth, const assets::CtVolume& ct) {
+  constexpr double kFarOver_mm = 15.0, kStep_mm = 0.1;
+  double height_mm = kFarOver_mm;
+  while (height_mm > 0.0) {
+    const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(tooth.frame.inP({0.0, 0.0, height_mm}))));
+    if (ct.grid.contains(ijk) && ct.solid[ct.grid.index(ijk)] >= assets::kHalfSolid) break;
+    height_mm -= kStep_mm;
+  }
+  return tooth.frame.inP({0.0, 0.0, height_mm + kStartGap_mm});
+}
+
 }  // namespace app

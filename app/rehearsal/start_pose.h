@@ -6,7 +6,9 @@
 #include <functional>
 #include <optional>
 
+#include "assets/ct_volume.h"
 #include "assets/planned_cut.h"
+#include "assets/prepared_tooth.h"
 #include "assets/tooth_canals.h"
 #include "render/frame.h"
 
@@ -26,5 +28,7 @@ std::optional<glm::dvec3> startBeforePlan(const render::Frame& frame, const asse
 
 /// Over the middle of a tooth's pulp chamber, kStartGap_mm above its highest cusp: in P.
 glm::dvec3 startOverCrown_P_mm(const assets::ToothCanals& tooth);
+/// Over the middle of a crown.
+glm::dvec3 startOverCrown_P_mm(const assets::PreparedTooth& tooth, const assets::CtVolume& ct);
 
 }  // namespace app

@@ -204,7 +204,9 @@ std::vector<HeadUpLine::Cell> HeadUpLine::cells(const HeadUpContent& c, const He
   };
   if (c.line_shown) {
     in_line(Cells::bur, c.bur, [=, bur = c.bur](const Drawing& to, const glm::dvec2& size) {
-      to.text(bur, {0.6 * text, 0.5 * size.y}, text, kWhite, Align::left, true);
+      // A long name in smaller letters.
+      const double letters = text * std::min(1.0, (size.x - 1.2 * text) / to.textWidth(bur, text, true));
+      to.text(bur, {0.6 * text, 0.5 * size.y}, letters, kWhite, Align::left, true);
     });
     in_line(Cells::drive, c.drive + (c.turning ? " turning" : ""),
             [=, drive = c.drive, ink = c.turning ? kWhite : kDim](const Drawing& to, const glm::dvec2& size) {
