@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "haptics/file/file_fragments.h"
 #include "haptics/file/material_frame.h"
-#include "haptics/file/wall_contact.h"
 
 namespace haptics {
 namespace {
@@ -37,6 +37,12 @@ struct FileInCanal::Kept {
   PerNode<dvec3> screw_N;    ///< what turning does along the axis
   PerNode<FluteFriction> flutes;
   RestTurns rest;
+};
+
+/// A shape that has more energy is not taken: its sums end where that is certain, with an energy without end.
+struct FileInCanal::Limit {
+  double most_Nmm = std::numeric_limits<double>::infinity();
+  std::size_t suspect = 0;  ///< the section that ended the last ones; 0: none
 };
 
 FileInCanal::FileInCanal(const FileChain& chain, const FileLaw& law, const FileGrip& grip, const FilePose& X_PT)
@@ -104,23 +110,79 @@ ShaftLoad FileInCanal::stopAt(const ChainShape& shape, const FileScene& scene, d
   return load;
 }
 
-ChainBalance FileInCanal::balanceAt(const ChainShape& shape, const Kept& kept, const FileScene& scene) const noexcept {
+SectionContact FileInCanal::wallAt(const ChainShape& shape, const Kept& kept, const FileScene& scene,
+                                   std::size_t i) const noexcept {
+  SectionContact contact;
+  if (scene.wall == nullptr) return contact;
+  const bool is_tip = i == chain_.links;
+  const SectionPlace place{shape.node_mm[i], kept.axis[i], chain_.radius_mm[i],
+                           is_tip ? 0.5 * chain_.link_mm : chain_.link_mm};
+  addSection(law_, *scene.wall, place, contact);
+  if (is_tip) addTip(law_, *scene.wall, place, contact);
+  if (scene.fragments != nullptr) scene.fragments->press(shape.node_mm[i], chain_.radius_mm[i], contact);
+  return contact;
+}
+
+/// Bend, friction, drag and the spring to the hand: all but the wall and what takes energy away.
+double FileInCanal::besideWall_Nmm(const ChainShape& shape, const Kept& kept, const ChainBalance& sum) const noexcept {
+  double energy_Nmm = 0.0, dragged_mm2 = 0.0;
+  for (std::size_t i = 1; i <= chain_.links; ++i) {
+    energy_Nmm += sum.bend[i].energy_Nmm;
+    const dvec3 dragged_mm = shape.node_mm[i] - kept.guess_mm[i];
+    dragged_mm2 += glm::dot(dragged_mm, dragged_mm);
+    if (!(state_.normal_N[i] > 0.0)) continue;
+    const double axial_mm = state_.bristle[i].mm.x + glm::dot(shape.node_mm[i] - kept.from_mm[i], kept.axis[i]);
+    energy_Nmm += kept.flutes[i].axial *
+                  bristlePull(law_.bristle_N_per_mm, state_.normal_N[i], axial_mm, kept.round_mm[i]).energy_Nmm;
+  }
+  energy_Nmm += 0.5 * law_.drag_N_per_mm2 * chain_.link_mm * dragged_mm2;
+  if (grip_.rigid) return energy_Nmm;
+  const dvec3 stretch_mm = state_.hand_X_PT.translation_mm - shape.node_mm[0];
+  return energy_Nmm + 0.5 * grip_.N_per_mm * glm::dot(stretch_mm, stretch_mm);
+}
+
+/// The wall at every section; false: it has more energy than a shape may have that is taken.
+bool FileInCanal::meetWall(const ChainShape& shape, const Kept& kept, const FileScene& scene, const ChainBalance& sum,
+                           PerNode<SectionContact>& wall, Limit& limit) const noexcept {
+  const bool is_limited = limit.most_Nmm < std::numeric_limits<double>::infinity() && scene.pull_P_N == nullptr;
+  double left_Nmm = std::numeric_limits<double>::infinity();
+  if (is_limited) {
+    left_Nmm = limit.most_Nmm + kNoise_Nmm * (1.0 + std::fabs(limit.most_Nmm)) - besideWall_Nmm(shape, kept, sum);
+    // Turning takes no more away than that.
+    for (std::size_t i = 1; i <= chain_.links; ++i)
+      if (state_.normal_N[i] > 0.0)
+        left_Nmm += std::fabs(glm::dot(kept.screw_N[i], shape.node_mm[i] - kept.from_mm[i]));
+  }
+  // From where it was too much before, then from the tip: there it is most often.
+  const std::size_t first = is_limited ? limit.suspect : 0;
+  const auto meet = [&](std::size_t i) {
+    wall[i] = wallAt(shape, kept, scene, i);
+    left_Nmm -= wall[i].energy_Nmm;
+    if (left_Nmm < 0.0) limit.suspect = i;
+    return left_Nmm >= 0.0;
+  };
+  if (left_Nmm < 0.0 || (first > 0 && !meet(first))) return false;
+  for (std::size_t i = chain_.links; i > 0; --i)
+    if (i != first && !meet(i)) return false;
+  return true;
+}
+
+ChainBalance FileInCanal::balanceAt(const ChainShape& shape, const Kept& kept, const FileScene& scene,
+                                    Limit& limit) const noexcept {
   ChainBalance sum;
   for (std::size_t i = 1; i <= chain_.links; ++i) {
     const dvec3 before = kept.rest.straight ? shape.direction[i - 1] : kept.rest.turn[i] * shape.direction[i - 1];
     sum.bend[i] = jointBend(chain_.bend[i], lengthOf(shape.direction[i] - before));
+  }
+  PerNode<SectionContact> wall;
+  if (!meetWall(shape, kept, scene, sum, wall, limit)) {
+    sum.energy_Nmm = std::numeric_limits<double>::infinity();
+    return sum;
+  }
+  for (std::size_t i = 1; i <= chain_.links; ++i) {
     sum.energy_Nmm += sum.bend[i].energy_Nmm;
-
     const dvec3& at_mm = shape.node_mm[i];
-    const bool is_tip = i == chain_.links;
-    SectionContact contact;
-    if (scene.wall != nullptr) {
-      const SectionPlace place{at_mm, kept.axis[i], chain_.radius_mm[i],
-                               is_tip ? 0.5 * chain_.link_mm : chain_.link_mm};
-      addSection(law_, *scene.wall, place, contact);
-      if (is_tip) addTip(law_, *scene.wall, place, contact);
-      if (scene.fragments != nullptr) scene.fragments->press(at_mm, chain_.radius_mm[i], contact);
-    }
+    SectionContact& contact = wall[i];
 
     // Friction along the axis, with the normal force of the tick before.
     const dvec3& axis = kept.axis[i];
@@ -155,7 +217,8 @@ ChainBalance FileInCanal::balanceAt(const ChainShape& shape, const Kept& kept, c
 
 void FileInCanal::settle(const Kept& kept, const FileScene& scene, FileTick& tick) noexcept {
   ChainShape& shape = state_.shape;
-  balance_ = balanceAt(shape, kept, scene);
+  Limit none, limit;
+  balance_ = balanceAt(shape, kept, scene, none);
   tick.evaluations = 1;
   tick.started_Nmm = balance_.energy_Nmm;
   const bool is_met = scene.wall != nullptr || scene.stop.has_value();
@@ -187,9 +250,10 @@ void FileInCanal::settle(const Kept& kept, const FileScene& scene, FileTick& tic
     bool is_taken = false;
     for (int n = 0; !is_taken && n <= kMostShortenings; ++n, share *= 0.4) {
       const ChainShape tried = moved(chain_, shape, step, share);
-      const ChainBalance found = balanceAt(tried, kept, scene);
+      limit.most_Nmm = before_Nmm - 1e-4 * share * step.descent_Nmm + noise_Nmm;
+      const ChainBalance found = balanceAt(tried, kept, scene, limit);
       ++tick.evaluations;
-      is_taken = found.energy_Nmm <= before_Nmm - 1e-4 * share * step.descent_Nmm + noise_Nmm;
+      is_taken = found.energy_Nmm <= limit.most_Nmm;
       if (is_taken) shape = tried, balance_ = found, taken = share;
       if (is_last) break;
     }
@@ -197,7 +261,8 @@ void FileInCanal::settle(const Kept& kept, const FileScene& scene, FileTick& tic
     for (double farther = 3.0; slides_off && is_taken && !is_last && farther < 30.0; farther *= 3.0) {
       const ChainShape tried =
           moved(chain_, before, step, std::min(farther * taken, kMostFileStep_mm / step.farthest_mm));
-      const ChainBalance found = balanceAt(tried, kept, scene);
+      limit.most_Nmm = balance_.energy_Nmm;
+      const ChainBalance found = balanceAt(tried, kept, scene, limit);
       ++tick.evaluations;
       if (!(found.energy_Nmm < balance_.energy_Nmm)) break;
       shape = tried, balance_ = found;

@@ -13,6 +13,7 @@
 #include "haptics/bone/solid_field.h"
 #include "haptics/file/file_twist.h"
 #include "haptics/file/riccati_sweep.h"
+#include "haptics/file/wall_contact.h"
 #include "haptics/wrench.h"
 
 namespace haptics {
@@ -101,9 +102,16 @@ class FileInCanal {
 
  private:
   struct Kept;
+  struct Limit;
   bool isPressed() const noexcept;
   void follow(const FilePose& hand_X_PT) noexcept;
-  ChainBalance balanceAt(const ChainShape& shape, const Kept& kept, const FileScene& scene) const noexcept;
+  SectionContact wallAt(const ChainShape& shape, const Kept& kept, const FileScene& scene,
+                        std::size_t i) const noexcept;
+  double besideWall_Nmm(const ChainShape& shape, const Kept& kept, const ChainBalance& sum) const noexcept;
+  bool meetWall(const ChainShape& shape, const Kept& kept, const FileScene& scene, const ChainBalance& sum,
+                PerNode<SectionContact>& wall, Limit& limit) const noexcept;
+  ChainBalance balanceAt(const ChainShape& shape, const Kept& kept, const FileScene& scene,
+                         Limit& limit) const noexcept;
   ShaftLoad stopAt(const ChainShape& shape, const FileScene& scene, double& energy_Nmm) const noexcept;
   void settle(const Kept& kept, const FileScene& scene, FileTick& tick) noexcept;
   void twistAndSlide(const ChainShape& before, const Kept& kept, FileTick& tick) noexcept;
