@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <exception>
+#include <future>
+#include <numbers>
 #include <span>
 
 #include <fmt/core.h>
 
 #include "app/case/case.h"
 #include "app/case/patient_placement.h"
+#include "app/procedure/preparation/ideal_rule.h"
 #include "app/session/session_folder.h"
 #include "app/text/clock_text.h"
 #include "assets/synthetic/jaw.h"
@@ -43,7 +46,8 @@ StartList caseStartList(std::span<const PatientListing> patients) {
         {.words = begun(assets::toothName(one.fdi())) + ", " + angulationText(one),
          .beside = fmt::format("{}, {}", one.name, difficultyText(one)),
          .about = fmt::format("{}; {}. {}.", begun(depthText(one)), canalText(one), begun(std::string(one.challenge))),
-         .arguments = {"--case", std::string(one.name)}});
+         .arguments = {"--case", std::string(one.name)},
+         .fdi = one.fdi()});
   }
   for (const assets::PracticeText& block : assets::kPracticeTasks)
     list.choices.push_back({.words = begun(std::string(block.title)),
@@ -51,6 +55,66 @@ StartList caseStartList(std::span<const PatientListing> patients) {
                             .about = std::string(block.instruction) + ".",
                             .arguments = {"--case", std::string(block.key)},
                             .has_mouth = false});
+  return list;
+}
+
+StartList taskList() {
+  StartList list{"Operation", {}, 0};
+  list.choices.push_back({.words = "Third molar",
+                          .beside = "removed",
+                          .about = "The impacted tooth of the chosen case: gutter, section, out with it.",
+                          .arguments = {}});
+  list.choices.push_back({.words = "Root canal",
+                          .beside = "from the crown on",
+                          .about = "The access cavity is drilled first, then the canals are filed.",
+                          .arguments = {"--task", "root-canal"},
+                          .task = StartTask::root_canal});
+  list.choices.push_back({.words = "Root canal, cavity open",
+                          .beside = "files alone",
+                          .about = "The access cavity is there: the files go in.",
+                          .arguments = {"--task", "root-canal", "--access", "open"},
+                          .task = StartTask::root_canal});
+  for (const IdealRule& rule : idealRules())
+    list.choices.push_back(
+        {.words = begun(std::string(rule.for_people)),
+         .beside = "prepared",
+         .about = "One tooth is prepared to its ideal: " + std::string(rule.for_people) + ", and measured against it.",
+         .arguments = {"--task", "preparation", "--ideal", std::string(rule.name)},
+         .task = StartTask::preparation});
+  return list;
+}
+
+/// "mesiobuccal 20.4 mm, 24°".
+std::string canalWords(const assets::ToothCanal& canal) {
+  return fmt::format("{} {:.1f} mm, {:.0f}°", canal.name, canal.workingLength_mm(),
+                     canal.schneider_rad * 180.0 / std::numbers::pi);
+}
+
+/// Of both sides: a left jaw is the right one's mirror image.
+StartList toothList(std::span<const CanalTooth> right) {
+  StartList list{"Tooth", {}, 0};
+  list.choices.push_back({.words = "Point at it",
+                          .beside = "",
+                          .about = "For root canals: the jaw is shown, and a click takes the tooth under the pointer.",
+                          .arguments = {}});
+  constexpr int kRightToLeft = 10, kUsual = 46;
+  for (const int by : {0, kRightToLeft})
+    for (const CanalTooth& tooth : right) {
+      // An impacted one cannot be treated.
+      if (!tooth.canals || !tooth.remark.empty()) continue;
+      const int fdi = tooth.fdi - by;
+      std::string canals;
+      for (const assets::ToothCanal& canal : tooth.canals->canals)
+        canals += (canals.empty() ? "" : "; ") + canalWords(canal);
+      if (fdi == kUsual) list.chosen = list.choices.size();
+      const std::size_t count = tooth.canals->canals.size();
+      list.choices.push_back({.words = fmt::format("{}", fdi),
+                              .beside = fmt::format("{} canal{}", count, count == 1 ? "" : "s"),
+                              .about = fmt::format("{}. Canals, working length and curve, of the built-in patient: {}.",
+                                                   begun(assets::toothName(fdi)), canals),
+                              .arguments = {"--tooth", fmt::format("{}", fdi)},
+                              .fdi = fdi});
+    }
   return list;
 }
 
@@ -72,15 +136,17 @@ StartList handList(std::span<const haptics::FoundDevice> devices) {
          .arguments = {"--device", found.address},
          .why_not = driven ? "" : found.advice});
   }
-  list.choices.push_back({.words = "Demonstration",
-                          .beside = "",
-                          .about = "The program operates by itself along the planned cut, and you watch.",
-                          .arguments = {"--device", "scripted"}});
+  list.choices.push_back(
+      {.words = "Demonstration",
+       .beside = "",
+       .about = "The program operates by itself, along the planned cut, in the canals or on the crown, and you watch.",
+       .arguments = {"--device", "scripted"}});
   list.choices.push_back(
       {.words = "Demonstration, to the last piece",
        .beside = "",
        .about = "The whole operation, shown by itself: gutter, section, forceps. Some minutes; not for every scan.",
-       .arguments = {"--device", "scripted", "--procedure", "third-molar"}});
+       .arguments = {"--device", "scripted", "--procedure", "third-molar"},
+       .is_of_extraction = true});
   return list;
 }
 
@@ -172,16 +238,14 @@ StartList sessionList(std::span<const SessionListing> sessions) {
 }  // namespace
 
 StartLists startLists(const StartFindings& found) {
-  return {caseStartList(found.patients),
-          handList(found.devices),
-          calibrationList(found.calibrations),
-          positionList(),
-          openingList(),
-          sessionList(found.sessions)};
+  return {caseStartList(found.patients),       taskList(),     toothList(found.teeth), handList(found.devices),
+          calibrationList(found.calibrations), positionList(), openingList(),          sessionList(found.sessions)};
 }
 
 StartLists startListsHere() {
   StartFindings found;
+  // Some tenths of a second, beside the search for devices.
+  auto teeth = std::async(std::launch::async, [] { return canalTeeth(assets::JawParameters{}); });
   try {
     found.patients = listPatients(usualPatientFolder());
   } catch (const std::exception&) {  // no data folder
@@ -200,6 +264,7 @@ StartLists startListsHere() {
     found.sessions = listSessions(usualSessionFolder(), false, 2 * kSessionsOffered);
   } catch (const std::exception&) {  // molar sessions tells why
   }
+  found.teeth = teeth.get();
   return startLists(found);
 }
 

@@ -6,8 +6,13 @@ namespace app {
 namespace {
 
 constexpr auto kCases = static_cast<std::size_t>(StartListName::cases),
+               kTasks = static_cast<std::size_t>(StartListName::tasks),
+               kTeeth = static_cast<std::size_t>(StartListName::teeth),
                kOpening = static_cast<std::size_t>(StartListName::opening),
                kSessions = static_cast<std::size_t>(StartListName::sessions);
+
+/// 4 of 46.
+int quadrantOf(int fdi) { return fdi / 10; }
 
 }  // namespace
 
@@ -42,6 +47,21 @@ void StartMenu::moveChoice(std::size_t which, int by) {
   StartList& list = lists_[which];
   const auto last = static_cast<int>(list.choices.size()) - 1;
   list.chosen = static_cast<std::size_t>(std::clamp(static_cast<int>(list.chosen) + by, 0, last));
+  followSide(which);
+}
+
+/// A built-in jaw has the teeth of one side: the case follows the tooth, and the tooth the case.
+void StartMenu::followSide(std::size_t changed) {
+  if (changed != kCases && changed != kTeeth) return;
+  const int own = lists_[changed].choice().fdi;
+  StartList& other = lists_[changed == kCases ? kTeeth : kCases];
+  if (own == 0 || other.choice().fdi == 0 || quadrantOf(own) == quadrantOf(other.choice().fdi)) return;
+  const auto fits = [&](const StartChoice& choice) {
+    const bool is_alike = changed == kTeeth || choice.fdi % 10 == other.choice().fdi % 10;
+    return choice.fdi != 0 && quadrantOf(choice.fdi) == quadrantOf(own) && is_alike;
+  };
+  const auto found = std::ranges::find_if(other.choices, fits);
+  if (found != other.choices.end()) other.chosen = static_cast<std::size_t>(found - other.choices.begin());
 }
 
 void StartMenu::choose(std::size_t list, std::size_t choice) {
@@ -50,10 +70,12 @@ void StartMenu::choose(std::size_t list, std::size_t choice) {
   // Whoever points at a case means a new rehearsal; a mouth is opened with its case chosen before.
   if (isOverruled(list)) {
     if (list == kOpening && (lists_[kCases].choice().is_imported || !lists_[kCases].choice().has_mouth)) return;
+    if (list == kTeeth && chosen(StartListName::tasks).task == StartTask::extraction) return;
     lists_[kSessions].chosen = 0;
   }
   focus_ = list;
   lists_[list].chosen = choice;
+  followSide(list);
 }
 
 void StartMenu::scroll(std::size_t list, int by) {
@@ -73,13 +95,32 @@ StartMenu::Answer StartMenu::start() {
     say("This session is of an imported patient: choose that patient under " + lists_[kCases].title + ".", true);
     return Answer::none;
   }
+  if (const std::string why_not = contradiction(); !why_not.empty()) {
+    say(why_not, true);
+    return Answer::none;
+  }
   message_.clear();
   return Answer::start;
+}
+
+/// Choices that do not go together; empty: they do.
+std::string StartMenu::contradiction() const {
+  const StartTask task = chosen(StartListName::tasks).task;
+  const StartChoice& hand = chosen(StartListName::hand);
+  if (goesOn(lists_[kSessions].choice()) || task == StartTask::extraction) return "";
+  if (!chosen(StartListName::cases).has_mouth)
+    return "A practice block has no tooth: choose a patient under " + lists_[kCases].title + ".";
+  if (hand.is_of_extraction) return hand.words + ": it removes a third molar, choose another hand.";
+  if (task == StartTask::preparation && chosen(StartListName::teeth).fdi == 0)
+    return "Choose the tooth to be prepared under " + lists_[kTeeth].title + ".";
+  return "";
 }
 
 bool StartMenu::isOverruled(std::size_t list) const {
   const bool goes_on = goesOn(lists_[kSessions].choice()), imported_goes_on = lists_[kSessions].choice().is_imported;
   if (list == kOpening) return goes_on || lists_[kCases].choice().is_imported || !lists_[kCases].choice().has_mouth;
+  if (list == kTasks) return goes_on;
+  if (list == kTeeth) return goes_on || chosen(StartListName::tasks).task == StartTask::extraction;
   return list == kCases && goes_on && !imported_goes_on;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "render/display/window.h"
 
 namespace app {
+
+/// What is done: a third molar is removed, or one tooth is treated or prepared.
+enum class StartTask : std::uint8_t { extraction, root_canal, preparation };
 
 struct StartChoice {
   std::string words;   ///< in its list
@@ -20,8 +24,11 @@ struct StartChoice {
   std::string why_not = "";  ///< cannot be started, and what to do; empty: it can
   /// Of a patient: imported. Of a session to go on with: of an imported patient, which is to be chosen beside it.
   bool is_imported = false;
-  bool has_mouth = true;     ///< of a case: a face whose mouth opens
-  bool is_to_check = false;  ///< of a patient: what was found in its scan is looked at before a rehearsal
+  bool has_mouth = true;                   ///< of a case: a face whose mouth opens
+  bool is_to_check = false;                ///< of a patient: what was found in its scan is looked at before a rehearsal
+  StartTask task = StartTask::extraction;  ///< of a task
+  int fdi = 0;                             ///< of a tooth, and of a built-in case its third molar; 0: none
+  bool is_of_extraction = false;           ///< of a hand: it removes a third molar and nothing else
 };
 
 struct StartList {
@@ -37,8 +44,8 @@ inline bool goesOn(const StartChoice& choice) {
 }
 
 /// In the order of Tab.
-enum class StartListName : std::uint8_t { cases, hand, calibration, position, opening, sessions };
-inline constexpr std::size_t kStartLists = 6;
+enum class StartListName : std::uint8_t { cases, tasks, teeth, hand, calibration, position, opening, sessions };
+inline constexpr std::size_t kStartLists = 8;
 using StartLists = std::vector<StartList>;
 
 class StartMenu {
@@ -57,7 +64,8 @@ class StartMenu {
 
   const StartLists& lists() const { return lists_; }
   std::size_t focus() const { return focus_; }
-  /// A session to go on with brings its own case, but not an imported patient; only a built-in one has a mouth to open.
+  /// A session to go on with brings its own case and task, but not an imported patient; only a built-in one has a mouth
+  /// to open; a tooth is chosen where a task is of one.
   bool isOverruled(std::size_t list) const;
   /// A patient that is to be checked first is chosen, for a new rehearsal.
   bool startsCheck() const;
@@ -78,6 +86,9 @@ class StartMenu {
   void chooseAsIn(const std::vector<std::string>& chosen_words);
 
  private:
+  const StartChoice& chosen(StartListName list) const { return lists_[static_cast<std::size_t>(list)].choice(); }
+  std::string contradiction() const;
+  void followSide(std::size_t changed);
   void moveFocus(int by);
   void moveChoice(std::size_t list, int by);
 

@@ -23,15 +23,17 @@ struct ListPlace {
   std::size_t rows;
 };
 constexpr std::array<ListPlace, kStartLists> kLists{{
-    {{5.0, 14.0}, 80.0, 9},
-    {{91.0, 14.0}, 64.0, 4},
-    {{91.0, 37.5}, 64.0, 4},
-    {{91.0, 61.0}, 34.0, 5},
-    {{127.0, 61.0}, 28.0, 5},
-    {{5.0, 60.0}, 80.0, 4},
+    {{5.0, 12.0}, 80.0, 5},
+    {{5.0, 39.6}, 54.0, 5},
+    {{61.0, 39.6}, 24.0, 5},
+    {{91.0, 12.0}, 64.0, 4},
+    {{91.0, 35.2}, 64.0, 4},
+    {{91.0, 58.4}, 34.0, 5},
+    {{127.0, 58.4}, 28.0, 5},
+    {{5.0, 67.2}, 80.0, 3},
 }};
 constexpr glm::dvec2 kButton{127.0, 88.5}, kButtonSize{28.0, 7.0};
-constexpr double kAboutTop = 84.0, kAboutWidth = 78.0;
+constexpr double kAboutTop = 86.6, kAboutWidth = 78.0;
 
 /// The page in a window of that size.
 struct Scale {

@@ -24,7 +24,7 @@ class KeptChoices : public testing::Test {
 TEST_F(KeptChoices, AreChosenAgainAtTheNextStart) {
   EXPECT_TRUE(keptChoices().empty());
   StartMenu menu(startLists({}));
-  menu.choose(0, 5), menu.choose(1, 1), menu.choose(3, 2);
+  menu.choose(0, 5), menu.choose(1, 1), menu.choose(3, 1), menu.choose(5, 2);
   keepChoices(menu.chosenWords());
   StartMenu next(startLists({}));
   next.chooseAsIn(keptChoices());

@@ -6,6 +6,7 @@
 
 #include "app/case/case.h"
 #include "app/commands/rehearse_options.h"
+#include "app/procedure/preparation/ideal_rule.h"
 #include "app/text/command_line.h"
 #include "assets/synthetic/practice_block.h"
 
@@ -34,11 +35,27 @@ std::vector<SessionListing> foundSessions() {
   return sessions;
 }
 
+std::size_t at(StartListName list) { return static_cast<std::size_t>(list); }
+
+/// A first molar and one that is impacted.
+std::vector<CanalTooth> someTeeth() {
+  CanalTooth molar{46, assets::ToothCanals(), ""}, buried{48, assets::ToothCanals(), "impacted"};
+  for (const char* name : {"mesiobuccal", "distal"}) {
+    assets::ToothCanal canal;
+    canal.name = name;
+    canal.places = {{{0.0, 0.0, 0.0}, 0.0, 0.3, 0.3}, {{0.0, 0.0, -12.0}, 12.0, 0.2, 0.2}};
+    molar.canals->canals.push_back(canal);
+  }
+  buried.canals = molar.canals;
+  return {molar, buried};
+}
+
 StartLists someLists(std::size_t patients = 0) {
   StartFindings found{.patients = {},
                       .devices = foundDevices(),
                       .calibrations = {{"rig-02", "SIM-D7", "right"}},
-                      .sessions = foundSessions()};
+                      .sessions = foundSessions(),
+                      .teeth = someTeeth()};
   for (std::size_t n = 0; n < patients; ++n)
     found.patients.push_back({"/data/patients/mine " + std::to_string(n), "mine " + std::to_string(n),
                               "imported scan, lower left third molar (38)"});
@@ -84,7 +101,8 @@ TEST(StartLists, APatientThatNobodyConfirmedIsToBeChecked) {
   StartFindings found{.patients = {{"/p/a", "a", "imported scan", true}, {"/p/b", "b", "imported scan", false}},
                       .devices = {},
                       .calibrations = {},
-                      .sessions = {}};
+                      .sessions = {},
+                      .teeth = {}};
   StartMenu menu(startLists(found));
   menu.choose(0, 0);
   EXPECT_EQ(menu.lists()[0].choice().beside, "to be checked");
@@ -99,40 +117,73 @@ TEST(StartLists, EveryChoiceIsAcceptedByTheCommandLine) {
   for (std::size_t list = 0; list < lists.size(); ++list)
     for (std::size_t choice = 0; choice < lists[list].choices.size(); ++choice) {
       StartMenu menu(lists);
+      if (list == at(StartListName::teeth)) menu.choose(at(StartListName::tasks), 1);
       menu.choose(list, choice);
       if (!lists[list].choices[choice].why_not.empty()) continue;
       const RehearseOptions options = parsed(menu.arguments());
       EXPECT_EQ(options.case_name.empty(), menu.isOverruled(0));
-      if (list == 3 && choice == 4) {
+      if (list == at(StartListName::position) && choice == 4) {
         EXPECT_EQ(options.position, "behind");
       }
-      if (list == 1 && choice == 1) {
+      if (list == at(StartListName::hand) && choice == 1) {
         EXPECT_EQ(options.plan.device, "openhaptics");
       }
-      if (list == 2 && choice > 0) {
+      if (list == at(StartListName::calibration) && choice > 0) {
         EXPECT_TRUE(options.rig.isGiven());
       }
-      if (list == 4) {
+      if (list == at(StartListName::opening)) {
         EXPECT_EQ(options.opening_mm.value_or(37.0), (std::array{37.0, 50.0, 30.0, 25.0}.at(choice)));
       }
-      if (list == 5) {
+      if (list == at(StartListName::sessions)) {
         EXPECT_EQ(options.assess, choice == 1);
       }
-      if (list == 5 && choice == 2) {
+      if (list == at(StartListName::sessions) && choice == 2) {
         EXPECT_EQ(options.continued, "/data/0.molar");
       }
     }
 }
 
+TEST(StartLists, TeethAreOfferedByNumberWithTheirCanalsOnBothSides) {
+  const StartList list = someLists()[at(StartListName::teeth)];
+  ASSERT_EQ(list.choices.size(), 3u) << "pointed at, 46, 36; no impacted one";
+  EXPECT_TRUE(list.choices[0].arguments.empty());
+  EXPECT_EQ(list.choice().words, "46") << "chosen at first";
+  EXPECT_EQ(list.choice().beside, "2 canals");
+  EXPECT_NE(list.choice().about.find("mesiobuccal"), std::string::npos);
+  EXPECT_EQ(list.choices[2].words, "36");
+  EXPECT_NE(list.choices[2].about.find("Lower left first molar"), std::string::npos) << list.choices[2].about;
+}
+
+TEST(StartLists, EveryIdealIsOfferedAsTheCommandLineHasIt) {
+  const StartList list = someLists()[at(StartListName::tasks)];
+  ASSERT_EQ(list.choices.size(), 3 + idealRules().size());
+  for (std::size_t n = 0; n < idealRules().size(); ++n) {
+    StartMenu menu(someLists());
+    menu.choose(at(StartListName::tasks), 3 + n);
+    const RehearseOptions options = parsed(menu.arguments());
+    EXPECT_EQ(options.task, "preparation");
+    EXPECT_EQ(options.ideal, idealRules()[n].name);
+    EXPECT_EQ(options.tooth, std::optional<int>(46));
+  }
+  StartMenu menu(someLists());
+  menu.choose(at(StartListName::tasks), 2);
+  menu.choose(at(StartListName::teeth), 2);
+  const RehearseOptions options = parsed(menu.arguments());
+  EXPECT_EQ(options.task, "root-canal");
+  EXPECT_EQ(options.access, "open");
+  EXPECT_EQ(options.tooth, std::optional<int>(36));
+  EXPECT_EQ(caseNamed(options.case_name)->fdi(), 38) << "of a left jaw";
+}
+
 TEST(StartLists, AUnitThatIsNotReadyTellsItsNextStep) {
-  const StartList hand = someLists()[1];
+  const StartList hand = someLists()[at(StartListName::hand)];
   ASSERT_EQ(hand.choices.size(), 5u) << "mouse, two units, two demonstrations";
   EXPECT_EQ(hand.choices[1].why_not, "");
   EXPECT_EQ(hand.choices[2].why_not, "install OpenHaptics");
 }
 
 TEST(StartLists, SessionsThatCannotBeGoneOnWithAreLeftOut) {
-  const StartList list = someLists()[5];
+  const StartList list = someLists()[at(StartListName::sessions)];
   ASSERT_EQ(list.choices.size(), 2 + kSessionsOffered);
   EXPECT_EQ(list.choices[2].arguments[1], "/data/0.molar");
   EXPECT_EQ(list.choices[3].arguments[1], "/data/3.molar");

@@ -15,7 +15,7 @@ StartMenu menuOf(std::size_t sessions) {
     list[n].path = std::to_string(n) + ".molar";
     list[n].verdict = SessionVerdict::complete;
   }
-  return StartMenu(startLists({.patients = {}, .devices = {}, .calibrations = {}, .sessions = list}));
+  return StartMenu(startLists({.patients = {}, .devices = {}, .calibrations = {}, .sessions = list, .teeth = {}}));
 }
 
 TEST(StartPage, PlacesLieOnThePageApartFromEachOther) {
@@ -49,7 +49,7 @@ TEST(StartPage, AClickMeansTheChoiceUnderItInWindowsOfEveryShape) {
 
 TEST(StartPage, TheChoiceOfALongListIsAlwaysShown) {
   StartMenu menu = menuOf(40);
-  constexpr std::size_t kSessions = 5;
+  constexpr auto kSessions = static_cast<std::size_t>(StartListName::sessions);
   for (std::size_t n = 0; n < menu.lists()[kSessions].choices.size(); ++n) {
     menu.choose(kSessions, n);
     const std::vector<StartPlace> places = startPlaces(menu);
