@@ -96,7 +96,8 @@ OutlineOutcome outlineOutcome(const ToothBlocks& before, const FineSolid& after,
   OutlineOutcome out;
   forColumns(tooth, 3.0, [&](const glm::dvec2& at) {
     const double column_mm2 = kColumn_mm * kColumn_mm;
-    const bool is_ideal = assets::outlineDistance_mm(hull, at) <= kIdealAround_mm;
+    const bool is_ideal = assets::outlineDistance_mm(hull, at) <= kIdealAround_mm ||
+                          assets::outlineDistance_mm(tooth.chamber.outline_mm, at) <= tooth.chamber.round_mm;
     const glm::dvec3 p_P = tooth.frame.inP({at, tooth.chamber.roof_mm + kOutlineHeight_mm});
     const glm::ivec3 ijk(glm::floor(before.grid().indexFromPoint(p_P) + 0.5));
     const std::uint8_t label = before.label(ijk);

@@ -18,8 +18,8 @@ struct RoofOutcome {
 };
 RoofOutcome roofOutcome(const FineSolid& after, const assets::ToothCanals& tooth);
 
-/// Half a millimetre over the roof, what is open (also what was before the session) against the hull of all orifices
-/// and 0.5 mm around.
+/// Half a millimetre over the roof, what is open (also what was before the session) against what files and pulp need:
+/// the hull of all orifices with 0.5 mm around, and all of the chamber.
 struct OutlineOutcome {
   double ideal_mm2 = 0.0, opened_mm2 = 0.0;
   double too_wide_mm2 = 0.0, missing_mm2 = 0.0;

@@ -79,21 +79,29 @@ TEST(AccessOutcomes, AnOutlineThatWasOpenFromTheBeginningCounts) {
   const ToothBlocks opened(shapes::ShapeTooth(grid(), open, tissueOf));
   const OutlineOutcome out = outlineOutcome(opened, ShapeSolid(grid(), open), tooth());
   EXPECT_NEAR(out.opened_mm2, kPi, 0.05);
-  EXPECT_EQ(out.missing_mm2, 0.0);
-  EXPECT_NEAR(out.too_wide_mm2, kPi - out.ideal_mm2, 0.05);
+  EXPECT_EQ(out.too_wide_mm2, 0.0);
+  EXPECT_NEAR(out.missing_mm2, out.ideal_mm2 - kPi, 0.05);
 }
 
-TEST(AccessOutcomes, AnOutlineIsComparedWithHalfAMillimetreAroundTheOrifice) {
-  const OutlineOutcome wide =
-      outlineOutcome(before(), cut([](const glm::dvec3& p) { return opening(p, 1.0); }), tooth());
-  EXPECT_NEAR(wide.ideal_mm2, kPi * 0.25, 0.02);
-  EXPECT_NEAR(wide.opened_mm2, kPi, 0.05);
-  EXPECT_NEAR(wide.too_wide_mm2, kPi * 0.75, 0.05);
+TEST(AccessOutcomes, AnOutlineIsComparedWithTheChamberAndHalfAMillimetreAroundTheOrifice) {
+  const auto opened = [](double radius_mm, const assets::ToothCanals& of) {
+    return outlineOutcome(before(), cut([radius_mm](const glm::dvec3& p) { return opening(p, radius_mm); }), of);
+  };
+  constexpr double kChamber_mm2 = kPi * kChamber_mm * kChamber_mm;
+  const OutlineOutcome wide = opened(1.7, tooth());
+  EXPECT_NEAR(wide.ideal_mm2, kChamber_mm2, 0.06);
+  EXPECT_NEAR(wide.opened_mm2, kPi * 1.7 * 1.7, 0.08);
+  EXPECT_NEAR(wide.too_wide_mm2, kPi * 1.7 * 1.7 - kChamber_mm2, 0.12);
   EXPECT_NEAR(wide.missing_mm2, 0.0, 1e-9);
-  const OutlineOutcome narrow =
-      outlineOutcome(before(), cut([](const glm::dvec3& p) { return opening(p, 0.3); }), tooth());
-  EXPECT_NEAR(narrow.missing_mm2, kPi * (0.25 - 0.09), 0.02);
+  const OutlineOutcome narrow = opened(1.0, tooth());
+  EXPECT_NEAR(narrow.missing_mm2, kChamber_mm2 - kPi, 0.08);
   EXPECT_NEAR(narrow.too_wide_mm2, 0.0, 1e-9);
+  // Of a chamber that is hardly wider than its canal the files decide.
+  assets::ToothCanals slim = tooth();
+  slim.chamber.round_mm = 0.2;
+  const OutlineOutcome files = opened(0.3, slim);
+  EXPECT_NEAR(files.ideal_mm2, kPi * 0.25, 0.02);
+  EXPECT_NEAR(files.missing_mm2, kPi * (0.25 - 0.09), 0.02);
 }
 
 TEST(AccessOutcomes, LostTissueIsThatOfTheCylinder) {
