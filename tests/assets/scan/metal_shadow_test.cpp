@@ -82,6 +82,8 @@ TEST(MetalShadow, AFilmHasTheVolumeOfTheMetal) {
   const double mean_mm = 2.0 * 0.15 * 0.15 * (std::asin(1.0 / 3.0) + (1.0 / 3.0) * std::sqrt(8.0 / 9.0)) / 0.1;
   EXPECT_NEAR(steel_mm[middle], kSteelToBone * mean_mm, 0.03);
   EXPECT_NEAR(other_mm[middle], kNickelTitaniumToBone * mean_mm, 0.03);
+  EXPECT_GT(steel_mm[middle + 1], 1.0f);
+  EXPECT_GT(steel_mm[middle - 1], 1.0f);
   EXPECT_EQ(steel_mm[middle + 3], 0.0f);
   EXPECT_EQ(steel_mm[middle - 3], 0.0f);
 }
