@@ -5,7 +5,7 @@
 // (enamel:dentine:cortical:cancellous:pulp = 1:3:3:10:50, reference/physics 6). Stiffness ordered as the moduli of
 // reference/physics 4 (GPa: enamel 70-105, dentine 15-25, cortical 10-20, cancellous 0.1-2), compressed to the range a
 // device can render. Carious dentine: zones of falling hardness (Pugach 2009), stiffness 0.25 and 0.6, removal 12 and 3
-// times dentine's (ratios of our own).
+// times dentine's (ratios of our own). Fillings: cured as dentine x 0.8, uncured removal 100, the rest our defaults.
 #pragma once
 
 #include <array>
@@ -27,8 +27,17 @@ enum class Tissue : std::uint8_t {
   gingiva = 9,
   caries_soft = 10,  ///< infected: to be removed
   caries_firm = 11,  ///< affected: may stay over the pulp
+  // Laid by a dentist (haptics/bone/filling); no scan and no patient has these.
+  composite_soft = 12,  ///< not cured yet
+  composite = 13,
+  glass_ionomer_soft = 14,
+  glass_ionomer = 15,
+  amalgam = 16,
+  wax = 17,
+  gutta_percha = 18,
 };
-inline constexpr int kTissueCount = 12;
+inline constexpr int kTissueCount = 19;
+inline constexpr int kScanTissueCount = 12;  ///< labels that a volume may have
 
 struct TissueProperties {
   std::string_view key;     ///< in files and on the command line
@@ -53,6 +62,13 @@ inline constexpr std::array<TissueProperties, kTissueCount> kTissues = {{
     {"gingiva", "gingiva", 60.0, 50.0 / 3.0, 0.1, false, false},
     {"caries_soft", "soft caries", 700.0, 12.0, 0.275, true, true},
     {"caries_firm", "firm caries", 1250.0, 3.0, 0.66, true, true},
+    {"composite_soft", "uncured composite", 1900.0, 100.0, 0.12, false, false},
+    {"composite", "composite", 1900.0, 1.25, 0.88, false, false},
+    {"glass_ionomer_soft", "uncured glass ionomer", 1700.0, 100.0, 0.12, false, false},
+    {"glass_ionomer", "glass ionomer", 1700.0, 1.25, 0.88, false, false},
+    {"amalgam", "amalgam", 3000.0, 30.0, 0.4, false, false},
+    {"wax", "wax", 100.0, 60.0, 0.2, false, false},
+    {"gutta_percha", "gutta-percha", 2500.0, 60.0, 0.2, false, false},
 }};
 
 constexpr const TissueProperties& properties(std::uint8_t label) { return kTissues[label < kTissueCount ? label : 0]; }

@@ -218,6 +218,10 @@ void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, 
   gap_.touch(brick);
 }
 
+void FrameRenderer::updateTissue(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> tissue) {
+  fields_.updateTissue(brick, tissue);
+}
+
 void FrameRenderer::updateRuler(const Frame& frame) {
   if (frame.ruler == ruler_) return;
   ruler_ = frame.ruler;

@@ -63,6 +63,8 @@ class FrameRenderer {
   void setOverlay(std::vector<OverlayPanel> panels);
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
+  /// The tissue of a filling in such a brick (assets::Tissue); 0 where the scanned one shows.
+  void updateTissue(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> tissue);
 
   /// Between the bur of `frame` and the bone with all bricks given until now, moved pieces included; for Frame::gap.
   std::optional<BoneGap> gap(const Frame& frame);

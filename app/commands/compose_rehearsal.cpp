@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/case/patient_placement.h"
+#include "app/case/treated_tooth.h"
 #include "app/commands/rehearsal_refusals.h"
 #include "app/commands/rehearsed_case.h"
 #include "app/controls/prediction_question.h"
@@ -220,9 +221,11 @@ void chooseTools(RehearseOptions& options) {
   }
   if (isPreparation(options)) {
     // A round-ended taper for walls and margin, a torpedo for a chamfer, a flame and a wheel for the biting surface;
-    // for a cavity a pear and a narrow cylinder, a round one and an inverted cone.
-    if (options.ideal.starts_with("class"))
-      options.tools = {"pear:0.5,1.2", "cylinder:0.4,4", "round:1.0", "inverted-cone:0.5,0.8", "flame:0.6,6"};
+    // for a cavity a pear and a narrow cylinder, a round one and an inverted cone, and what fills it.
+    if (idealRule(options.ideal, "--ideal").kind == IdealKind::cavity)
+      options.tools = {"pear:0.5,1.2", "cylinder:0.4,4", "round:1.0", "inverted-cone:0.5,0.8",
+                       "flame:0.6,6",  "composite",      "plugger",   "carver",
+                       "curing-lamp",  "glass-ionomer",  "amalgam",   "wax"};
     else
       options.tools = {"round-taper:0.9,8", "torpedo:0.8,8",  "flame:0.6,6",
                        "wheel:1.8,1.2",     "cylinder:0.5,6", "round:1.4"};
@@ -399,6 +402,23 @@ void planPreparation(RehearsalPlan& plan) {
   plan.hand_script = preparationScript({std::move(crown), rule, "--ideal"}, tray);
 }
 
+/// Cuts the tooth to its ideal. Returns the solid as it was.
+std::vector<std::uint8_t> cutReady(assets::Patient& patient) {
+  const assets::PreparedTooth& tooth = *patient.prepared;
+  assets::CtVolume& ct = patient.ct;
+  const Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
+  const BoxBytes left = PreparedIdeal(crown, idealRule(tooth.ideal, "--ideal"), "--ideal").left(crown);
+  std::vector<std::uint8_t> whole = ct.solid;
+  const glm::ivec3 low(glm::round(ct.grid.indexFromPoint(left.grid().origin_P_mm)));
+  assets::forVoxels(left.grid(), [&](glm::ivec3 ijk, std::size_t from) {
+    const std::size_t v = ct.grid.index(low + ijk);
+    if (left.bytes()[from] >= ct.solid[v]) return;
+    ct.solid[v] = left.bytes()[from];
+    ct.hounsfield[v] = greyOf(ct.solid[v], ct.label[v]);
+  });
+  return whole;
+}
+
 /// What a recording has to know to be gone on from.
 void describeSetup(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
                    const std::optional<Continuation>& former) {
@@ -471,6 +491,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2]};
   if (plan.patient.prepared) planPreparation(plan);
+  if (options.cavity == "ready" && plan.patient.prepared) plan.scanned_solid = cutReady(plan.patient);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);
@@ -480,6 +501,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) describeSetup(plan, options, jaw, former);
+  if (plan.recording && plan.patient.prepared) plan.recording->whole = plan.scanned_solid;
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   placeInRoom(plan, position, chosen, device, X_PF);
   return std::move(plan);

@@ -14,11 +14,11 @@
 namespace app {
 namespace {
 
-using Volumes_mm3 = std::array<double, assets::kTissueCount>;
+using Volumes_mm3 = std::array<double, assets::kScanTissueCount>;
 
 Volumes_mm3 tissueVolumes(const assets::CtVolume& ct) {
-  std::array<std::uint64_t, assets::kTissueCount> voxels{};
-  for (const std::uint8_t label : ct.label) ++voxels[label < assets::kTissueCount ? label : 0];
+  std::array<std::uint64_t, assets::kScanTissueCount> voxels{};
+  for (const std::uint8_t label : ct.label) ++voxels[label < assets::kScanTissueCount ? label : 0];
   Volumes_mm3 volumes{};
   for (std::size_t l = 0; l < volumes.size(); ++l)
     volumes[l] = static_cast<double>(voxels[l]) * ct.grid.voxelVolume_mm3();

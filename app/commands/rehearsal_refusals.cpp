@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/device/pose_source_table.h"
+#include "app/procedure/preparation/ideal_rule.h"
 #include "app/session/session_folder.h"
 #include "app/session/session_reader.h"
 #include "app/text/usage_error.h"
@@ -82,6 +83,13 @@ void refuseUnlessForPreparation(const RehearseOptions& options) {
   static const RehearseOptions kAsked;
   if (options.plan.device == "scripted" && options.tools != kAsked.tools)
     throw UsageError("--tool: a scripted hand prepares a tooth with burs of its own, leave it out");
+  if (options.cavity != "ready") return;
+  if (idealRule(options.ideal, "--ideal").kind != IdealKind::cavity)
+    throw UsageError("--cavity ready: " + options.ideal + " is a crown, give --ideal class-1 or class-2");
+  if (options.plan.device == "scripted")
+    throw UsageError("--cavity ready: a scripted hand cuts the cavity itself, leave it out or give another --device");
+  if (!options.continued.empty())
+    throw UsageError("--cavity ready: --continue " + options.continued + " has its own cavity, leave one of them out");
 }
 
 void refuseUnlessDrawnHere(const RehearseOptions& options, const assets::CtVolume& ct) {

@@ -56,6 +56,13 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .showsDefault()
       .needs(task);
   command
+      .option("--cavity", options.cavity,
+              "Of a preparation for a filling: uncut; or ready: it is cut to its ideal, to practise filling it. Space, "
+              "pedal or button lays, packs, carves and cures")
+      .oneOf({"uncut", "ready"})
+      .showsDefault()
+      .needs(task);
+  command
       .option("--tooth", options.tooth,
               "The tooth of a root-canal treatment or a preparation, FDI number, see molar teeth")
       .wholeFrom(11, 48)
@@ -96,7 +103,8 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
           headHelp() + "; or forceps, which the pedal closes on a tooth; or " + elevatorForms() + "; or " +
               handInstrumentForms() + "; or " + fileForm() +
               ". Give several to change between them by key T or pedal; without any, an elevator, forceps, suction, "
-              "curette and bone file lie beside the bur where a tooth is to be removed")
+              "curette and bone file lie beside the bur where a tooth is to be removed, and what fills it where a "
+              "cavity is prepared")
       .repeated()
       .showsDefault();
   command.option("--shaft", options.shaft,

@@ -26,6 +26,7 @@ struct RehearseOptions {
               flap = "raised";
   std::string task = "extraction", access = "closed", locator = "real", wear = "rate";
   std::string ideal = "crown:all-ceramic";  ///< of a tooth preparation
+  std::string cavity = "uncut";             ///< ready: of a preparation, cut to its ideal
   std::optional<int> tooth;                 ///< of a root-canal treatment or a preparation
   bool list_cases = false, assess = false;
   PictureOption picture;

@@ -19,8 +19,21 @@ constexpr std::array<std::string_view, assets::kBurProfiles> kProfiles{
 constexpr std::array<std::string_view, 5> kElevators{"none", "elevator 301", "elevator 34S", "Cryer elevator left",
                                                      "Cryer elevator right"};
 // In the order of haptics::HandInstrument.
-constexpr std::array<std::string_view, 6> kHandInstruments{"none",    "scalpel no. 15", "periosteal elevator",
-                                                           "curette", "bone file",      "suction tip"};
+constexpr std::array<std::string_view, haptics::kHandInstrumentKeys.size()> kHandInstruments{
+    "none",
+    "scalpel no. 15",
+    "periosteal elevator",
+    "curette",
+    "bone file",
+    "suction tip",
+    "applicator, composite",
+    "applicator, glass ionomer",
+    "amalgam carrier",
+    "applicator, wax",
+    "applicator, gutta-percha",
+    "plugger",
+    "carver",
+    "curing lamp"};
 constexpr double kSameSize = 0.02;  ///< tenths of a millimetre
 
 }  // namespace

@@ -32,10 +32,27 @@ void ToothCopy::take(const haptics::Bodies& bodies, std::span<const glm::ivec3> 
       ++n;
     });
   }
+  const haptics::Filling* const filling = bodies.filling();
+  if (filling == nullptr) return;
+  for (const glm::ivec3& brick : bricks) {
+    const haptics::FillingBrick one = filling->copyBrick(brick);
+    if (filling_.laid.empty() && one.laid == decltype(one.laid){}) continue;
+    for (std::vector<std::uint8_t>* volume : {&filling_.laid, &filling_.tissue, &filling_.increment})
+      if (volume->empty()) volume->assign(grid_.voxelCount(), 0);
+    const glm::ivec3 low = kBrick * brick;
+    std::size_t n = 0;
+    assets::forVoxels(low, low + kBrick, [&](glm::ivec3 ijk) {
+      const std::size_t from = n++;
+      if (!bodies.grid().contains(ijk)) return;
+      const std::size_t v = grid_.index(ijk);
+      filling_.laid[v] = one.laid[from], filling_.tissue[v] = one.tissue[from];
+      filling_.increment[v] = one.increment[from];
+    });
+  }
 }
 
 bool StrokePause::isDue(const haptics::Tick& newest, bool has_changed) {
-  if (newest.drilling || newest.file.stay == haptics::FileStay::wall) busy_s_ = newest.t_s;
+  if (newest.drilling || newest.filling.works || newest.file.stay == haptics::FileStay::wall) busy_s_ = newest.t_s;
   const bool rests = newest.t_s - busy_s_ > kRest_s;
   if (!has_changed || newest.t_s - measured_s_ < (rests ? kBetween_s : kBetweenAtWork_s)) return false;
   measured_s_ = newest.t_s;

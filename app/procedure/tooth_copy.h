@@ -22,6 +22,8 @@ class ToothCopy {
   std::span<const std::uint8_t> before() const { return before_; }
   std::span<const std::uint8_t> labels() const { return label_; }
   std::span<const std::uint8_t> now() const { return now_; }
+  /// What was laid into it; empty volumes: nothing was yet.
+  const haptics::Filling::Volumes& filling() const { return filling_; }
 
   /// Those bricks of the live jaw.
   void take(const haptics::Bodies& bodies, std::span<const glm::ivec3> bricks);
@@ -29,6 +31,7 @@ class ToothCopy {
  private:
   assets::VolumeGrid grid_;
   std::vector<std::uint8_t> before_, label_, now_;
+  haptics::Filling::Volumes filling_;
 };
 
 class StrokePause {

@@ -25,6 +25,8 @@ Continuation continuationOf(const std::string& path) {
   Continuation next;
   next.path = path;
   BoneAtTime bone = boneAtTime(path, {});
+  if (SessionReader(path).finalFilling(bone.start))
+    throw UsageError("--continue " + path + ": its tooth was filled, which cannot be gone on with; begin anew");
   next.remarks = std::move(bone.remarks);
   next.grid = bone.start.grid;
   next.solid = std::move(bone.solid);

@@ -27,6 +27,7 @@ std::string driveText(double rpm, bool enabled) {
 
 /// What a hand instrument meets: "on bone", "on gingiva", "free".
 std::string meetsText(const haptics::Tick& tick) {
+  if (tick.depth_mm > 0.0 && tick.contact_tissue >= assets::kScanTissueCount) return "on filling";
   if (tick.depth_mm > 0.0) return assets::isTooth(tick.contact_tissue) ? "on tooth" : "on bone";
   if (!tick.soft.touches()) return "free";
   return fmt::format("on {}", assets::properties(tick.soft.tissue).name);

@@ -13,6 +13,8 @@
 namespace app {
 namespace {
 
+constexpr const char* kFillingEvent = "filling";
+
 /// Another locator, or another day, every time; a stepped rehearsal repeats itself.
 std::uint64_t locatorSeed(const assets::ToothCanals& tooth, bool is_real_time) {
   return is_real_time ? std::random_device{}() : static_cast<std::uint64_t>(tooth.fdi);
@@ -55,6 +57,8 @@ void SingleToothSite::follow(std::span<const haptics::Tick> ticks, const haptics
     for (const std::string& told : canal_log_->follow(ticks, tool)) tell(told, t_s, kFileEvent);
   if (links_.bodies.jaw().cutsWholeBlocks() && !std::exchange(tells_blocks_, true))
     tell("the tooth's memory is full: where it is still whole it is now cut in steps of four voxels", t_s, kFileEvent);
+  if (ticks.back().filling.is_full && !std::exchange(tells_full_, true))
+    tell("no more filling fits into memory: what is laid elsewhere is lost", t_s, kFillingEvent);
 }
 
 void SingleToothSite::followHand(const haptics::Tick& newest, const haptics::Command& command, render::Frame& picture) {
@@ -70,7 +74,18 @@ std::optional<std::span<const assets::MetalFragment>> SingleToothSite::takeFragm
 
 void SingleToothSite::followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
   if (treatment_) treatment_->follow(bricks, newest, canal_log_->use());
-  if (preparation_) preparation_->follow(bricks, newest);
+  if (preparation_ && preparation_->follow(bricks, newest)) tellIncrements(newest.t_s);
+}
+
+/// Once each.
+void SingleToothSite::tellIncrements(double t_s) {
+  const auto& outcomes = preparation_->newest();
+  if (!outcomes || !outcomes->filling) return;
+  for (const Increment& one : outcomes->filling->increments)
+    if (one.isTooDeep() && deep_increments_.insert(one.number).second)
+      tell(fmt::format("increment {} is {:.1f} mm deep: light sets {:g} mm", one.number, one.depth_mm,
+                       kDeepestIncrement_mm),
+           t_s, kFillingEvent);
 }
 
 void SingleToothSite::finish() {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -61,6 +62,7 @@ class SingleToothSite {
   std::string canals() const { return canal_log_ ? canal_log_->summary() : std::string(); }
 
  private:
+  void tellIncrements(double t_s);
   void tell(const std::string& line, double t_s, const char* kind);
 
   Links links_;
@@ -69,6 +71,8 @@ class SingleToothSite {
   std::optional<LocatorWatch> locator_;
   std::optional<TreatmentWatch> treatment_;
   std::optional<PreparationWatch> preparation_;
+  std::set<int> deep_increments_;  ///< told
+  bool tells_full_ = false;
   bool tells_blocks_ = false;  ///< that the live tooth is cut by whole blocks
 };
 

@@ -13,6 +13,7 @@ namespace {
 StepInstrument instrumentOf(const haptics::Tool& tool) {
   switch (tool.hand_instrument) {
     case haptics::HandInstrument::none:
+    default:
       break;
     case haptics::HandInstrument::scalpel_15:
       return StepInstrument::scalpel;

@@ -110,6 +110,38 @@ std::string againstIdeal(const PreparationOutcomes& of) {
          " too deep (99 % of it). P8: " + within + ".</p>\n";
 }
 
+std::string fillingOf(const FillingOutcomes& of) {
+  TableRows rows{{"F1 laid", fixedText(of.laid_mm3, 2) + " mm³", ""},
+                 {"F2 share of the cavity filled",
+                  fixedText(100.0 * of.filledShare(), 0) + " % of " + fixedText(of.cavity_mm3, 2) + " mm³", "100 %"}};
+  for (std::size_t tissue = 0; tissue < of.laid_of_mm3.size(); ++tissue)
+    if (of.laid_of_mm3[tissue] > 0.0)
+      rows.insert(rows.begin() + 1,
+                  {std::string(assets::kTissues[tissue].name), fixedText(of.laid_of_mm3[tissue], 2) + " mm³", ""});
+  std::string sizes;
+  for (const FillingVoid& one : of.voids)
+    sizes += (sizes.empty() ? ": " : ", ") + fixedText(one.volume_mm3, 2) + " mm³";
+  rows.push_back(
+      {fmt::format("F3 voids of {:g} mm³ and more", kLeastVoid_mm3), std::to_string(of.voids.size()) + sizes, "none"});
+  rows.push_back({fmt::format("F4 overhang, more than {:g} mm outside of the intact tooth", kLeastOverhang_mm),
+                  fixedText(of.overhang_mm3, 2) + " mm³, " + millimetres(of.overhang_mm), "none"});
+  rows.push_back({"F5 contour: off the intact tooth (root mean square)", millimetres(of.contour_rms_mm), "0"});
+  rows.push_back(
+      {"too high, too low (99 % of it)", millimetres(of.too_high_mm) + ", " + millimetres(of.too_low_mm), "0"});
+  for (const Increment& one : of.increments)
+    rows.push_back({fmt::format("F6 increment {}", one.number),
+                    fixedText(one.laid_mm3, 2) + " mm³, " + millimetres(one.depth_mm) + " deep" +
+                        (one.is_cured_by_light ? ", " + fixedText(100.0 * one.cured_share, 0) + " % cured" : ""),
+                    one.is_cured_by_light ? fmt::format("at most {:g} mm before curing", kDeepestIncrement_mm) : ""});
+  if (of.curable_mm3 > 0.0)
+    rows.push_back({"F7 cured, of what light sets", fixedText(100.0 * of.curedShare(), 0) + " %", "100 %"});
+  bool is_too_deep = false;
+  for (const Increment& one : of.increments) is_too_deep = is_too_deep || one.isTooDeep();
+  return "<div class=\"beside\">\n" + gate(is_too_deep, "An increment over 2 mm before curing", "light reaches 2 mm") +
+         gate(!of.voids.empty(), "Voids", sizes.empty() ? sizes : sizes.substr(2)) + "</div>\n" +
+         tableMarkup({"Measure", "made", "wanted"}, rows);
+}
+
 std::string pictureOf(const PreparationOfSession& of) {
   const render::Image& picture = of.picture;
   if (picture.w == 0) return "";
@@ -129,6 +161,7 @@ void addPreparation(HtmlPage& page, const PreparationOfSession& of) {
                    escaped(fmt::format("{} ({}), measured against: {}.", assets::toothName(of.tooth.fdi), of.tooth.fdi,
                                        of.rule.for_people)) +
                    "</p>\n" + (of.outcomes.cavity ? cavityFormOf(of) : crownForm(of)));
+  if (of.outcomes.filling) page.section("Filling", fillingOf(*of.outcomes.filling));
   page.section("Against the ideal", againstIdeal(of.outcomes) + pictureOf(of));
 }
 

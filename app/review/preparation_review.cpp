@@ -86,6 +86,53 @@ std::string crownTable(const PreparationOfSession& of) {
   return text;
 }
 
+OrderedJson fillingJson(const FillingOutcomes& of) {
+  OrderedJson materials = OrderedJson::object(), increments = OrderedJson::array(), voids = OrderedJson::array();
+  for (std::size_t tissue = 0; tissue < of.laid_of_mm3.size(); ++tissue)
+    if (of.laid_of_mm3[tissue] > 0.0) materials[std::string(assets::kTissues[tissue].key)] = of.laid_of_mm3[tissue];
+  for (const Increment& one : of.increments)
+    increments.push_back({{"number", one.number},
+                          {"laid_mm3", one.laid_mm3},
+                          {"depth_mm", one.depth_mm},
+                          {"cured_share", one.cured_share},
+                          {"too_deep", one.isTooDeep()}});
+  for (const FillingVoid& one : of.voids)
+    voids.push_back(
+        {{"mm3", one.volume_mm3}, {"middle_P_mm", {one.middle_P_mm.x, one.middle_P_mm.y, one.middle_P_mm.z}}});
+  return {{"F1_laid_mm3", of.laid_mm3},
+          {"F1_materials_mm3", materials},
+          {"F2_cavity_mm3", of.cavity_mm3},
+          {"F2_filled_share", of.filledShare()},
+          {"F3_voids", voids},
+          {"F4_overhang_mm3", of.overhang_mm3},
+          {"F4_overhang_mm", of.overhang_mm},
+          {"F5_contour_rms_mm", of.contour_rms_mm},
+          {"F5_contour_mean_mm", of.contour_mean_mm},
+          {"F5_too_high_mm", of.too_high_mm},
+          {"F5_too_low_mm", of.too_low_mm},
+          {"F6_increments", increments},
+          {"F7_cured_share", of.curable_mm3 > 0.0 ? OrderedJson(of.curedShare()) : OrderedJson()}};
+}
+
+std::string fillingTable(const FillingOutcomes& of) {
+  std::string text = fmt::format("\nFilling: {:.2f} mm3 laid, {:.0f} % of a cavity of {:.2f} mm3 filled\n", of.laid_mm3,
+                                 100.0 * of.filledShare(), of.cavity_mm3);
+  for (std::size_t tissue = 0; tissue < of.laid_of_mm3.size(); ++tissue)
+    if (of.laid_of_mm3[tissue] > 0.0)
+      text += fmt::format("  {:<22} {:>7.2f} mm3\n", assets::kTissues[tissue].name, of.laid_of_mm3[tissue]);
+  if (of.curable_mm3 > 0.0) text += fmt::format("of what light sets {:.0f} % is cured\n", 100.0 * of.curedShare());
+  for (const Increment& one : of.increments)
+    text += fmt::format(
+        "increment {}: {:.2f} mm3, {:.2f} mm deep{}\n", one.number, one.laid_mm3, one.depth_mm,
+        one.isTooDeep() ? fmt::format(", an error: over {:g} mm before curing", kDeepestIncrement_mm) : std::string());
+  text += fmt::format("voids of {:g} mm3 and more: {}", kLeastVoid_mm3, of.voids.size());
+  for (const FillingVoid& one : of.voids) text += fmt::format(", {:.3f} mm3", one.volume_mm3);
+  return text + fmt::format(
+                    "\noverhang {:.2f} mm3, {:.2f} mm at most; contour {:.2f} mm off the intact tooth (root mean "
+                    "square), {:.2f} mm too high and {:.2f} mm too low at most\n",
+                    of.overhang_mm3, of.overhang_mm, of.contour_rms_mm, of.too_high_mm, of.too_low_mm);
+}
+
 std::string cavityTable(const PreparationOfSession& of) {
   const CavityForm& form = *of.outcomes.cavity;
   if (!form.isCut()) return "no cavity along the fissure\n";
@@ -108,13 +155,15 @@ std::string cavityTable(const PreparationOfSession& of) {
 }  // namespace
 
 std::optional<PreparationOfSession> preparationOfSession(const StoredStart& start,
-                                                         std::span<const std::uint8_t> solid_after) {
+                                                         std::span<const std::uint8_t> solid_after,
+                                                         const std::optional<haptics::Filling::Volumes>& filling) {
   if (!start.setup.prepared) return {};
   PreparationOfSession of{*start.setup.prepared, idealRule(start.setup.prepared->ideal, "--ideal"), {}, {}};
-  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
-  const PreparationMeasure measure(Crown(before, of.tooth.frame), of.rule, "--ideal");
+  const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
+  PreparationMeasure measure(Crown(before, of.tooth.frame), of.rule, "--ideal");
   const BoxBytes made(DenseSolid(start.grid, solid_after), measure.crown().solid.grid());
   of.outcomes = measure.outcomesOf(made);
+  if (filling) of.outcomes.filling = measure.fillingOf(made, laidBoxes(*filling, start.grid, made.grid()));
   of.picture = preparationPicture(measure, made, of.outcomes);
   return of;
 }
@@ -124,7 +173,7 @@ std::optional<PreparationOfSession> preparationOfSession(const std::string& path
   if (!session.about().setup.prepared) return {};
   const StoredStart start = session.start();
   const auto end = session.finalBone(start);
-  return end ? preparationOfSession(start, end->solid) : std::nullopt;
+  return end ? preparationOfSession(start, end->solid, session.finalFilling(start)) : std::nullopt;
 }
 
 std::string preparationJson(const PreparationOfSession& of) {
@@ -152,6 +201,7 @@ std::string preparationJson(const PreparationOfSession& of) {
                       {"enamel_mm3", removed.enamel_mm3},
                       {"dentine_mm3", removed.dentine_mm3},
                       {"pulp_open_mm2", removed.pulp_open_mm2}};
+  if (of.outcomes.filling) json["filling"] = fillingJson(*of.outcomes.filling);
   json.update(of.outcomes.cavity ? cavityJson(*of.outcomes.cavity) : crownJson(of.outcomes, of.tooth.fdi));
   return json.dump();
 }
@@ -171,7 +221,7 @@ std::string preparationTable(const PreparationOfSession& of) {
   text += fmt::format("{:.0f} % of it within 0.2 mm\n", 100.0 * deviation.within[1]);
   text += fmt::format("enamel {:.1f} mm3, dentine {:.1f} mm3; of a neighbour {:.2f} mm3; pulp open {:.2f} mm2\n",
                       removed.enamel_mm3, removed.dentine_mm3, removed.neighbour_mm3, removed.pulp_open_mm2);
-  return text;
+  return of.outcomes.filling ? text + fillingTable(*of.outcomes.filling) : text;
 }
 
 }  // namespace app

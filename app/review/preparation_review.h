@@ -22,7 +22,8 @@ struct PreparationOfSession {
 
 /// None: another operation.
 std::optional<PreparationOfSession> preparationOfSession(const StoredStart& start,
-                                                         std::span<const std::uint8_t> solid_after);
+                                                         std::span<const std::uint8_t> solid_after,
+                                                         const std::optional<haptics::Filling::Volumes>& filling);
 /// None: another operation, or one that was not ended in order.
 std::optional<PreparationOfSession> preparationOfSession(const std::string& path);
 

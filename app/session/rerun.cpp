@@ -37,6 +37,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (!same(recorded.overlap_mm3, again.overlap_mm3)) return "the overlap differs";
   if (!same(recorded.depth_mm, again.depth_mm)) return "the depth differs";
   if (!same(recorded.removed_mm3, again.removed_mm3)) return "the removed volume differs";
+  if (!(recorded.filling == again.filling)) return "the filling differs";
   if (recorded.bone_digest != again.bone_digest) return "the bone differs";
   if (recorded.contact_tissue != again.contact_tissue) return "the tissue in contact differs";
   if (!same(recorded.soft, again.soft)) return "the contact with soft tissue differs";

@@ -26,6 +26,10 @@ inline constexpr std::size_t kTrailerBytes = kTrailerMark.size() + 32;
 inline constexpr std::string_view kSolid = "solid", kLabel = "label", kRemoved = "gone";
 /// Optional: 1 in the voxels of the tooth to be removed, a body of its own (haptics/body/bodies).
 inline constexpr std::string_view kIsTooth = "tooth";
+/// Optional: the solid before what was cut already at the start.
+inline constexpr std::string_view kWhole = "whole";
+/// Optional, at the end: what was laid into a tooth, its tissue, its increment.
+inline constexpr std::string_view kLaid = "laid", kLaidTissue = "laid_tissue", kLaidIncrement = "laid_increment";
 /// Optional: FDI number of the tooth of each voxel.
 inline constexpr std::string_view kTeeth = "teeth";
 /// Soft tissue, on its own grid (key soft_tissue_grid of `about`): low, then high bytes of the distances; tissues.

@@ -51,7 +51,11 @@ void SessionMoments::keepFirst() {
     blocks_.emplace_back(sizeof(haptics::BlockState), bones[bone].blocks());
     is_kept_.emplace_back(bones[bone].blocks());
   }
-  kept_blocks_.resize(bones.size());
+  if (const haptics::Filling* const filling = bodies_.filling()) {
+    blocks_.emplace_back(sizeof(haptics::BlockState), filling->blocks());
+    is_kept_.emplace_back(filling->blocks());
+  }
+  kept_blocks_.resize(blocks_.size());
   for (std::size_t bone = 1; bone < bones.size(); ++bone) {
     written(bone);  // when it was made
     for (std::size_t block = 0; block < bones[bone].blocks(); ++block) {
@@ -64,15 +68,22 @@ void SessionMoments::keepFirst() {
 
 std::vector<std::size_t> SessionMoments::written(std::size_t bone) {
   std::vector<std::size_t> blocks;
-  bodies_.bones()[bone].takeWritten(blocks);
+  if (bone < bodies_.bones().size())
+    bodies_.bones()[bone].takeWritten(blocks);
+  else
+    bodies_.filling()->takeWritten(blocks);
   return blocks;
+}
+
+haptics::BlockState SessionMoments::stateNow(std::size_t bone, std::size_t block) const {
+  return bone < bodies_.bones().size() ? bodies_.bones()[bone].stateOf(block) : bodies_.filling()->stateOf(block);
 }
 
 void SessionMoments::keep() {
   const auto version = static_cast<std::uint32_t>(keyframes_.size());
   for (std::size_t bone = 0; bone < blocks_.size(); ++bone)
     for (const std::size_t block : written(bone)) {
-      const haptics::BlockState state = bodies_.bones()[bone].stateOf(block);
+      const haptics::BlockState state = stateNow(bone, block);
       if (keptState(bone, block, version) == state) continue;
       if (!is_kept_[bone][block]) kept_blocks_[bone].push_back(block);
       is_kept_[bone][block] = true;
@@ -109,8 +120,11 @@ haptics::BlockState SessionMoments::keptState(std::size_t bone, std::size_t bloc
 
 void SessionMoments::restoreBlock(std::size_t bone, std::size_t block, std::uint32_t version) {
   const haptics::BlockState state = keptState(bone, block, version);
-  haptics::CarvedBone& of = bodies_.bones()[bone];
-  if (!(of.stateOf(block) == state)) of.restoreBlock(block, state);
+  if (stateNow(bone, block) == state) return;
+  if (bone < bodies_.bones().size())
+    bodies_.bones()[bone].restoreBlock(block, state);
+  else
+    bodies_.filling()->restoreBlock(block, state);
 }
 
 void SessionMoments::restore(std::size_t number) {

@@ -94,7 +94,9 @@ class SessionMoments {
   haptics::BlockState keptState(std::size_t bone, std::size_t block, std::uint32_t version) const;
   void restoreBlock(std::size_t bone, std::size_t block, std::uint32_t version);
   /// Blocks since the last call.
+  /// Of bone n, or of the filling behind the last.
   std::vector<std::size_t> written(std::size_t bone);
+  haptics::BlockState stateNow(std::size_t bone, std::size_t block) const;
   /// Ticks of blocks, in order; false: the end.
   bool nextTick(haptics::Tick& recorded);
   void run(const haptics::Tick& recorded, const Follow& follow, bool compares);

@@ -220,6 +220,7 @@ struct SessionReader::Impl {
       if (start.solid.empty()) throw damagedSession("it has no bone");
       start.label = volume(session_format::kLabel, voxels);
       if (start.label.empty()) start.label.resize(voxels);
+      start.whole = volume(session_format::kWhole, voxels);
       start.is_tooth = volume(session_format::kIsTooth, voxels);
       start.teeth = volume(session_format::kTeeth, voxels);
       readSoftTissue(start.soft_tissue);
@@ -367,6 +368,20 @@ std::optional<SessionReader::FinalBone> SessionReader::finalBone(const StoredSta
     for (std::size_t v = 0; v < left.solid.size(); ++v)
       left.solid[v] = static_cast<std::uint8_t>(start.solid[v] - left.solid[v]);
     return left;
+  });
+}
+
+std::optional<haptics::Filling::Volumes> SessionReader::finalFilling(const StoredStart& start) {
+  return impl_->reading([&]() -> std::optional<haptics::Filling::Volumes> {
+    if (impl_->isPacked()) return std::nullopt;
+    const std::size_t voxels = start.grid.voxelCount();
+    haptics::Filling::Volumes at{impl_->volume(session_format::kLaid, voxels),
+                                 impl_->volume(session_format::kLaidTissue, voxels),
+                                 impl_->volume(session_format::kLaidIncrement, voxels)};
+    if (at.laid.empty()) return std::nullopt;
+    if (at.tissue.empty() || at.increment.empty()) throw damagedSession("a part of its filling is missing");
+    for (std::uint8_t& tissue : at.tissue) tissue = impl_->label[tissue];
+    return at;
   });
 }
 

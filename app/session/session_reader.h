@@ -12,6 +12,7 @@
 #include "app/session/session_error.h"
 #include "app/session/session_text.h"
 #include "app/session/session_writer.h"
+#include "haptics/bone/filling.h"
 
 namespace app {
 
@@ -72,6 +73,8 @@ class SessionReader {
   };
   /// The bone at the close; none: killed, or schema 3 or 4. `start` is that of this session.
   std::optional<FinalBone> finalBone(const StoredStart& start);
+  /// What lies in the tooth at the end; none: nothing does, or the session was not ended in order.
+  std::optional<haptics::Filling::Volumes> finalFilling(const StoredStart& start);
 
  private:
   struct Impl;

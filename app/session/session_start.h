@@ -34,6 +34,8 @@ struct SessionStart {
   /// Borrowed, in the order of `grid`: not 0 in the tooth to be removed (haptics/body/bodies); empty: the jaw is one
   /// body.
   std::span<const std::uint8_t> is_tooth = {};
+  /// The same: the solid before what is cut already when it begins; empty: nothing is.
+  std::span<const std::uint8_t> whole = {};
   std::span<const std::uint8_t> teeth = {};  ///< the same, numbers of the teeth; empty: not numbered
 };
 
@@ -43,6 +45,7 @@ struct StoredStart {
   double dt_s = 0.0;
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
+  std::vector<std::uint8_t> whole;                ///< before what was cut already; empty: nothing was, or not stored
   std::vector<std::uint8_t> is_tooth;             ///< empty: one body, or recorded before it was stored
   std::vector<std::uint8_t> teeth;                ///< FDI numbers; empty: none, or recorded before they were stored
   assets::SoftTissueField soft_tissue;            ///< empty: none, or recorded before it was stored

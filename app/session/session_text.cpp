@@ -230,7 +230,7 @@ SessionSetup setupFrom(const json& object) {
         throw damagedSession("it has no valid tray");
       tool.elevator = static_cast<haptics::ElevatorKind>(elevator);
       const int by_hand = valueOf(one, "hand_instrument", 0);
-      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::suction))
+      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::curing_lamp))
         throw damagedSession("it has no valid tray");
       tool.hand_instrument = static_cast<haptics::HandInstrument>(by_hand);
       const int profile = valueOf(one, "profile", 0);

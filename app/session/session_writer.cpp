@@ -146,6 +146,10 @@ struct SessionWriter::Impl {
       appendVolume(session_format::kLabel, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::ranges::copy(start.label.subspan(first, part.size()), part.begin());
       });
+    if (!start.whole.empty())
+      appendVolume(session_format::kWhole, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
+        std::ranges::copy(start.whole.subspan(first, part.size()), part.begin());
+      });
     if (!start.is_tooth.empty())
       appendVolume(session_format::kIsTooth, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::ranges::copy(start.is_tooth.subspan(first, part.size()), part.begin());
@@ -171,6 +175,18 @@ struct SessionWriter::Impl {
         part[n] = static_cast<std::uint8_t>(start[n] - left[first + n]);
       }
     });
+  }
+
+  void appendFilling(const haptics::Filling& filling) {
+    const haptics::Filling::Volumes at = filling.volumes();
+    const auto append_bytes = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
+      appendVolume(name, bytes.size(), [&](std::size_t first, std::span<std::uint8_t> part) {
+        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(first), part.size(), part.begin());
+      });
+    };
+    append_bytes(session_format::kLaid, at.laid);
+    append_bytes(session_format::kLaidTissue, at.tissue);
+    append_bytes(session_format::kLaidIncrement, at.increment);
   }
 
   /// Runs `work`; if it throws, runs `restore` and reports a database error as one line on this file.
@@ -237,6 +253,7 @@ SessionWriter::SessionWriter(const std::string& path, bool overwrite, const Sess
   assert(start.solid.size() == start.grid.voxelCount());
   assert(start.label.empty() || start.label.size() == start.grid.voxelCount());
   assert(start.is_tooth.empty() || start.is_tooth.size() == start.grid.voxelCount());
+  assert(start.whole.empty() || start.whole.size() == start.grid.voxelCount());
   assert(start.teeth.empty() || start.teeth.size() == start.grid.voxelCount());
   impl_->attempt([&] { impl_->begin(start); }, [] {});
 }
@@ -275,6 +292,8 @@ void SessionWriter::seal(std::uint64_t lost, const haptics::Bodies* bodies) {
   impl_->write([&] {
     if (bodies != nullptr) {
       impl_->appendRemoved(*bodies);
+      if (const haptics::Filling* const filling = bodies->filling(); filling != nullptr && !filling->isEmpty())
+        impl_->appendFilling(*filling);
       end.bone_digest = bodies->digest();
     }
     impl_->append("seal", {sealText(end)});

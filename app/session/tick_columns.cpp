@@ -101,6 +101,18 @@ void visitFile(auto& file, Visit&& visit) {
 }
 
 template <class Visit>
+void visitFilling(auto& filling, Visit&& visit) {
+  auto& [works, is_full, increment, changed_mm3, packed_mm3, total_mm3, cured_mm3] = filling;
+  visit(Text{"filling.works"}, works);
+  visit(Text{"filling.is_full"}, is_full);
+  visit(Text{"filling.increment"}, increment);
+  visit(Text{"filling.changed_mm3", "", "mm3"}, changed_mm3);
+  visit(Text{"filling.packed_mm3", "", "mm3"}, packed_mm3);
+  visit(Text{"filling.total_mm3", "", "mm3"}, total_mm3);
+  visit(Text{"filling.cured_mm3", "", "mm3"}, cured_mm3);
+}
+
+template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
   auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, handle_velocity_P_mm_per_s, jacobian_P_mm, motor_heat, gap_s, drill_pedal,
          fresh, docked, held, calibrated, stop_requested, device_healthy] = hand;
@@ -131,7 +143,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
          commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, restored_total_mm3,
          bone_digest, removed_total_mm3, contact_tissue, soft, drilling, drill_inhibit, strokes, undone_strokes, pieces,
          split, bridge, broken, bridge_share, site, chips, gripped, set_aside, unsettled, X_PQ, grip_force_P_N,
-         grip_torque_P_Nmm, lever, torn_share, torn_total_Nmm, file, state, faults, work_us] = tick;
+         grip_torque_P_Nmm, lever, torn_share, torn_total_Nmm, file, filling, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -181,6 +193,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"torn_share"}, torn_share);
   visit(Text{"torn_total_Nmm", "", "N mm"}, torn_total_Nmm);
   visitFile(file, visit);
+  visitFilling(filling, visit);
   visit(Text{"state", "", "", "", kStates}, state);
   visit(Text{"faults", "", "", "", kFaults}, faults);
   visit(Text{"work_us", "", "us"}, work_us);

@@ -37,6 +37,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.grid = patient.ct.grid;
   start.solid = patient.ct.solid;
   start.label = patient.ct.label;
+  start.whole = recording->whole;
   const std::vector<std::uint8_t> is_tooth = voxelsOfTooth(patient);
   start.is_tooth = is_tooth;
   start.soft_tissue = &soft_tissue;

@@ -26,8 +26,9 @@ struct Recording {
   bool overwrite = false;
   SessionCalibration calibration = {};
   SessionSetup setup = {};
-  bool by_default = false;  ///< nobody asked for it: if it cannot be made, the rehearsal goes on without
-  TickTap* tap = nullptr;   ///< borrowed; null: nobody else is told of the ticks
+  std::vector<std::uint8_t> whole = {};  ///< solid before what is cut already; empty: nothing is
+  bool by_default = false;               ///< nobody asked for it: if it cannot be made, the rehearsal goes on without
+  TickTap* tap = nullptr;                ///< borrowed; null: nobody else is told of the ticks
 };
 
 class Workstation {

@@ -37,6 +37,14 @@ void BrickUploader::uploadBrick(const haptics::Bodies& from, glm::ivec3 brick, r
     for (std::size_t v = 0; v < part.size(); ++v)
       solid[v] = static_cast<std::uint8_t>(std::min(255, solid[v] + part[v]));
   }
+  if (const haptics::Filling* const filling = from.filling()) {
+    haptics::FillingBrick one = filling->copyBrick(brick);
+    for (std::size_t v = 0; v < solid.size(); ++v) {
+      if (one.laid[v] < solid[v]) one.tissue[v] = 0;  // the larger part gives the colour
+      solid[v] = static_cast<std::uint8_t>(std::min(255, solid[v] + one.laid[v]));
+    }
+    to.updateTissue(brick, one.tissue);
+  }
   to.updateBrick(brick, solid);
 }
 

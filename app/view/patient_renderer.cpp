@@ -33,8 +33,8 @@ static_assert(static_cast<int>(assets::ElevatorForm::cryer_right) + 1 ==
 assets::HandInstrumentForm formOf(haptics::HandInstrument kind) {
   return static_cast<assets::HandInstrumentForm>(static_cast<int>(kind) - 1);
 }
-static_assert(static_cast<int>(assets::HandInstrumentForm::suction) + 1 ==
-              static_cast<int>(haptics::HandInstrument::suction));
+static_assert(static_cast<int>(assets::HandInstrumentForm::curing_lamp) + 1 ==
+              static_cast<int>(haptics::HandInstrument::curing_lamp));
 
 /// A little wider than what they grip (haptics::forcepsTool).
 constexpr double kOpenBeaks_mm = 8.0;

@@ -97,7 +97,7 @@ std::optional<LabelTable> labelTable(LabelSet set, const std::array<bool, 256>& 
   LabelTable table{};
   switch (set) {
     case LabelSet::molar:
-      for (std::size_t value = 1; value < kTissueCount; ++value)
+      for (std::size_t value = 1; value < kScanTissueCount; ++value)
         table[value] = {LabelKind::tissue, 0, static_cast<Tissue>(value)};
       return table;
     case LabelSet::dental_segmentator:

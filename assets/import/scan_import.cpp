@@ -100,11 +100,11 @@ Tissues readTissues(const std::optional<std::string>& labels, const std::string&
     ct.label = valuesOn(ct.grid, *labels, ct_path);
     const auto count = countsOf(ct.label);
     std::vector<std::size_t> foreign;
-    for (std::size_t value = kTissueCount; value < count.size(); ++value)
+    for (std::size_t value = kScanTissueCount; value < count.size(); ++value)
       if (count[value] > 0) foreign.push_back(value);
     if (!foreign.empty()) {
       std::string legend;
-      for (std::size_t value = 1; value < kTissueCount; ++value)
+      for (std::size_t value = 1; value < kScanTissueCount; ++value)
         legend += std::to_string(value) + " " + std::string(kTissues[value].name) + ", ";
       throw LoadError(*labels + ": unknown label " + listOf(foreign) + "; use " + legend + "and 0 for everything else");
     }

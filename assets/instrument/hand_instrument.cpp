@@ -83,7 +83,40 @@ constexpr Knot kSuctionHandle[] = {
     {95.0, {0.0, 17.0}, {4.60, 4.60}, 0, 0, 0, 5},  {130.0, {0.0, 29.0}, {4.40, 4.40}, 0, 0, 0, 2},
     {134.0, {0.0, 30.3}, {3.20, 3.20}, 0, 0, 0, 1}, {135.0, {0.0, 30.6}, {1.60, 1.60}, 0, 0, 0, 1}};
 
-// Shared by periosteal elevator, curette and file.
+// An applicator's tip: a small ball on a thin neck; a plugger's: a round end of 1.4 mm.
+constexpr Knot kApplicatorTip[] = {
+    {-0.50, {0.0, 0.0}, {0.05, 0.05}, 0, 0, 0, 1}, {-0.45, {0.0, 0.0}, {0.22, 0.22}, 0, 0, 0, 1},
+    {-0.25, {0.0, 0.0}, {0.43, 0.43}, 0, 0, 0, 1}, {0.00, {0.0, 0.0}, {0.50, 0.50}, 0, 0, 0, 1},
+    {0.25, {0.0, 0.0}, {0.43, 0.43}, 0, 0, 0, 1},  {0.60, {0.0, 0.0}, {0.34, 0.34}, 0, 0, 0, 2},
+    {9.00, {0.0, 0.0}, {0.40, 0.40}, 0, 0, 0, 3},  {16.0, {0.0, 0.0}, {0.75, 0.75}, 0, 0, 0, 2},
+    {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
+constexpr Knot kCarrierTip[] = {{-0.80, {0.0, 0.0}, {0.10, 0.10}, 0, 0, 0, 1},
+                                {-0.75, {0.0, 0.0}, {0.55, 0.55}, 0, 0, 0, 1},
+                                {-0.50, {0.0, 0.0}, {0.78, 0.78}, 0, 0, 0, 2},
+                                {9.00, {0.0, 0.0}, {0.80, 0.80}, 0, 0, 0, 3},
+                                {18.0, {0.0, 0.0}, {0.95, 0.95}, 0, 0, 0, 1}};
+constexpr Knot kPluggerTip[] = {
+    {-0.70, {0.0, 0.0}, {0.10, 0.10}, 0, 0, 0, 1}, {-0.66, {0.0, 0.0}, {0.45, 0.45}, 0, 0, 0, 1},
+    {-0.40, {0.0, 0.0}, {0.66, 0.66}, 0, 0, 0, 1}, {0.00, {0.0, 0.0}, {0.70, 0.70}, 0, 0, 0, 2},
+    {2.00, {0.0, 0.0}, {0.60, 0.60}, 0, 0, 0, 2},  {9.00, {0.0, 0.0}, {0.55, 0.55}, 0, 0, 0, 3},
+    {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
+// A small blade with one edge.
+constexpr Knot kCarverTip[] = {
+    {-0.40, {0.0, 0.0}, {0.05, 0.10}, 0.2, 0.8, 0, 1}, {-0.20, {0.0, 0.0}, {0.14, 0.32}, 0.2, 0.8, 0, 2},
+    {0.60, {0.0, 0.0}, {0.26, 0.52}, 0.3, 0.9, 0, 2},  {3.00, {0.0, 0.0}, {0.32, 0.60}, 0.3, 0.8, 0, 2},
+    {5.50, {0.0, 0.0}, {0.34, 0.42}, 0.1, 0.2, 0, 2},  {10.0, {0.0, 0.0}, {0.45, 0.45}, 0, 0, 0, 3},
+    {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
+// A glass rod, bent at its end, on a gun-like handle.
+constexpr Knot kLampGuide[] = {
+    {-3.00, {0.0, 0.0}, {3.60, 3.60}, 0, 0, 0, 1}, {-2.90, {0.0, 0.0}, {4.00, 4.00}, 0, 0, 0, 1},
+    {6.00, {0.0, 0.0}, {4.00, 4.00}, 0, 0, 0, 3},  {16.0, {0.0, 1.5}, {4.20, 4.20}, 0, 0, 0, 4},
+    {30.0, {0.0, 9.0}, {5.00, 5.00}, 0, 0, 0, 4},  {44.0, {0.0, 21.0}, {6.00, 6.00}, 0, 0, 0, 1}};
+constexpr Knot kLampBody[] = {
+    {41.0, {0.0, 18.5}, {6.00, 6.00}, 0, 0, 0, 1},    {44.0, {0.0, 21.0}, {10.0, 10.0}, 0.2, 0, 0, 2},
+    {60.0, {0.0, 35.0}, {13.0, 13.0}, 0.2, 0, 0, 4},  {110.0, {0.0, 78.0}, {14.0, 14.0}, 0.2, 0, 0, 4},
+    {130.0, {0.0, 95.0}, {12.0, 12.0}, 0.2, 0, 0, 2}, {134.0, {0.0, 98.0}, {6.00, 6.00}, 0.2, 0, 0, 1}};
+
+// Shared by all but scalpel, suction tip and lamp.
 constexpr Knot kShank[] = {{16.0, {0.0, 0.0}, {0.80, 0.80}, 0, 0, 0, 1},
                            {18.0, {0.0, 0.0}, {1.10, 1.10}, 0, 0, 0, 3},
                            {34.0, {0.0, 0.0}, {1.50, 1.50}, 0, 0, 0, 3},
@@ -140,6 +173,17 @@ MeshModel withHandle(MeshPart tip) {
   return {{std::move(tip), part(kShank, "Shank", kSteel), part(kHandle, "Handle", kSteel, kGroove_mm)}};
 }
 
+Material tinted(const glm::vec3& albedo, float roughness) { return {{albedo, 1.0f}, roughness, 0.0f}; }
+
+/// With its material at the tip, as drawn in the tooth (render/volume/tissue_appearance).
+MeshModel applicator(std::span<const Knot> tip, const glm::vec3& albedo) {
+  const std::size_t kept = tip.size() - 3;
+  MeshPart laden = part(tip.first(kept), "Blade", tinted(albedo, 0.4f));
+  MeshModel model = withHandle(std::move(laden));
+  model.parts.push_back(part(tip.subspan(kept - 1), "Neck", kSteel));
+  return model;
+}
+
 }  // namespace
 
 MeshModel handInstrument(HandInstrumentForm form) {
@@ -154,6 +198,23 @@ MeshModel handInstrument(HandInstrumentForm form) {
       return withHandle(part(kFileHead, "Blade", kSteel, 0.0, kTooth_mm));
     case HandInstrumentForm::suction:
       return {{part(kSuctionTube, "Blade", kSteel), part(kSuctionHandle, "Handle", kSteel)}};
+    case HandInstrumentForm::composite:
+      return applicator(kApplicatorTip, {0.93f, 0.76f, 0.44f});
+    case HandInstrumentForm::glass_ionomer:
+      return applicator(kApplicatorTip, {0.62f, 0.74f, 0.86f});
+    case HandInstrumentForm::amalgam:
+      return applicator(kCarrierTip, {0.40f, 0.42f, 0.45f});
+    case HandInstrumentForm::wax:
+      return applicator(kApplicatorTip, {0.20f, 0.45f, 0.30f});
+    case HandInstrumentForm::gutta_percha:
+      return applicator(kApplicatorTip, {0.85f, 0.36f, 0.30f});
+    case HandInstrumentForm::plugger:
+      return withHandle(part(kPluggerTip, "Blade", kSteel));
+    case HandInstrumentForm::carver:
+      return withHandle(part(kCarverTip, "Blade", kBladeSteel));
+    case HandInstrumentForm::curing_lamp:
+      return {{part(kLampGuide, "Blade", tinted({0.12f, 0.13f, 0.15f}, 0.2f)),
+               part(kLampBody, "Handle", tinted({0.75f, 0.76f, 0.78f}, 0.5f))}};
   }
   return {{part(kScalpelBlade, "Blade", kBladeSteel), part(kScalpelNeck, "Shank", kSteel),
            part(kScalpelHandle, "Handle", kSteel)}};

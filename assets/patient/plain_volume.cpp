@@ -104,7 +104,7 @@ CtVolume readPlainVolume(const std::string& path) {
 
   std::array<bool, 256> is_tooth_number{};
   for (int fdi = 0; fdi < 256; ++fdi) is_tooth_number[static_cast<std::size_t>(fdi)] = fdi == 0 || isToothNumber(fdi);
-  if (std::ranges::any_of(volume.label, [](std::uint8_t label) { return label >= kTissueCount; }) ||
+  if (std::ranges::any_of(volume.label, [](std::uint8_t label) { return label >= kScanTissueCount; }) ||
       !std::ranges::all_of(volume.tooth, [&](std::uint8_t fdi) { return is_tooth_number[fdi]; }))
     refuse(path, "a value is out of range");
   return volume;

@@ -41,13 +41,16 @@ Bodies::Bodies(CarvedBone jaw) {
   numberBlocks();
 }
 
-/// One numbering for the stroke history.
+/// One numbering for the stroke history, of the filling last.
 void Bodies::numberBlocks() {
   std::size_t first = 0;
   for (CarvedBone& bone : bones_) {
     bone.setFirstBlock(first);
     first += bone.blocks();
   }
+  if (!isFillable(grid())) return;
+  filling_.emplace(grid());
+  filling_->setFirstBlock(first);
 }
 
 std::size_t Bodies::pieces() const {
@@ -79,9 +82,12 @@ void Bodies::putBack(std::size_t piece, const PiecePose& X_PQ) {
   at_rest_[piece] = isRest(X_PQ);
 }
 
-SolidBodies Bodies::view() const {
+SolidBodies Bodies::view(bool with_plastic) const {
   SolidBodies view(jaw().field());
   for (std::size_t n = 0; n < pieces(); ++n) view.add({bones_[n + 1].field(), at_rest_[n], X_PQ_[n]});
+  if (!filling_) return view;
+  if (with_plastic && !filling_->isEmpty()) view.add({filling_->field(), true, {}});
+  if (!with_plastic && filling_->hasSet()) view.add({filling_->setField(), true, {}});
   return view;
 }
 
@@ -109,6 +115,7 @@ std::uint64_t Bodies::digestAt(std::span<const PiecePose, kMaxPieces> X_PQ) cons
     mix(bones_[n + 1].digest());
     for (const double number : {r.w, r.x, r.y, r.z, t.x, t.y, t.z}) mix(std::bit_cast<std::uint64_t>(number));
   }
+  if (filling_ && filling_->digest() != 0) mix(filling_->digest());
   return digest;
 }
 
@@ -128,6 +135,7 @@ void Bodies::takeDirtyBricks(std::vector<glm::ivec3>& out) {
     bones_[n + 1].dirtyBricks().takeInto(out);
     for (std::size_t at = first; at < out.size(); ++at) out[at] += first_brick_;
   }
+  if (filling_) filling_->dirtyBricks().takeInto(out);
 }
 
 std::vector<std::uint8_t> Bodies::solidInGridOrder() const {
@@ -162,6 +170,11 @@ CarveResult carveTool(Bodies& bodies, const BurShape& head,
     ErosionStep turned = step;
     if (!body.at_rest) turned.axis_P.xyz = glm::conjugate(body.X_PQ.rotation) * step.axis_P.xyz;
     removed += carveTool(bodies.bones()[n + 1], head, body.inBody(X_PT), turned, tick, interleave, strokes);
+  }
+  if (Filling* const filling = bodies.filling(); filling != nullptr && !filling->isEmpty()) {
+    CarveResult of_filling = carveTool(*filling, head, X_PT, step, tick, interleave, strokes);
+    of_filling.removed_mm3 = 0.0;
+    removed += of_filling;
   }
   return removed;
 }

@@ -1,7 +1,7 @@
-// The live volumes of a rehearsal: the jaw, and the tooth to be removed as a body of its own from the start, later in
-// up to kMaxPieces pieces. Frame P, mm; a piece lies in its frame Q, which is P until it moves. One writer, the servo;
-// other threads copy dirty bricks of single bones, and take poses and the number of pieces from the Tick.
-// All pieces have the tooth's grid: a split moves solid from one to an empty one, block by block.
+// The live volumes of a rehearsal: the jaw, the tooth to be removed as a body of its own from the start, later in up to
+// kMaxPieces pieces, and what is laid into a tooth. Frame P, mm; a piece lies in its frame Q, which is P until it
+// moves. One writer, the servo; other threads copy dirty bricks of single bones, and take poses and the number of
+// pieces from the Tick. All pieces have the tooth's grid: a split moves solid from one to an empty one, block by block.
 // While a piece is at rest, forces, cuts and pictures are those of one undivided volume. Construction divides the
 // volume (assets/scan/tooth_division) and allocates; every other call but solidInGridOrder() is bounded and never
 // allocates, locks or throws.
@@ -18,6 +18,7 @@
 #include "haptics/body/solid_bodies.h"
 #include "haptics/bone/carve.h"
 #include "haptics/bone/carved_bone.h"
+#include "haptics/bone/filling.h"
 
 namespace haptics {
 
@@ -41,6 +42,9 @@ class Bodies {
   std::span<CarvedBone> bones() { return bones_; }
   std::span<const CarvedBone> bones() const { return bones_; }
   const CarvedBone& jaw() const { return bones_.front(); }
+  /// What is laid into a tooth of a fine grid (bone/filling); null: of a jaw.
+  Filling* filling() { return filling_ ? &*filling_ : nullptr; }
+  const Filling* filling() const { return filling_ ? &*filling_ : nullptr; }
   /// Up to the last one that holds solid; the tooth itself always counts.
   std::size_t pieces() const;
 
@@ -66,7 +70,9 @@ class Bodies {
   double loseBlock(std::size_t bone, std::size_t block, std::span<const std::uint8_t, kBlockVoxels> given,
                    StrokeHistory* strokes = nullptr) noexcept;
 
-  SolidBodies view() const;
+  SolidBodies view() const { return view(true); }
+  /// For what goes through filling that has not set.
+  SolidBodies viewOfSet() const { return view(false); }
 
   /// The brick of a piece at rest under a brick of the jaw's grid; none: outside the tooth's grid.
   std::optional<glm::ivec3> brickOfPiece(glm::ivec3 brick) const;
@@ -79,23 +85,26 @@ class Bodies {
   /// The jaw's digest d alone, or with the pieces, in order:
   ///   d <- mixedBits(d xor piece's digest); then for each number x of its pose (rotation w, x, y, z, translation x, y,
   ///   z) d <- mixedBits(d xor bits of x)        mixedBits: calibration/random
+  /// and with the filling's, where something is laid.
   std::uint64_t digest() const;
   /// The same as if this piece were at rest.
   std::uint64_t digestWithoutPose(std::size_t piece) const;
 
-  /// Sum over the bodies, see CarvedBone.
+  /// Sum over the bodies, see CarvedBone; without the filling.
   std::array<double, assets::kTissueCount> removedByTissue_mm3() const noexcept;
 
-  /// Bricks of the jaw's grid in which the jaw or a piece at rest has changed; may name a brick twice. One reading
-  /// thread.
+  /// Bricks of the jaw's grid in which the jaw, a piece at rest or the filling has changed; may name a brick twice. One
+  /// reading thread.
   void takeDirtyBricks(std::vector<glm::ivec3>& out);
-  /// Solid fraction of jaw and pieces at rest. O(voxels), allocates; writing thread, or without a writer.
+  /// Solid fraction of jaw and pieces at rest, without the filling. O(voxels), allocates; writing thread, or without a
+  /// writer.
   std::vector<std::uint8_t> solidInGridOrder() const;
   /// With moved pieces, too, where they came from, but for those set aside: what is still in the mouth.
   std::vector<std::uint8_t> solidInMouth() const;
 
  private:
   void numberBlocks();
+  SolidBodies view(bool with_plastic) const;
   std::uint64_t digestAt(std::span<const PiecePose, kMaxPieces> X_PQ) const;
   template <class Counts>
   std::vector<std::uint8_t> solidWhere(const Counts& counts) const;
@@ -106,10 +115,12 @@ class Bodies {
   std::vector<assets::MetalFragment> fragments_;
   std::array<PiecePose, kMaxPieces> X_PQ_{};
   std::array<bool, kMaxPieces> at_rest_{};
+  std::optional<Filling> filling_;
   glm::ivec3 first_brick_{0};
 };
 
-/// bone/carve over all bodies: a step with a head of any shape at rest at X_PT.
+/// bone/carve over all bodies: a step with a head of any shape at rest at X_PT. What is taken of a filling stands by
+/// its label alone, not in the sum.
 CarveResult carveTool(Bodies& bodies, const BurShape& head,
                       const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
                       std::uint64_t tick, int interleave = 1, StrokeHistory* strokes = nullptr) noexcept;

@@ -1,6 +1,6 @@
-// A view of the solid bodies a tool can meet: the jaw at rest in P, and pieces of tooth with a pose each. Their solid
-// fractions add up where they share a voxel. All have voxels of one size. One field alone converts to it. The bones
-// must outlive the view. Trivially copyable; mm.
+// A view of the solid bodies a tool can meet: the jaw at rest in P, pieces of tooth with a pose each, a filling. Their
+// solid fractions add up where they share a voxel. All have voxels of one size. One field alone converts to it. The
+// bones must outlive the view. Trivially copyable; mm.
 #pragma once
 
 #include <array>
@@ -16,6 +16,7 @@ namespace haptics {
 
 inline constexpr std::size_t kMaxPieces = 4;  ///< of the tooth
 inline constexpr std::size_t kMaxBodies = 1 + kMaxPieces;
+inline constexpr std::size_t kMaxMet = kMaxBodies + 1;  ///< and a filling
 
 struct SolidBody {
   SolidField field;
@@ -43,7 +44,7 @@ class SolidBodies {
   SolidBodies(const SolidField& field) { add({field, true, {}}); }  // NOLINT(google-explicit-constructor)
 
   void add(const SolidBody& body) {
-    assert(count_ < kMaxBodies);
+    assert(count_ < kMaxMet);
     bodies_[count_++] = body;
   }
 
@@ -52,7 +53,7 @@ class SolidBodies {
   bool isLabelled() const { return bodies_[0].field.label != nullptr; }
 
  private:
-  std::array<SolidBody, kMaxBodies> bodies_{};
+  std::array<SolidBody, kMaxMet> bodies_{};
   std::size_t count_ = 0;
 };
 

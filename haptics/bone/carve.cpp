@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/bone/block_kernels.h"
 #include "haptics/bone/bur_coverage.h"
-#include "haptics/bone/lens_curve.h"
-#include "haptics/bone/voxel_sphere.h"
+#include "haptics/bone/filling.h"
+#include "haptics/bone/round_coverage.h"
 
 namespace haptics {
 namespace {
@@ -14,56 +13,7 @@ namespace {
 using calibration::Patient;
 using calibration::Point;
 
-/// From the centre of a block to that of its farthest voxel.
-const double kBlockReach = std::sqrt(3.0) * 1.5;
-
-/// Coverage and exposure of each voxel of a block under a round bur. Voxel units.
-class RoundCoverage {
- public:
-  RoundCoverage(const glm::dvec3& centre, double radius, double spacing_mm, const ErosionStep& step)
-      : centre_(centre), radius_(radius) {
-    const LensCurve curve(std::max(radius, LensCurve::kMinRadius));
-    at_.coefficients = curve.coefficients;
-    at_.scale = curve.scale;
-    at_.offset = curve.offset;
-    std::copy(curve.volume.begin(), curve.volume.end(), at_.volume);
-    for (int axis = 0; axis < 3; ++axis) at_.axis[axis] = static_cast<float>(step.axis_P.xyz[axis]);
-    const double share = step.speed_share > 0.0 ? std::min(step.speed_share, 1.0) : 0.0;
-    at_.even = static_cast<float>(1.0 - share);
-    at_.per_arm = step.mean_arm_mm > 0.0 ? static_cast<float>(share * spacing_mm / step.mean_arm_mm) : 0.0f;
-  }
-
-  double outer() const { return radius_ + kVoxelSphereRadius; }
-
-  /// False: no voxel is covered.
-  bool of(glm::ivec3 block, BlockCut& cut) {
-    const glm::dvec3 first = glm::dvec3(block * kBlockEdge) - centre_;
-    if (glm::length(first + 1.5) - kBlockReach >= outer()) return false;
-    for (int axis = 0; axis < 3; ++axis) at_.first[axis] = first[axis];
-    coverBlock(at_, cut.coverage.data(), cut.exposure.data());
-    if (radius_ < LensCurve::kMinRadius) coverByClosedForm(first, cut);
-    return true;
-  }
-
- private:
-  /// The curve is not valid for a bur of a few voxels.
-  void coverByClosedForm(const glm::dvec3& first, BlockCut& cut) const {
-    for (int n = 0; n < kBlockVoxels; ++n) {
-      const auto at = static_cast<std::size_t>(n);
-      const double d = glm::length(first + glm::dvec3(n & 3, n >> 2 & 3, n >> 4));
-      const double lens = lensOfSpheres(radius_, kVoxelSphereRadius, d).volume;
-      const double uneven = cut.coverage[at] > 0 ? static_cast<double>(cut.exposure[at]) / cut.coverage[at] : 1.0;
-      cut.coverage[at] = static_cast<std::uint16_t>(std::clamp(lens, 0.0, 1.0) * 65535.0 + 0.5);
-      cut.exposure[at] = static_cast<std::uint32_t>(cut.coverage[at] * uneven);
-    }
-  }
-
-  glm::dvec3 centre_;
-  double radius_;
-  BlockUnderBur at_{};
-};
-
-/// The same for a head of any shape (bone/bur_coverage).
+/// bone/round_coverage for a head of any shape (bone/bur_coverage).
 class HeadCoverage {
  public:
   HeadCoverage(const BurCoverage& bur, double spacing_mm, const ErosionStep& step)
@@ -115,10 +65,11 @@ class HeadCoverage {
   HeadShape head_;
 };
 
-/// Applies a step block by block; Coverage gives the coverage of a block.
+/// Applies a step block by block to bone or filling; Coverage gives the coverage of a block.
+template <class Bone>
 class Cutter {
  public:
-  Cutter(CarvedBone& bone, const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes)
+  Cutter(Bone& bone, const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes)
       : bone_(bone),
         strokes_(strokes),
         interleave_(interleave),
@@ -161,12 +112,39 @@ class Cutter {
   }
 
  private:
-  CarvedBone& bone_;
+  Bone& bone_;
   StrokeHistory* strokes_;
   int interleave_, phase_;
   BlockCut cut_;
   std::array<std::int64_t, assets::kTissueCount> steps_{};
 };
+
+template <class Bone>
+CarveResult cutRound(Bone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
+                     std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
+  const double radius = radius_mm / bone.grid().spacing_mm;
+  const glm::dvec3 centre = bone.grid().indexFromPoint(centre_P.mm);
+  if (!(radius > 0.0) || !std::isfinite(radius) || !std::isfinite(glm::length(centre))) return {};
+  RoundCoverage shape(centre, radius, bone.grid().spacing_mm, step);
+  const VoxelBox box(bone.grid(), centre - shape.outer(), centre + shape.outer());
+  if (box.empty()) return {};
+  Cutter<Bone> cutter(bone, step, tick, std::max(interleave, 1), strokes);
+  cutter.cut(shape, box);
+  return cutter.result();
+}
+
+template <class Bone>
+CarveResult cutWith(Bone& bone, const BurShape& head, const calibration::Pose<Patient, calibration::Tool>& X_PT,
+                    const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
+  if (head.kind == ShapeKind::sphere)
+    return cutRound(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, interleave, strokes);
+  const BurCoverage bur(bone.grid(), head, X_PT);
+  if (bur.box.empty()) return {};
+  HeadCoverage shape(bur, bone.grid().spacing_mm, step);
+  Cutter<Bone> cutter(bone, step, tick, std::max(interleave, 1), strokes);
+  cutter.cut(shape, bur.box);
+  return cutter.result();
+}
 
 }  // namespace
 
@@ -188,27 +166,17 @@ int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionS
 
 CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
                         std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
-  const double radius = radius_mm / bone.grid().spacing_mm;
-  const glm::dvec3 centre = bone.grid().indexFromPoint(centre_P.mm);
-  if (!(radius > 0.0) || !std::isfinite(radius) || !std::isfinite(glm::length(centre))) return {};
-  RoundCoverage shape(centre, radius, bone.grid().spacing_mm, step);
-  const VoxelBox box(bone.grid(), centre - shape.outer(), centre + shape.outer());
-  if (box.empty()) return {};
-  Cutter cutter(bone, step, tick, std::max(interleave, 1), strokes);
-  cutter.cut(shape, box);
-  return cutter.result();
+  return cutRound(bone, centre_P, radius_mm, step, tick, interleave, strokes);
 }
 
 CarveResult carveTool(CarvedBone& bone, const BurShape& head, const calibration::Pose<Patient, calibration::Tool>& X_PT,
                       const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
-  if (head.kind == ShapeKind::sphere)
-    return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, interleave, strokes);
-  const BurCoverage bur(bone.grid(), head, X_PT);
-  if (bur.box.empty()) return {};
-  HeadCoverage shape(bur, bone.grid().spacing_mm, step);
-  Cutter cutter(bone, step, tick, std::max(interleave, 1), strokes);
-  cutter.cut(shape, bur.box);
-  return cutter.result();
+  return cutWith(bone, head, X_PT, step, tick, interleave, strokes);
+}
+
+CarveResult carveTool(Filling& filling, const BurShape& head, const calibration::Pose<Patient, calibration::Tool>& X_PT,
+                      const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
+  return cutWith(filling, head, X_PT, step, tick, interleave, strokes);
 }
 
 CarveResult carveSweep(CarvedBone& bone, const BurShape& head,

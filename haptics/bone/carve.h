@@ -17,6 +17,8 @@
 
 namespace haptics {
 
+class Filling;
+
 struct CarveResult {
   double removed_mm3 = 0.0;  ///< equals the change of the solid field
   std::array<double, assets::kTissueCount> removed_mm3_by_label{};
@@ -33,6 +35,11 @@ CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::
 
 /// The same with a head of any shape at rest.
 CarveResult carveTool(CarvedBone& bone, const BurShape& head,
+                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
+                      std::uint64_t tick, int interleave = 1, StrokeHistory* strokes = nullptr) noexcept;
+
+/// The same of a filling.
+CarveResult carveTool(Filling& filling, const BurShape& head,
                       const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
                       std::uint64_t tick, int interleave = 1, StrokeHistory* strokes = nullptr) noexcept;
 

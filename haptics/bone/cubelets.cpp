@@ -28,6 +28,17 @@ void takeBlock(const assets::VolumeGrid& grid, std::span<const std::uint8_t> fro
     }
 }
 
+/// Whole words, relaxed: a reader sees the old or the new value of every byte.
+void store(std::uint8_t* to, const Bytes& bytes) {
+  using Word __attribute__((may_alias)) = std::uint64_t;
+  auto* const words = static_cast<Word*>(static_cast<void*>(to));
+  for (std::size_t n = 0; n < kBlockVoxels / sizeof(Word); ++n) {
+    Word word;
+    std::memcpy(&word, bytes.data() + n * sizeof(Word), sizeof(Word));
+    __atomic_store_n(words + n, word, __ATOMIC_RELAXED);
+  }
+}
+
 }  // namespace
 
 Cubelets::Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
@@ -40,6 +51,14 @@ Cubelets::Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t>
     fillDense(solid, label);
   else
     fillSparse(solid, label);
+}
+
+Cubelets::Cubelets(const assets::VolumeGrid& grid, std::size_t reserve)
+    : grid_(grid), blocks_((grid.size + (kBlockEdge - 1)) / kBlockEdge) {
+  blocks_count_ = field().blockAt({0, 0, blocks_.z});
+  slots_used_ = shared_ = 1;
+  resize(1 + reserve, true);
+  slot_of_.assign(blocks_count_ + 1, 0);
 }
 
 void Cubelets::resize(std::size_t slots, bool is_labelled) {
@@ -200,15 +219,14 @@ bool Cubelets::setBlock(std::size_t block, const std::array<std::uint8_t, kBlock
   }
   const std::size_t slot = slot_of_.empty() ? block : slot_of_[block];
   sumSlot(slot, solid.data());
-  // Whole words, relaxed: a reader sees the old or the new value of every byte.
-  using Word __attribute__((may_alias)) = std::uint64_t;
-  auto* const words = static_cast<Word*>(static_cast<void*>(solid_.data() + slot * kBlockVoxels));
-  for (std::size_t n = 0; n < kBlockVoxels / sizeof(Word); ++n) {
-    Word word;
-    std::memcpy(&word, solid.data() + n * sizeof(Word), sizeof(Word));
-    __atomic_store_n(words + n, word, __ATOMIC_RELAXED);
-  }
+  store(solid_.data() + slot * kBlockVoxels, solid);
   return true;
+}
+
+void Cubelets::setLabels(std::size_t block, const std::array<std::uint8_t, kBlockVoxels>& label) {
+  const std::size_t slot = slot_of_.empty() ? block : slot_of_[block];
+  only_label_[slot] = isEven(label) ? label[0] : kMixedLabels;
+  store(label_.data() + slot * kBlockVoxels, label);
 }
 
 }  // namespace haptics

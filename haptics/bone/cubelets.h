@@ -55,6 +55,9 @@ class Cubelets {
   Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
            BlockStorage storage = BlockStorage::dense);
 
+  /// Sparse, labelled air, with `reserve` slots for what is put there.
+  Cubelets(const assets::VolumeGrid& grid, std::size_t reserve);
+
   SolidField field() const;
   std::size_t blocks() const { return blocks_count_; }
   std::size_t slots() const { return weight_.size(); }
@@ -73,6 +76,8 @@ class Cubelets {
   /// Replaces the solid bytes of a block and its sums. False, and nothing is changed: it has no slot of its own, there
   /// is none left, and it does not become what a shared one holds. Writer only; stored relaxed.
   bool setBlock(std::size_t block, const std::array<std::uint8_t, kBlockVoxels>& solid);
+  /// Replaces the labels of a block that has a slot of its own. Writer only; stored relaxed.
+  void setLabels(std::size_t block, const std::array<std::uint8_t, kBlockVoxels>& label);
 
  private:
   void fillDense(std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label);

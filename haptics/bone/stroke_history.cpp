@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "haptics/bone/filling.h"
+
 namespace haptics {
 namespace {
 
@@ -12,8 +14,8 @@ constexpr std::size_t kMaxStrokeShare = 4;
 
 }  // namespace
 
-StrokeHistory::StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_blocks) {
-  std::size_t all = 0;
+StrokeHistory::StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_blocks, const Filling* filling) {
+  std::size_t all = filling == nullptr ? 0 : filling->blocks();
   for (const CarvedBone& bone : bones) all += bone.blocks();
   saved_in_.assign(all, 0);
   saved_.resize(std::max(kMaxStrokeShare, std::min(kMaxStrokeShare * all, max_blocks)));
@@ -76,25 +78,33 @@ void StrokeHistory::dropUndone() noexcept {
   if (stroke.blocks == 0 && !stroke.marked) --count_;
 }
 
-std::int64_t StrokeHistory::exchange(std::span<CarvedBone> bones, std::size_t entry) noexcept {
+std::int64_t StrokeHistory::exchange(std::span<CarvedBone> bones, Filling* filling, std::size_t entry) noexcept {
   Saved& saved = saved_[entry % saved_.size()];
   // The bone of this block, and its number there.
   std::size_t at = 0, block = saved.block;
-  for (; block >= bones[at].blocks(); ++at) block -= bones[at].blocks();
+  for (; at < bones.size() && block >= bones[at].blocks(); ++at) block -= bones[at].blocks();
+  if (at == bones.size()) {
+    assert(filling != nullptr);
+    const BlockState before = filling->stateOf(block);
+    filling->restoreBlock(block, saved.state);
+    saved.state = before;
+    return 0;
+  }
   const BlockState now = bones[at].stateOf(block);
   const std::int64_t steps = bones[at].restoreBlock(block, saved.state);
   saved.state = now;
   return steps;
 }
 
-StrokeHistory::Restored StrokeHistory::undo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept {
+StrokeHistory::Restored StrokeHistory::undo(std::span<CarvedBone> bones, std::size_t max_blocks,
+                                            Filling* filling) noexcept {
   endStroke();
   Restored restored;
   if (count_ == 0) return restored;
   Stroke& stroke = newest();
   std::int64_t steps = 0;
   for (; restored.blocks < max_blocks && stroke.undone < stroke.blocks; ++restored.blocks)
-    steps += exchange(bones, stroke.first + stroke.blocks - ++stroke.undone);
+    steps += exchange(bones, filling, stroke.first + stroke.blocks - ++stroke.undone);
   if (stroke.undone == stroke.blocks) {
     --count_;
     ++undone_;
@@ -103,7 +113,8 @@ StrokeHistory::Restored StrokeHistory::undo(std::span<CarvedBone> bones, std::si
   return restored;
 }
 
-StrokeHistory::Restored StrokeHistory::redo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept {
+StrokeHistory::Restored StrokeHistory::redo(std::span<CarvedBone> bones, std::size_t max_blocks,
+                                            Filling* filling) noexcept {
   endStroke();
   Restored restored;
   if (!isBetweenStrokes()) {
@@ -114,7 +125,7 @@ StrokeHistory::Restored StrokeHistory::redo(std::span<CarvedBone> bones, std::si
   Stroke& stroke = newest();
   std::int64_t steps = 0;
   for (; restored.blocks < max_blocks && stroke.undone > 0; ++restored.blocks)
-    steps += exchange(bones, stroke.first + stroke.blocks - stroke.undone--);
+    steps += exchange(bones, filling, stroke.first + stroke.blocks - stroke.undone--);
   restored.volume_mm3 = static_cast<double>(steps) * bones.front().grid().voxelVolume_mm3() / 255.0;
   return restored;
 }

@@ -18,6 +18,8 @@
 
 namespace haptics {
 
+class Filling;
+
 /// Memory layout:
 ///
 ///   saved_     ring of 260-byte entries, at 260 n: solid u8 [64] | reach u8 [64] | dose u16 [64] | block u32
@@ -34,8 +36,9 @@ class StrokeHistory {
   static constexpr std::size_t kMaxBlocks = 60'000;
 
   /// Capacity for four times all bones, at most `max_blocks` (at least 4). A block's number counts on from bone to bone
-  /// (CarvedBone::setFirstBlock).
-  explicit StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_blocks = kMaxBlocks);
+  /// (CarvedBone::setFirstBlock), the filling last.
+  explicit StrokeHistory(std::span<const CarvedBone> bones, std::size_t max_blocks = kMaxBlocks,
+                         const Filling* filling = nullptr);
   explicit StrokeHistory(const CarvedBone& bone, std::size_t max_blocks = kMaxBlocks)
       : StrokeHistory(std::span(&bone, 1), max_blocks) {}
 
@@ -65,16 +68,16 @@ class StrokeHistory {
   std::size_t place(std::size_t n) const { return (oldest_ + n) % kMaxStrokes; }
 
   struct Restored {
-    double volume_mm3 = 0.0;  ///< below 0: redone
+    double volume_mm3 = 0.0;  ///< of bone and tooth; below 0: redone
     std::size_t blocks = 0;
   };
   /// Undoes up to `max_blocks` of the newest stroke, last saved first; ends the open stroke. The stroke is undone when
-  /// strokes() has fallen by one. `bones` are those of the constructor.
-  Restored undo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept;
+  /// strokes() has fallen by one. `bones` and `filling` are those of the constructor.
+  Restored undo(std::span<CarvedBone> bones, std::size_t max_blocks, Filling* filling = nullptr) noexcept;
   Restored undo(CarvedBone& bone, std::size_t max_blocks) noexcept { return undo(std::span(&bone, 1), max_blocks); }
   /// Redoes up to `max_blocks` of the stroke undone in part, or else of the one undone last. It is redone when
   /// isBetweenStrokes() is false.
-  Restored redo(std::span<CarvedBone> bones, std::size_t max_blocks) noexcept;
+  Restored redo(std::span<CarvedBone> bones, std::size_t max_blocks, Filling* filling = nullptr) noexcept;
   Restored redo(CarvedBone& bone, std::size_t max_blocks) noexcept { return redo(std::span(&bone, 1), max_blocks); }
 
   /// The arrays, for a copy without them (servo/servo.h): while they are out, nothing else may be called.
@@ -101,8 +104,8 @@ class StrokeHistory {
   };
   const Stroke& newest() const { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   Stroke& newest() { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
-  /// Exchanges an entry with the block as it is. Returns the solid steps restored.
-  std::int64_t exchange(std::span<CarvedBone> bones, std::size_t entry) noexcept;
+  /// Exchanges an entry with the block as it is. Returns the solid steps of bone and tooth restored.
+  std::int64_t exchange(std::span<CarvedBone> bones, Filling* filling, std::size_t entry) noexcept;
   void dropUndone() noexcept;
   void beginStroke(bool marked) noexcept;
 

@@ -33,7 +33,7 @@ class ToolSampler {
     glm::dmat3 to_index;  ///< mm in T to voxels
     glm::dvec3 origin;    ///< continuous index of T's origin
   };
-  std::array<Body, kMaxBodies> bodies_;
+  std::array<Body, kMaxMet> bodies_;
   std::size_t count_ = 0;
 };
 

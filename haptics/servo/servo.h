@@ -13,6 +13,7 @@
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/filing.h"
+#include "haptics/servo/filling_hand.h"
 #include "haptics/servo/luxation.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/proxy.h"
@@ -64,6 +65,7 @@ class Servo {
   Proxy proxy_;
   Cutting cutting_;
   Filing filing_;
+  FillingHand filling_;
   RootCanalFile canal_file_;
   Delivery delivery_;
   StrokeUndo undo_;

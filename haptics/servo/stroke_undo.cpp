@@ -22,7 +22,8 @@ double shared_mm3(const SolidBodies& bodies, const Tool& tool,
 }  // namespace
 
 SolidBodies metBy(const Tool& tool, const Bodies& bodies) {
-  return tool.grips ? SolidBodies(bodies.jaw().field()) : bodies.view();
+  if (tool.grips) return SolidBodies(bodies.jaw().field());
+  return isApplicator(tool.hand_instrument) ? bodies.viewOfSet() : bodies.view();
 }
 
 /// Of the newest stroke, or of the one to redo. A stroke that moved pieces is the last of a tick: of one that was split
@@ -33,13 +34,13 @@ StrokeHistory::Restored StrokeUndo::restoreSome(Bodies& bodies, PieceSites& site
   if (target_ < count) {
     const std::size_t place = strokes_.place(count - 1);
     const bool is_marked = strokes_.isMarked(count - 1);
-    restored = strokes_.undo(bodies.bones(), most_blocks);
+    restored = strokes_.undo(bodies.bones(), most_blocks, bodies.filling());
     if (!is_marked || strokes_.strokes() == count) return restored;
     luxations_.undo(place, bodies, sites);
   } else {
     const bool is_marked = !strokes_.isBetweenStrokes() && strokes_.isMarked(count);
     if (is_marked) luxations_.redo(strokes_.place(count), bodies, sites);
-    restored = strokes_.redo(bodies.bones(), most_blocks);
+    restored = strokes_.redo(bodies.bones(), most_blocks, bodies.filling());
     if (!is_marked) return restored;
   }
   moved_pieces_ = true;

@@ -19,14 +19,16 @@
 
 namespace haptics {
 
-/// What the tool is held off by: beaks go round a tooth, between them is room for it.
+/// What the tool is held off by: beaks go round a tooth, between them is room for it; an applicator goes through what
+/// has not set, as it would be pushed out by what it lays.
 SolidBodies metBy(const Tool& tool, const Bodies& bodies);
 
 class StrokeUndo {
  public:
   static constexpr std::size_t kBlocksPerTick = 64;
 
-  explicit StrokeUndo(const Bodies& bodies) : strokes_(bodies.bones()), luxations_(bodies) {}
+  explicit StrokeUndo(const Bodies& bodies)
+      : strokes_(bodies.bones(), StrokeHistory::kMaxBlocks, bodies.filling()), luxations_(bodies) {}
 
   /// Each rise of a serial by one requests a stroke to undo or redo; a fall is ignored. Requests of both kinds in one
   /// tick cancel out.

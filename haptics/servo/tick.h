@@ -13,6 +13,7 @@
 #include "haptics/servo/chip_removal.h"
 #include "haptics/servo/drill_inhibit.h"
 #include "haptics/servo/file_work.h"
+#include "haptics/servo/filling_work.h"
 #include "haptics/servo/levering.h"
 #include "haptics/servo/piece_sites.h"
 #include "haptics/servo/tooth_break.h"
@@ -35,9 +36,9 @@ struct Tick {
   double spindle_rad_per_s = 0.0;                                    ///< about +z of T
   double overlap_mm3 = 0.0;                                          ///< of the bur at the proxy
   double depth_mm = 0.0;                                             ///< equivalent depth of the law at the proxy
-  double removed_mm3 = 0.0;                                          ///< this tick, chips too; below 0 during undo
-  double restored_total_mm3 = 0.0;                                   ///< since the start, by undo, less what was redone
-  std::uint64_t bone_digest = 0;                                     ///< after this tick
+  double removed_mm3 = 0.0;         ///< this tick, chips too, no filling; below 0 in undo
+  double restored_total_mm3 = 0.0;  ///< since the start, by undo, less what was redone
+  std::uint64_t bone_digest = 0;    ///< after this tick
   /// Since the start, by assets::Tissue, less what was restored.
   std::array<double, assets::kTissueCount> removed_total_mm3{};
   std::uint8_t contact_tissue = 0;  ///< label with the largest overlap
@@ -63,6 +64,7 @@ struct Tick {
   double torn_share = 0.0;                                      ///< of the ligament of the piece held, or last held
   double torn_total_Nmm = 0.0;           ///< since the start, of all pieces, less what was undone
   FileWork file;                         ///< of a root-canal file
+  FillingWork filling;                   ///< of what fills a tooth
   SafetyState state = SafetyState::off;  ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed

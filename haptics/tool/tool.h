@@ -23,7 +23,7 @@ struct Tool {
   bool handpiece = true;  ///< false: the bur alone, for a hand that cannot turn it out of the way
   bool grips = false;     ///< forceps: the head is the place between the beaks, the pedal closes them, nothing turns
   ElevatorKind elevator = ElevatorKind::none;  ///< of this kind: T's origin is its blade's tip, nothing turns
-  HandInstrument hand_instrument = HandInstrument::none;  ///< of this kind: nothing turns, the pedal does nothing
+  HandInstrument hand_instrument = HandInstrument::none;  ///< of this kind: nothing turns
   CanalFile file{};  ///< chosen: T's origin is its handle, nothing turns, the pedal opens the fingers
 
   bool isElevator() const { return elevator != ElevatorKind::none; }

@@ -38,6 +38,47 @@ void smoothAxis(Block& block, std::size_t step) {
       }
 }
 
+const TissueAppearance& appearanceOf(std::uint8_t tissue) {
+  return kTissueAppearance[tissue < kTissueAppearance.size() ? tissue : 0];
+}
+
+/// `tissue_at(voxel)`: its appearance, by reference.
+template <class TissueAt>
+void blend(const BorderedField<std::uint8_t>& solid, const TissueAt& tissue_at, glm::ivec3 brick,
+           BorderedField<std::uint32_t>& field) {
+  // The brick and its border. Of one tissue alone, most of them, there is nothing to blend.
+  const glm::ivec3 size = solid.layout().size;
+  const glm::ivec3 first = kCore * brick, extent = glm::min(glm::ivec3(kCore), size - first);
+  const glm::ivec3 low = glm::max(first - 1, 0), high = glm::min(first + kCore + 1, size);
+  const TissueAppearance& one = tissue_at(low);
+  bool is_one = true;
+  for (int k = low.z; k < high.z && is_one; ++k)
+    for (int j = low.y; j < high.y && is_one; ++j)
+      for (int i = low.x; i < high.x && is_one; ++i) is_one = &tissue_at({i, j, k}) == &one;
+  if (is_one) {
+    const std::uint32_t colour = packed(one.albedo, one.finish);
+    forEachIn({first, extent}, [&](glm::ivec3 v) { *field.at(v) = colour; });
+    return;
+  }
+  Block block{};
+  forEachIn({low, high - low}, [&](glm::ivec3 v) {
+    const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
+    const TissueAppearance& appearance = tissue_at(v);
+    const float weight = (filled * filled + 1e-4f) * appearance.colour_weight;
+    const glm::ivec3 in = v - first + 1;
+    block[at(in.x, in.y, in.z)] = {weight * appearance.albedo.r, weight * appearance.albedo.g,
+                                   weight * appearance.albedo.b, weight * appearance.finish, weight};
+  });
+
+  smoothAxis(block, at(1, 0, 0));
+  smoothAxis(block, at(0, 1, 0));
+  smoothAxis(block, at(0, 0, 1));
+  forEachIn({glm::ivec3(0), extent}, [&](glm::ivec3 v) {
+    const Share& share = block[at(v.x + 1, v.y + 1, v.z + 1)];
+    *field.at(first + v) = packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
+  });
+}
+
 }  // namespace
 
 BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& solid,
@@ -46,44 +87,18 @@ BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& 
   const TissueAppearance& plain = kTissueAppearance[0];
   BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
   const auto tissue_at = [&](glm::ivec3 v) -> const TissueAppearance& {
-    if (label.empty()) return plain;
-    const std::uint8_t tissue = label[indexIn(size, v)];
-    return kTissueAppearance[tissue < kTissueAppearance.size() ? tissue : 0];
+    return label.empty() ? plain : appearanceOf(label[indexIn(size, v)]);
   };
-  const auto blend_brick = [&](glm::ivec3 brick) {
-    // The brick and its border. Of one tissue alone, most of them, there is nothing to blend.
-    const glm::ivec3 first = kCore * brick, extent = glm::min(glm::ivec3(kCore), size - first);
-    const glm::ivec3 low = glm::max(first - 1, 0), high = glm::min(first + kCore + 1, size);
-    const TissueAppearance& one = tissue_at(low);
-    bool is_one = true;
-    for (int k = low.z; k < high.z && is_one; ++k)
-      for (int j = low.y; j < high.y && is_one; ++j)
-        for (int i = low.x; i < high.x && is_one; ++i) is_one = &tissue_at({i, j, k}) == &one;
-    if (is_one) {
-      const std::uint32_t colour = packed(one.albedo, one.finish);
-      if (&one != &plain) forEachIn({first, extent}, [&](glm::ivec3 v) { *field.at(v) = colour; });
-      return;
-    }
-    Block block{};
-    forEachIn({low, high - low}, [&](glm::ivec3 v) {
-      const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
-      const TissueAppearance& appearance = tissue_at(v);
-      const float weight = (filled * filled + 1e-4f) * appearance.colour_weight;
-      const glm::ivec3 in = v - first + 1;
-      block[at(in.x, in.y, in.z)] = {weight * appearance.albedo.r, weight * appearance.albedo.g,
-                                     weight * appearance.albedo.b, weight * appearance.finish, weight};
-    });
-
-    smoothAxis(block, at(1, 0, 0));
-    smoothAxis(block, at(0, 1, 0));
-    smoothAxis(block, at(0, 0, 1));
-    forEachIn({glm::ivec3(0), extent}, [&](glm::ivec3 v) {
-      const Share& share = block[at(v.x + 1, v.y + 1, v.z + 1)];
-      *field.at(first + v) = packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
-    });
-  };
-  tbb::parallel_for(0, bricks.z, [&](int k) { forEachIn({{0, 0, k}, {bricks.x, bricks.y, 1}}, blend_brick); });
+  tbb::parallel_for(0, bricks.z, [&](int k) {
+    forEachIn({{0, 0, k}, {bricks.x, bricks.y, 1}}, [&](glm::ivec3 brick) { blend(solid, tissue_at, brick, field); });
+  });
   return field;
+}
+
+void blendBrick(const BorderedField<std::uint8_t>& solid, const BorderedField<std::uint8_t>& label, glm::ivec3 brick,
+                BorderedField<std::uint32_t>& field) {
+  blend(
+      solid, [&](glm::ivec3 v) -> const TissueAppearance& { return appearanceOf(*label.at(v)); }, brick, field);
 }
 
 }  // namespace render

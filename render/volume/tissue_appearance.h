@@ -32,6 +32,13 @@ inline constexpr std::array<TissueAppearance, assets::kTissueCount> kTissueAppea
     {{0.60f, 0.22f, 0.22f}, 0.7f, 0.02f},    // gingiva
     {{0.26f, 0.12f, 0.04f}, kDull, 1.0f},    // soft caries: dark brown
     {{0.55f, 0.34f, 0.13f}, kDull, 1.0f},    // firm caries: amber
+    {{0.93f, 0.76f, 0.44f}, 0.95f, 1.0f},    // uncured composite: yellow and wet
+    {{0.92f, 0.88f, 0.78f}, 0.85f, 1.0f},    // composite
+    {{0.62f, 0.74f, 0.86f}, 0.8f, 1.0f},     // uncured glass ionomer: bluish
+    {{0.90f, 0.90f, 0.88f}, kDull, 1.0f},    // glass ionomer: chalky
+    {{0.40f, 0.42f, 0.45f}, 0.9f, 1.0f},     // amalgam
+    {{0.20f, 0.45f, 0.30f}, 0.8f, 1.0f},     // wax: green, as inlay wax
+    {{0.85f, 0.36f, 0.30f}, kDull, 1.0f},    // gutta-percha
 }};
 
 }  // namespace render

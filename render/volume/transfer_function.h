@@ -23,12 +23,15 @@ struct Transfer {
   OpacityPerMm inner_per_mm{}, wall_per_mm{};
   float full = kRampFull;  ///< where the ramp ends
 };
-inline constexpr Transfer kFrosted{{0.30f, 0.24f, 0.05f, 0.80f, 0.92f, 0.75f, 0.50f, 0.50f, 0.05f, 0.05f, 0.85f, 0.80f},
+inline constexpr Transfer kFrosted{{0.30f, 0.24f, 0.05f, 0.80f, 0.92f, 0.75f, 0.50f, 0.50f, 0.05f, 0.05f, 0.85f, 0.80f,
+                                    0.9f, 0.9f, 0.9f, 0.9f, 0.95f, 0.9f, 0.95f},
                                    {}};
 inline constexpr float kWall = 0.9999f;
 /// Nothing within: every sample of a wall is lit, which is what the view costs.
-inline constexpr Transfer kClear{
-    {}, {0.0f, 0.0f, 0.0f, kWall, kWall, kWall, kWall, 0.0f, 0.0f, 0.0f, kWall, kWall}, 1.0f};
+inline constexpr Transfer kClear{{},
+                                 {0.0f, 0.0f, 0.0f, kWall, kWall, kWall, kWall, 0.0f, 0.0f, 0.0f, kWall, kWall, kWall,
+                                  kWall, kWall, kWall, kWall, kWall, kWall},
+                                 1.0f};
 constexpr const Transfer& transferOf(ViewMode mode) { return mode == ViewMode::clear ? kClear : kFrosted; }
 
 /// Per mm, where `ramp` of the tissue is there.

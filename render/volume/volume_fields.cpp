@@ -83,6 +83,52 @@ void VolumeFields::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, O
   touched_.push_back({first + low, high - low + 1});
 }
 
+void VolumeFields::updateTissue(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> values) {
+  const std::size_t number = indexIn(grid_.bricks(), brick);
+  auto kept = scanned_.find(number);
+  if (kept == scanned_.end()) {
+    if (std::ranges::all_of(values, [](std::uint8_t value) { return value == 0; })) return;
+    kept = scanned_.try_emplace(number).first;
+    forEachIn(brickBox(brick),
+              [&](glm::ivec3 v) { kept->second[indexIn(glm::ivec3(kB), v - kB * brick)] = *label_.at(v); });
+  }
+  forEachIn(brickBox(brick), [&](glm::ivec3 v) {
+    const std::size_t n = indexIn(glm::ivec3(kB), v - kB * brick);
+    const std::uint8_t tissue = values[n] != 0 ? values[n] : kept->second[n];
+    if (*label_.at(v) == tissue) return;
+    *label_.at(v) = tissue;
+    relabelled_.insert(number);
+  });
+}
+
+VoxelBox VolumeFields::brickBox(glm::ivec3 brick) const {
+  return {kB * brick, glm::min(glm::ivec3(kB), grid_.size - kB * brick)};
+}
+
+// Colours blend over a voxel, so that bricks beside change too.
+void VolumeFields::blendRelabelled() {
+  const glm::ivec3 bricks = grid_.bricks();
+  std::set<std::size_t> around;
+  for (const std::size_t number : relabelled_) {
+    const auto at = static_cast<int>(number);
+    const glm::ivec3 brick(at % bricks.x, at / bricks.x % bricks.y, at / bricks.x / bricks.y);
+    around.insert(number);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int way : {-1, 1}) {
+        glm::ivec3 next = brick;
+        next[axis] += way;
+        if (next[axis] >= 0 && next[axis] < bricks[axis]) around.insert(indexIn(bricks, next));
+      }
+  }
+  relabelled_.clear();
+  for (const std::size_t number : around) {
+    const auto at = static_cast<int>(number);
+    const glm::ivec3 brick(at % bricks.x, at / bricks.x % bricks.y, at / bricks.x / bricks.y);
+    blendBrick(solid_, label_, brick, appearance_);
+    changes_.tissue.push_back(brickBox(brick));
+  }
+}
+
 void VolumeFields::meanCells(const VoxelBox& cells) {
   forEachIn(cells, [this](glm::ivec3 cell) {
     std::uint32_t sum = 0;
@@ -162,7 +208,8 @@ void VolumeFields::place(std::span<const PlacedFields> pieces, bool changed) {
 }
 
 const FieldChanges& VolumeFields::prepare() {
-  changes_.solid.clear(), changes_.smooth.clear(), changes_.ambient.clear();
+  changes_.solid.clear(), changes_.smooth.clear(), changes_.ambient.clear(), changes_.tissue.clear();
+  if (!relabelled_.empty()) blendRelabelled();
   if (!touched_.empty()) changes_.solid = gathered(touched_);
   touched_.clear();
   for (const VoxelBox& box : changes_.solid) {

@@ -4,7 +4,10 @@
 // Cost of a carved frame: about 2 ns a voxel of the changed box and its border (40 us for a bur of 2 mm at 0.2 mm).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -30,6 +33,7 @@ struct PlacedFields {
 struct FieldChanges {
   std::vector<VoxelBox> solid, smooth;  ///< voxels
   std::vector<VoxelBox> ambient;        ///< cells
+  std::vector<VoxelBox> tissue;         ///< voxels: label and appearance
 };
 
 class VolumeFields {
@@ -41,6 +45,8 @@ class VolumeFields {
 
   /// New content of one brick, i fastest; values outside the volume are ignored.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> values);
+  /// The tissue of what lies in a brick beside the scanned one, as a filling; 0: the scanned one.
+  void updateTissue(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> values);
   /// The pieces around from the next prepare() on, borrowed until the next call. `changed`: one of them was cut.
   /// Cost: 20 ns a cell of their boxes, now and before, where a pose or piece is another.
   void place(std::span<const PlacedFields> pieces, bool changed);
@@ -64,6 +70,8 @@ class VolumeFields {
 
  private:
   void meanCells(const VoxelBox& cells);
+  void blendRelabelled();
+  VoxelBox brickBox(glm::ivec3 brick) const;
   void addPiece(const PlacedFields& piece, const VoxelBox& cells);
   VoxelBox cellsOf(const PlacedFields& piece) const;
 
@@ -72,6 +80,8 @@ class VolumeFields {
   BorderedField<std::uint16_t> smooth_, ambient_;
   BorderedField<std::uint32_t> appearance_;
   BorderedField<std::uint8_t> label_;
+  std::map<std::size_t, std::array<std::uint8_t, Occupancy::kBrickValues>> scanned_;  ///< labels, of bricks with others
+  std::set<std::size_t> relabelled_;                                                  ///< bricks, since prepare()
   Smoother smoother_;
   std::vector<VoxelBox> touched_;  ///< voxels changed since prepare()
   std::vector<PlacedFields> pieces_;

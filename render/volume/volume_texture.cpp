@@ -56,6 +56,10 @@ void VolumeTexture::update(const VolumeFields& fields, const FieldChanges& chang
   for (const VoxelBox& box : changes.solid) uploadSolid(fields, box);
   for (const VoxelBox& box : changes.smooth) upload(smooth_, fields.smooth(), box);
   for (const VoxelBox& box : changes.ambient) upload(ambient_, fields.ambient(), box);
+  for (const VoxelBox& box : changes.tissue) {
+    upload(appearance_, fields.appearance(), box);
+    upload(label_, fields.label(), box);
+  }
 
   for (const VoxelBox& box : changes.solid) occupancy_.touch(box);
   bool moved = occupancy_.refresh();

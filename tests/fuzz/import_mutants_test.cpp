@@ -40,7 +40,7 @@ void expectWhole(const assets::ImportedScan& imported) {
   ASSERT_EQ(ct.solid.size(), ct.grid.voxelCount());
   ASSERT_EQ(ct.label.size(), ct.grid.voxelCount());
   ASSERT_TRUE(ct.tooth.empty() || ct.tooth.size() == ct.grid.voxelCount());
-  EXPECT_LT(*std::ranges::max_element(ct.label), assets::kTissueCount);
+  EXPECT_LT(*std::ranges::max_element(ct.label), assets::kScanTissueCount);
   for (const std::uint8_t fdi : ct.tooth) ASSERT_TRUE(fdi == 0 || assets::isToothNumber(fdi));
   for (const std::string& remark : imported.remarks) EXPECT_EQ(remark.find('\n'), std::string::npos) << remark;
   if (!patient.site) return;

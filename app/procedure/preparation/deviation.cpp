@@ -6,10 +6,7 @@
 #include "app/procedure/preparation/made_surface.h"
 
 namespace app {
-namespace {
-
-/// Value below which a share of the area lies.
-double percentile(std::vector<std::pair<double, double>>& value_area, double share) {
+double areaPercentile(std::vector<std::pair<double, double>>& value_area, double share) {
   if (value_area.empty()) return 0.0;
   std::ranges::sort(value_area);
   double all = 0.0, sum = 0.0;
@@ -18,8 +15,6 @@ double percentile(std::vector<std::pair<double, double>>& value_area, double sha
     if ((sum += area) >= share * all) return value;
   return value_area.back().first;
 }
-
-}  // namespace
 
 IdealDistance::IdealDistance(const BoxBytes& ideal) : ideal_(ideal), field_(ideal.grid(), ideal.bytes(), kBand_mm) {}
 
@@ -52,8 +47,8 @@ Deviation deviationOf(const Crown& crown, const BoxBytes& made, const BoxBytes& 
   for (double& within : deviation.within) within /= deviation.area_mm2;
   deviation.mean_mm = sum / deviation.area_mm2;
   deviation.rms_mm = std::sqrt(squares / deviation.area_mm2);
-  deviation.most_left_mm = std::max(0.0, percentile(value_area, 0.99));
-  deviation.deepest_mm = std::max(0.0, -percentile(value_area, 0.01));
+  deviation.most_left_mm = std::max(0.0, areaPercentile(value_area, 0.99));
+  deviation.deepest_mm = std::max(0.0, -areaPercentile(value_area, 0.01));
   return deviation;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "app/procedure/preparation/crown.h"
@@ -41,6 +42,9 @@ struct Deviation {
   double most_left_mm = 0.0, deepest_mm = 0.0;         ///< 99th percentiles of area: left too high, cut too deep
   std::array<double, kTolerances_mm.size()> within{};  ///< P8: share of the surface
 };
+
+/// The value below which a share of the area lies; sorts the pairs of value and area. 0 of none.
+double areaPercentile(std::vector<std::pair<double, double>>& value_area, double share);
 
 Deviation deviationOf(const Crown& crown, const BoxBytes& made, const BoxBytes& ideal, const IdealDistance& distance);
 

@@ -23,8 +23,9 @@ inline bool isPrepared(const Crown& crown, const BoxBytes& made, const BoxBytes&
   return was - made.voxel(ijk) > kSome || was - ideal.voxel(ijk) > kSome;
 }
 
-template <class Visit>
-void forPreparedSurface(const Crown& crown, const BoxBytes& made, const BoxBytes& ideal, const Visit& visit) {
+/// `counts(voxel on the solid side, on the other)`.
+template <class Counts, class Visit>
+void forSurface(const BoxBytes& made, const Counts& counts, const Visit& visit) {
   constexpr int kHalf = 128;
   const assets::VolumeGrid& grid = made.grid();
   // Differences over two voxels, smoothed across by 1 2 1.
@@ -47,8 +48,7 @@ void forPreparedSurface(const Crown& crown, const BoxBytes& made, const BoxBytes
         glm::ivec3 next = ijk;
         next[axis] += way;
         const int there = made.bytes()[grid.index(next)];
-        if (there >= kHalf || !crown.isTooth(ijk)) continue;
-        if (!isPrepared(crown, made, ideal, ijk) && !isPrepared(crown, made, ideal, next)) continue;
+        if (there >= kHalf || !counts(ijk, next)) continue;
         const double share = (here - 127.5) / (here - there);
         glm::dvec3 out = glm::mix(slope(ijk), slope(next), share);
         const double length = glm::length(out);
@@ -63,6 +63,16 @@ void forPreparedSurface(const Crown& crown, const BoxBytes& made, const BoxBytes
                            ijk});
       }
   });
+}
+
+template <class Visit>
+void forPreparedSurface(const Crown& crown, const BoxBytes& made, const BoxBytes& ideal, const Visit& visit) {
+  forSurface(
+      made,
+      [&](glm::ivec3 ijk, glm::ivec3 next) {
+        return crown.isTooth(ijk) && (isPrepared(crown, made, ideal, ijk) || isPrepared(crown, made, ideal, next));
+      },
+      visit);
 }
 
 }  // namespace app

@@ -32,6 +32,11 @@ PreparationMeasure::PreparationMeasure(Crown crown, const IdealRule& rule, const
     walls_before_.emplace(crown_, crown_.solid, rule.margin_height_mm - kBelowMargin_mm, crown_.top_mm);
 }
 
+FillingOutcomes PreparationMeasure::fillingOf(const BoxBytes& made, const LaidBoxes& filling) {
+  if (!filling_) filling_.emplace(crown_);
+  return filling_->outcomesOf(made, filling);
+}
+
 PreparationOutcomes PreparationMeasure::outcomesOf(const BoxBytes& made) const {
   PreparationOutcomes outcomes;
   outcomes.removed = removedMaterial(crown_, made, ideal_, rule_);

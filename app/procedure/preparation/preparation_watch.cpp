@@ -25,7 +25,11 @@ struct PreparationWatch::Copy {
     if (!measure)
       measure.emplace(Crown(ToothBlocks(DenseTooth(volume.grid(), volume.before(), volume.labels())), tooth.frame),
                       rule, "--ideal");
-    return {measure->outcomesOf(DenseSolid(volume.grid(), volume.now())), {}};
+    const BoxBytes made(DenseSolid(volume.grid(), volume.now()), measure->crown().solid.grid());
+    PreparationOutcomes outcomes = measure->outcomesOf(made);
+    if (!volume.filling().laid.empty())
+      outcomes.filling = measure->fillingOf(made, laidBoxes(volume.filling(), volume.grid(), made.grid()));
+    return {std::move(outcomes), {}};
   } catch (const UsageError& error) {
     return {{}, error.what()};
   }
@@ -58,7 +62,22 @@ bool PreparationWatch::follow(std::span<const glm::ivec3> bricks, const haptics:
   return is_new;
 }
 
+std::string fillingLine(const FillingOutcomes& filling) {
+  std::string line =
+      fmt::format("{:.1f} mm³ laid, {:.0f} % of the cavity filled", filling.laid_mm3, 100.0 * filling.filledShare());
+  if (filling.curable_mm3 > 0.0) line += fmt::format(", {:.0f} % cured", 100.0 * filling.curedShare());
+  for (const Increment& one : filling.increments)
+    if (one.isTooDeep())
+      line +=
+          fmt::format("; increment {} is {:.1f} mm deep, over {:g}", one.number, one.depth_mm, kDeepestIncrement_mm);
+  if (!filling.voids.empty()) line += fmt::format("; voids {}", filling.voids.size());
+  if (filling.overhang_mm3 > 0.005)
+    line += fmt::format("; overhang {:.2f} mm³, {:.1f} mm", filling.overhang_mm3, filling.overhang_mm);
+  return line;
+}
+
 std::string preparationLine(const PreparationOutcomes& outcomes) {
+  if (outcomes.filling && outcomes.filling->laid_mm3 > 0.0) return fillingLine(*outcomes.filling);
   const RemovedMaterial& removed = outcomes.removed;
   const double cut_mm3 = removed.enamel_mm3 + removed.dentine_mm3;
   std::string line =

@@ -48,5 +48,7 @@ class PreparationWatch {
 };
 
 std::string preparationLine(const PreparationOutcomes& outcomes);
+/// "12.1 mm³ laid, 83 % of the cavity filled, 100 % cured; overhang 0.31 mm³, 0.2 mm".
+std::string fillingLine(const FillingOutcomes& filling);
 
 }  // namespace app

@@ -25,6 +25,8 @@ TEST(BurName, NamesInstrumentsThatAreNoBurs) {
   EXPECT_EQ(toolName(haptics::elevatorTool(haptics::ElevatorKind::cryer_right)), "Cryer elevator right");
   EXPECT_EQ(toolName(haptics::handInstrumentTool(haptics::HandInstrument::scalpel_15)), "scalpel no. 15");
   EXPECT_EQ(toolName(haptics::handInstrumentTool(haptics::HandInstrument::suction)), "suction tip");
+  EXPECT_EQ(toolName(haptics::handInstrumentTool(haptics::HandInstrument::composite)), "applicator, composite");
+  EXPECT_EQ(toolName(haptics::handInstrumentTool(haptics::HandInstrument::curing_lamp)), "curing lamp");
 }
 
 TEST(BurName, HasNoIsoSizeBetweenTenths) { EXPECT_EQ(burName({ShapeKind::sphere, 0.925, 0.0}), "round 1.85 mm"); }

@@ -82,12 +82,20 @@ TEST(ToolText, ReadsEveryHandInstrument) {
                                    {"periosteal", haptics::HandInstrument::periosteal},
                                    {"curette", haptics::HandInstrument::curette},
                                    {"bone-file", haptics::HandInstrument::bone_file},
-                                   {"suction", haptics::HandInstrument::suction}})
+                                   {"suction", haptics::HandInstrument::suction},
+                                   {"composite", haptics::HandInstrument::composite},
+                                   {"glass-ionomer", haptics::HandInstrument::glass_ionomer},
+                                   {"amalgam", haptics::HandInstrument::amalgam},
+                                   {"wax", haptics::HandInstrument::wax},
+                                   {"gutta-percha", haptics::HandInstrument::gutta_percha},
+                                   {"plugger", haptics::HandInstrument::plugger},
+                                   {"carver", haptics::HandInstrument::carver},
+                                   {"curing-lamp", haptics::HandInstrument::curing_lamp}})
     EXPECT_EQ(toolFrom(text, ""), haptics::handInstrumentTool(kind)) << text;
   for (const char* bad : {"scalpel", "scalpel:11", "none", "curette:3"})
     EXPECT_NE(tests::refusalOf<UsageError>([&] {
                 toolFrom(bad, "");
-              }).find("scalpel:15, periosteal, curette, bone-file or suction"),
+              }).find("scalpel:15, periosteal, curette, bone-file, suction, composite"),
               std::string::npos)
         << bad;
 }

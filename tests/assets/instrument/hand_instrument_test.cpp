@@ -13,9 +13,12 @@
 namespace assets {
 namespace {
 
-constexpr HandInstrumentForm kHandForms[] = {HandInstrumentForm::scalpel_15, HandInstrumentForm::periosteal,
-                                             HandInstrumentForm::curette, HandInstrumentForm::bone_file,
-                                             HandInstrumentForm::suction};
+constexpr HandInstrumentForm kHandForms[] = {
+    HandInstrumentForm::scalpel_15,    HandInstrumentForm::periosteal, HandInstrumentForm::curette,
+    HandInstrumentForm::bone_file,     HandInstrumentForm::suction,    HandInstrumentForm::composite,
+    HandInstrumentForm::glass_ionomer, HandInstrumentForm::amalgam,    HandInstrumentForm::wax,
+    HandInstrumentForm::gutta_percha,  HandInstrumentForm::plugger,    HandInstrumentForm::carver,
+    HandInstrumentForm::curing_lamp};
 
 TEST(HandInstrument, IsMadeOfClosedSurfacesWithoutHandles) {
   for (const HandInstrumentForm form : kHandForms)

@@ -19,7 +19,7 @@ CtVolume smallVolume(bool numbered = true) {
   volume.grid = {{7, 5, 3}, 0.25, {-3.25, 1.0 / 3.0, 40.0}};
   for (std::size_t v = 0; v < volume.grid.voxelCount(); ++v) {
     volume.hounsfield.push_back(static_cast<std::int16_t>(41 * static_cast<int>(v) - 1000));
-    volume.label.push_back(static_cast<std::uint8_t>(v % kTissueCount));
+    volume.label.push_back(static_cast<std::uint8_t>(v % kScanTissueCount));
     volume.solid.push_back(static_cast<std::uint8_t>(7 * v));
     if (numbered) volume.tooth.push_back(v % 2 == 0 ? 0 : 48);
   }
@@ -73,7 +73,7 @@ TEST(PlainVolume, RefusesValuesOutOfRange) {
     return refusalToRead(path);
   };
   EXPECT_EQ(refusal([](CtVolume&) {}), "accepted");
-  EXPECT_THAT(refusal([](CtVolume& v) { v.label[5] = kTissueCount; }), HasSubstr("out of range"));
+  EXPECT_THAT(refusal([](CtVolume& v) { v.label[5] = kScanTissueCount; }), HasSubstr("out of range"));
   EXPECT_THAT(refusal([](CtVolume& v) { v.tooth[5] = 49; }), HasSubstr("out of range"));
   EXPECT_THAT(refusal([](CtVolume& v) { v.grid.size.x = 0; }), HasSubstr("out of range"));
 

@@ -1,0 +1,82 @@
+#include "haptics/servo/filling_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "haptics/bone/carve.h"
+#include "haptics/bone/lay.h"
+#include "haptics/bone/stroke_history.h"
+
+namespace haptics {
+namespace {
+
+assets::Tissue materialOf(HandInstrument kind) {
+  switch (kind) {
+    case HandInstrument::glass_ionomer:
+      return assets::Tissue::glass_ionomer_soft;
+    case HandInstrument::amalgam:
+      return assets::Tissue::amalgam;
+    case HandInstrument::wax:
+      return assets::Tissue::wax;
+    case HandInstrument::gutta_percha:
+      return assets::Tissue::gutta_percha;
+    default:
+      return assets::Tissue::composite_soft;
+  }
+}
+
+}  // namespace
+
+FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool& tool,
+                              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, bool pedal,
+                              const ErosionSettings& erosion, double dt_s, std::uint64_t tick) noexcept {
+  FillingWork done;
+  Filling* const filling = bodies.filling();
+  if (filling == nullptr) return done;
+  const HandInstrument kind = tool.hand_instrument;
+  done.works = pedal && fills(kind);
+  // A press is a stroke.
+  if (done.works != std::exchange(worked_, done.works)) strokes.endStroke();
+  const double step_mm3 = filling->grid().voxelVolume_mm3() / 255.0;
+  const double before_mm3 = filling->volume_mm3();
+  if (!done.works) {
+    due_steps_ = 0.0;
+    light_.rest();
+  } else {
+    // An instrument is as thick as it is made, whatever a command says.
+    const double radius_mm = kHandInstrumentSizes[static_cast<std::size_t>(kind)].tip_radius_mm;
+    const LaidBall ball{bodies.jaw().field(), *filling, {X_PT.translation_mm}, radius_mm, tick, &strokes};
+    if (isApplicator(kind)) {
+      const unsigned increment = std::min(increment_ + (ended_ ? 1U : 0U), Filling::kMostIncrements);
+      due_steps_ += kLaying_mm3_per_s * dt_s / step_mm3;
+      const auto most = static_cast<std::int64_t>(due_steps_);
+      const std::int64_t laid = layBall(ball, materialOf(kind), increment, most);
+      // What finds no room is not owed.
+      due_steps_ -= static_cast<double>(most);
+      if (laid > 0) increment_ = increment, ended_ = false;
+    } else if (kind == HandInstrument::plugger) {
+      const std::int64_t moved = packBall(ball, kPacking_per_s * dt_s);
+      done.packed_mm3 = static_cast<double>(moved) * step_mm3;
+      const bool sets = filling->volume_mm3(assets::Tissue::composite_soft) > 0.0 ||
+                        filling->volume_mm3(assets::Tissue::glass_ionomer_soft) > 0.0;
+      ended_ = ended_ || (moved > 0 && !sets);
+    } else if (kind == HandInstrument::carver) {
+      ErosionStep step;
+      for (std::size_t label = assets::kScanTissueCount; label < step.loss.size(); ++label)
+        step.loss[label] = std::min(1.0, kCarving_per_s * erosion.tissue_factor[label] * dt_s);
+      carveTool(*filling, {ShapeKind::sphere, radius_mm, 0.0}, X_PT, step, tick, 1, &strokes);
+    } else {
+      const std::int64_t set = light_.shine(bodies.jaw().field(), *filling, X_PT, radius_mm, dt_s, &strokes);
+      ended_ = ended_ || set > 0;
+    }
+  }
+  done.changed_mm3 = filling->volume_mm3() - before_mm3;
+  done.increment = static_cast<std::uint8_t>(increment_);
+  done.total_mm3 = filling->volume_mm3();
+  done.cured_mm3 = filling->volume_mm3(assets::Tissue::composite) + filling->volume_mm3(assets::Tissue::glass_ionomer);
+  done.is_full = filling->blocksLeft() == 0;
+  return done;
+}
+
+}  // namespace haptics

@@ -1,0 +1,34 @@
+// The instruments that fill a tooth, at work while the pedal is down: an applicator lays its material at
+// kLaying_mm3_per_s into air it touches filling or tooth with, a plugger presses aside what has not set, a carver takes
+// filling away (each material by its removal factor), a curing lamp shines. Frame P. Servo thread; once a tick after
+// the contact; costs: bone/lay, bone/cure; no allocation, no throw.
+#pragma once
+
+#include "haptics/body/bodies.h"
+#include "haptics/bone/cure.h"
+#include "haptics/bone/erosion.h"
+#include "haptics/servo/filling_work.h"
+#include "haptics/tool/tool.h"
+
+namespace haptics {
+
+inline constexpr double kLaying_mm3_per_s = 3.0;
+inline constexpr double kPacking_per_s = 25.0;  ///< share of what is in a plugger's way
+inline constexpr double kCarving_per_s = 0.2;   ///< of a covered voxel of removal factor 1
+
+class FillingHand {
+ public:
+  /// `pedal`: down, and the instrument may work.
+  FillingWork work(Bodies& bodies, StrokeHistory& strokes, const Tool& tool,
+                   const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, bool pedal,
+                   const ErosionSettings& erosion, double dt_s, std::uint64_t tick) noexcept;
+
+ private:
+  double due_steps_ = 0.0;
+  unsigned increment_ = 0;
+  bool ended_ = true;  ///< the increment: what is laid next is another
+  bool worked_ = false;
+  CuringLight light_;
+};
+
+}  // namespace haptics

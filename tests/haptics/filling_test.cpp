@@ -1,0 +1,243 @@
+// Material laid, pressed, carved and cured in cavities whose volume is a formula.
+#include "haptics/bone/filling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "haptics/bone/carve.h"
+#include "haptics/bone/cure.h"
+#include "haptics/bone/lay.h"
+#include "haptics/servo/servo.h"
+#include "tests/haptics/allocation_count.h"
+#include "tests/haptics/phantom.h"
+
+namespace haptics {
+namespace {
+
+using namespace phantom;
+using assets::Tissue;
+
+constexpr double kVoxel_mm = 0.08, kPi = 3.14159265358979;
+constexpr std::int64_t kAll = 1'000'000'000;
+
+/// Solid but for a cylinder along z, D 2 mm, from `low_mm` to `high_mm`.
+Phantom drilled(double low_mm = -1.0, double high_mm = 1.0) {
+  return filled(2.4, kVoxel_mm, [=](const glm::dvec3& p) {
+    const double beside = std::hypot(p.x, p.y) - 1.0, over = std::max(p.z - high_mm, low_mm - p.z);
+    return -std::max(beside, over);  // solid where it is negative
+  });
+}
+
+struct Cavity {
+  Bodies bodies;
+  StrokeHistory strokes{bodies.bones(), StrokeHistory::kMaxBlocks, bodies.filling()};
+  std::uint64_t tick = 0;
+
+  explicit Cavity(const Phantom& of) : bodies(of.bodies(static_cast<std::uint8_t>(Tissue::dentine))) {}
+  Filling& filling() { return *bodies.filling(); }
+  LaidBall ball(const glm::dvec3& at_mm, double radius_mm = 0.5) {
+    return {bodies.jaw().field(), filling(), {at_mm}, radius_mm, tick++, &strokes};
+  }
+  /// A ball all over the cavity, so that no air is left up to `high_mm`.
+  void fill(double high_mm = 1.2, Tissue with = Tissue::composite_soft) {
+    for (double z = -1.2; z <= high_mm - 0.5 + 1e-9; z += 0.2)
+      for (double y = -1.2; y <= 1.21; y += 0.3)
+        for (double x = -1.2; x <= 1.21; x += 0.3) layBall(ball({x, y, z}), with, 1, kAll);
+  }
+};
+
+double mm3(std::int64_t steps) { return static_cast<double>(steps) * kVoxel_mm * kVoxel_mm * kVoxel_mm / 255.0; }
+
+TEST(Filling, OfACylinderHasItsVolume) {
+  Cavity cavity(drilled());
+  cavity.fill(1.8);
+  EXPECT_NEAR(cavity.filling().volume_mm3(), 2.0 * kPi, 0.01 * 2.0 * kPi);
+  // Nothing is laid where there is tooth.
+  const SolidField tooth = cavity.bodies.jaw().field(), laid = cavity.filling().field();
+  assets::forVoxels(cavity.bodies.grid(),
+                    [&](glm::ivec3 ijk, std::size_t) { ASSERT_LE(tooth.solidAt(ijk) + laid.solidAt(ijk), 255); });
+  EXPECT_NEAR(cavity.filling().volume_mm3(Tissue::composite_soft), cavity.filling().volume_mm3(), 1e-9);
+}
+
+TEST(Filling, IsLaidAtItsRateAndOnlyWhereTheBallTouches) {
+  Cavity cavity(drilled(-1.0, 3.0));
+  EXPECT_EQ(layBall(cavity.ball({0.0, 0.0, 0.0}), Tissue::composite_soft, 1, 500), 0);  // amid air
+  for (int n = 0; n < 40; ++n) EXPECT_EQ(layBall(cavity.ball({0.0, 0.0, -0.6}), Tissue::composite_soft, 1, 500), 500);
+  EXPECT_NEAR(cavity.filling().volume_mm3(), mm3(40 * 500), 1e-12);
+  EXPECT_EQ(layBall(cavity.ball({0.0, 0.0, NAN}), Tissue::composite_soft, 1, 500), 0);
+}
+
+TEST(Filling, ComesBackByUndoToTheBit) {
+  Cavity cavity(drilled());
+  const std::uint64_t empty = cavity.bodies.digest();
+  cavity.fill(0.6);
+  cavity.strokes.endStroke();
+  const std::uint64_t half = cavity.bodies.digest();
+  const double half_mm3 = cavity.filling().volume_mm3();
+  cavity.fill(1.8);
+  cavity.strokes.endStroke();
+  const std::uint64_t full = cavity.bodies.digest();
+  EXPECT_NE(half, full);
+  const auto undo = [&] { cavity.strokes.undo(cavity.bodies.bones(), 100'000, cavity.bodies.filling()); };
+  const auto redo = [&] { cavity.strokes.redo(cavity.bodies.bones(), 100'000, cavity.bodies.filling()); };
+  undo();
+  EXPECT_EQ(cavity.bodies.digest(), half);
+  EXPECT_NEAR(cavity.filling().volume_mm3(), half_mm3, 1e-12);
+  undo();
+  EXPECT_EQ(cavity.bodies.digest(), empty);
+  EXPECT_TRUE(cavity.filling().isEmpty());
+  redo(), redo();
+  EXPECT_EQ(cavity.bodies.digest(), full);
+}
+
+TEST(Filling, IsPressedAsideWithoutLoss) {
+  Cavity cavity(drilled(-1.0, 3.0));
+  cavity.fill(0.9);
+  const double before_mm3 = cavity.filling().volume_mm3();
+  std::int64_t moved = 0;
+  for (int n = 0; n < 200; ++n) moved += packBall(cavity.ball({0.3, 0.0, 0.9 - 0.002 * n}, 0.7), 0.2);
+  EXPECT_GT(mm3(moved), 0.1);
+  EXPECT_NEAR(cavity.filling().volume_mm3(), before_mm3, 1e-12);
+  // Nothing of it is left where the ball was, but in part voxels.
+  const SolidField laid = cavity.filling().field();
+  assets::forVoxels(cavity.bodies.grid(), [&](glm::ivec3 ijk, std::size_t) {
+    const double from_mm = glm::distance(laid.grid.centre_P_mm(ijk), glm::dvec3(0.3, 0.0, 0.5));
+    if (from_mm < 0.4) {
+      ASSERT_LT(laid.solidAt(ijk), 20);
+    }
+  });
+}
+
+TEST(Filling, SetsToTwoMillimetresUnderTheLampAndNoDeeper) {
+  Cavity cavity(drilled(-2.0, 2.3));
+  for (double z = -1.6; z <= 1.0; z += 0.2)
+    for (double y = -0.9; y <= 0.91; y += 0.3)
+      for (double x = -0.9; x <= 0.91; x += 0.3) layBall(cavity.ball({x, y, z}), Tissue::composite_soft, 1, kAll);
+  const double all_mm3 = cavity.filling().volume_mm3();
+  CuringLight light;
+  double set_mm3 = 0.0;
+  const auto shine = [&](double seconds) {
+    for (int n = 0; n < static_cast<int>(seconds * 1000.0); ++n)
+      set_mm3 += mm3(light.shine(cavity.bodies.jaw().field(), cavity.filling(), {{1, 0, 0, 0}, {0, 0, 5.0}}, 3.0, 1e-3,
+                                 &cavity.strokes));
+  };
+  shine(8.0);
+  EXPECT_EQ(cavity.filling().volume_mm3(Tissue::composite), 0.0);
+  shine(6.0);
+  EXPECT_NEAR(cavity.filling().volume_mm3(Tissue::composite), set_mm3, 1e-9);
+  EXPECT_NEAR(cavity.filling().volume_mm3(), all_mm3, 1e-12);
+  // The top lies at 1.5, so light ends 2 mm below; a march of 0.16 mm blurs it.
+  const SolidField laid = cavity.filling().field();
+  for (double z = -1.7; z < 1.3; z += 0.08) {
+    const glm::ivec3 ijk(glm::floor(laid.grid.indexFromPoint({0.0, 0.0, z}) + 0.5));
+    const bool is_lit = laid.labelAt(ijk) == static_cast<std::uint8_t>(Tissue::composite);
+    EXPECT_TRUE(std::abs(z + 0.5) < 0.2 || is_lit == (z > -0.5)) << z;
+  }
+}
+
+/// Of a ball of filling in a cavity, mm3 that a carver takes in half a second; `with` laid.
+double carved(Tissue with) {
+  Cavity cavity(drilled());
+  cavity.fill(1.8, with);
+  ErosionStep step;
+  step.loss[static_cast<std::size_t>(with)] =
+      kCarving_per_s * assets::properties(static_cast<std::uint8_t>(with)).removal_factor * 1e-3;
+  const double before_mm3 = cavity.filling().volume_mm3();
+  double taken_mm3 = 0.0;
+  for (std::uint64_t n = 0; n < 500; ++n)
+    taken_mm3 += carveTool(cavity.filling(), {ShapeKind::sphere, 0.4, 0.0}, {{1, 0, 0, 0}, {0, 0, 0}}, step, n, 1,
+                           &cavity.strokes)
+                     .removed_mm3;
+  EXPECT_NEAR(before_mm3 - cavity.filling().volume_mm3(), taken_mm3, 1e-9);
+  return taken_mm3;
+}
+
+TEST(Filling, IsCarvedByHowHardItIs) {
+  const double ball_mm3 = 4.0 / 3.0 * kPi * 0.4 * 0.4 * 0.4;
+  EXPECT_NEAR(carved(Tissue::composite_soft), ball_mm3, 0.01 * ball_mm3);  // all of it, and no more
+  EXPECT_NEAR(carved(Tissue::composite), 0.5 * 1.25 * kCarving_per_s * ball_mm3, 0.03 * ball_mm3);
+}
+
+/// A servo on such a cavity and a hand that presses its button.
+struct Room {
+  Bodies bodies = drilled(-1.0, 3.0).bodies(static_cast<std::uint8_t>(Tissue::dentine));
+  Servo servo{bodies};
+  Command command;
+  HandSample hand;
+  Tick tick;
+  std::vector<Tick> ticks;
+
+  Room() {
+    command.tool = handInstrumentTool(HandInstrument::composite);
+    hand.X_PT.translation_mm = {0.0, 0.0, 2.0};
+  }
+  void go(const glm::dvec3& to_mm, int steps) {
+    const glm::dvec3 from = hand.X_PT.translation_mm;
+    for (int n = 1; n <= steps; ++n) {
+      hand.X_PT.translation_mm = glm::mix(from, to_mm, static_cast<double>(n) / steps);
+      tick = servo.step(hand, command, 1e-3);
+      ticks.push_back(tick);
+    }
+  }
+  void stroke() {
+    go({0.0, 0.0, -0.5}, 200);
+    hand.drill_pedal = true;
+    go({0.3, 0.0, -0.3}, 300);
+    hand.drill_pedal = false;
+    go({0.0, 0.0, 2.0}, 500);
+  }
+};
+
+TEST(Filling, IsLaidByTheServoWithoutAllocating) {
+  Room room;
+  room.go({0.0, 0.0, -0.5}, 200);
+  room.ticks.reserve(10'000);
+  room.hand.drill_pedal = true;
+  const std::size_t before = allocation_count::now();
+  room.go({0.3, 0.0, -0.3}, 300);
+  EXPECT_EQ(allocation_count::now(), before);
+  EXPECT_NEAR(room.tick.filling.total_mm3, 0.3 * kLaying_mm3_per_s, 0.1 * kLaying_mm3_per_s);
+  EXPECT_EQ(room.tick.filling.increment, 1);
+  // Neither is it tooth that was removed, nor does undo count it so.
+  EXPECT_EQ(room.tick.removed_total_mm3, (std::array<double, assets::kTissueCount>{}));
+}
+
+TEST(Filling, IsUndoneByTheServoAPressAtATime) {
+  Room room;
+  room.stroke();
+  const std::uint64_t one = room.tick.bone_digest;
+  const std::uint8_t strokes = room.tick.strokes;
+  room.go({0.0, 0.0, 2.0}, 400);
+  room.stroke();
+  EXPECT_EQ(room.tick.strokes, strokes + 1);
+  EXPECT_NE(room.tick.bone_digest, one);
+  room.command.undo_serial = 1;
+  room.go({0.0, 0.0, 2.0}, 100);
+  EXPECT_EQ(room.tick.bone_digest, one);
+  EXPECT_EQ(room.tick.removed_mm3, 0.0);
+  room.command.undo_serial = 2;
+  room.go({0.0, 0.0, 2.0}, 100);
+  EXPECT_EQ(room.tick.filling.total_mm3, 0.0);
+  EXPECT_EQ(room.tick.bone_digest, room.ticks.front().bone_digest);
+}
+
+TEST(Filling, IsTheSameBitsAgain) {
+  Room first, second;
+  for (Room* room : {&first, &second}) {
+    room->stroke();
+    room->command.tool = handInstrumentTool(HandInstrument::plugger);
+    room->stroke();
+    room->command.tool = handInstrumentTool(HandInstrument::carver);
+    room->stroke();
+  }
+  for (std::size_t n = 0; n < first.ticks.size(); ++n) {
+    ASSERT_EQ(first.ticks[n].bone_digest, second.ticks[n].bone_digest) << n;
+    ASSERT_EQ(first.ticks[n].law_force_P_N.xyz, second.ticks[n].law_force_P_N.xyz) << n;
+  }
+  EXPECT_GT(first.tick.filling.total_mm3, 0.0);
+}
+
+}  // namespace
+}  // namespace haptics
