@@ -46,16 +46,32 @@ class Under {
   }
 
   const VoxelBox& box() const { return box_; }
-  /// visit(block, its number, coverage 0..255 of each voxel).
-  template <class Visit>
-  void forBlocks(const Visit& visit) {
-    if (box_.empty()) return;
-    const glm::ivec3 first = box_.first / kBlockEdge, last = box_.last / kBlockEdge;
+  /// visit(block, its number, coverage 0..255 of each voxel) where `counts(its number)`.
+  template <class Counts, class Visit>
+  void forBlocks(const VoxelBox& box, const Counts& counts, const Visit& visit) {
+    if (box.empty()) return;
+    const glm::ivec3 first = box.first / kBlockEdge, last = box.last / kBlockEdge;
     Weights cover;
     assets::forVoxels(first, last + 1, [&](glm::ivec3 block) {
-      if (!coverOf(block, cover)) return;
-      visit(block, field_.blockAt(block), cover);
+      const std::size_t number = field_.blockAt(block);
+      if (counts(number) && coverOf(block, cover)) visit(block, number, cover);
     });
+  }
+  /// Sums over a block.
+  int toothWeight(std::size_t block) const { return ball_.tooth.weight[ball_.tooth.slotOf(block)]; }
+  int laidWeight(std::size_t block) const { return field_.weight[field_.slotOf(block)]; }
+  bool hasRoom(std::size_t block) const { return toothWeight(block) + laidWeight(block) < kWhole * kBlockVoxels; }
+  /// The part of the box on one side of the ball's centre along each axis.
+  VoxelBox octant(unsigned number) const {
+    VoxelBox part = box_;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int middle = static_cast<int>(std::floor(centre_[axis])) / kBlockEdge * kBlockEdge;
+      if ((number >> axis & 1U) != 0)
+        part.first[axis] = std::max(part.first[axis], middle);
+      else
+        part.last[axis] = std::min(part.last[axis], middle - 1);
+    }
+    return part;
   }
   bool coverOf(glm::ivec3 block, Weights& cover) {
     if (!cover_.of(block, cut_)) return false;
@@ -119,13 +135,22 @@ std::int64_t layBall(const LaidBall& ball, assets::Tissue material, unsigned inc
   };
   std::int64_t all = 0;
   Weights lack;
-  under.forBlocks(
-      [&](glm::ivec3 block, std::size_t number, const Weights& cover) { all += lacking(block, number, cover, lack); });
+  const auto has_room = [&](std::size_t number) { return under.hasRoom(number); };
+  under.forBlocks(under.box(), has_room, [&](glm::ivec3 block, std::size_t number, const Weights& cover) {
+    all += lacking(block, number, cover, lack);
+  });
+  // A face may lie between what is full and what is empty.
+  if (all != 0 && !touches)
+    under.forBlocks(
+        under.box(), [&](std::size_t number) { return !touches && !under.hasRoom(number); },
+        [&](glm::ivec3, std::size_t, const Weights& cover) {
+          touches = touches || std::any_of(cover.begin(), cover.end(), [](int one) { return one != 0; });
+        });
   if (all == 0 || !touches) return 0;
   const std::int64_t due = std::min(all, most_steps);
   Shares shares(due, all, ball.tick);
   std::int64_t done = 0;
-  under.forBlocks([&](glm::ivec3 block, std::size_t number, const Weights& cover) {
+  under.forBlocks(under.box(), has_room, [&](glm::ivec3 block, std::size_t number, const Weights& cover) {
     if (lacking(block, number, cover, lack) == 0) return;
     BlockState state = ball.filling.stateOf(number);
     std::int64_t here = 0;
@@ -161,7 +186,8 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
   };
   std::int64_t all = 0;
   Weights weight;
-  under.forBlocks([&](glm::ivec3, std::size_t number, const Weights& cover) {
+  const auto has_filling = [&](std::size_t number) { return under.laidWeight(number) != 0; };
+  under.forBlocks(under.box(), has_filling, [&](glm::ivec3, std::size_t number, const Weights& cover) {
     const std::int64_t here = excess(number, cover, weight);
     if (here == 0) return;
     const BlockState state = ball.filling.stateOf(number);
@@ -174,14 +200,14 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
   if (all == 0) return 0;
   const auto material = static_cast<std::uint8_t>(std::max_element(of.begin(), of.end()) - of.begin());
 
-  // Room beside the ball, where something is to hold on to.
+  // Room beside the ball, where something is to hold on to; an eighth of the places around it in every step.
   const auto room = [&](glm::ivec3 block, std::size_t number, const Weights& cover, Weights& free) {
     const std::uint8_t *const tooth = wide.tooth(number), *const laid = wide.laid(number);
     Weights inner;
     if (!under.coverOf(block, inner)) inner.fill(0);
     std::int64_t sum = 0;
     for (std::size_t n = 0; n < free.size(); ++n) {
-      free[n] = std::max(0, std::min(kWhole - tooth[n] - laid[n], cover[n] - inner[n]));
+      free[n] = inner[n] != 0 ? 0 : std::max(0, std::min(kWhole - tooth[n] - laid[n], cover[n]));
       if (free[n] == 0) continue;
       const glm::ivec3 ijk = Under::voxelOf(block, n);
       bool holds = under.isInGrid(block, n) && tooth[n] + laid[n] >= kHalf / 2;
@@ -197,7 +223,9 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
     return sum;
   };
   std::int64_t free_steps = 0;
-  wide.forBlocks([&](glm::ivec3 block, std::size_t number, const Weights& cover) {
+  const VoxelBox part = wide.octant(static_cast<unsigned>(ball.tick % 8));
+  const auto has_room = [&](std::size_t number) { return wide.hasRoom(number); };
+  wide.forBlocks(part, has_room, [&](glm::ivec3 block, std::size_t number, const Weights& cover) {
     free_steps += room(block, number, cover, weight);
   });
   const auto asked = static_cast<std::int64_t>(std::ceil(std::min(share, 1.0) * static_cast<double>(all)));
@@ -207,7 +235,7 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
   // Laid first: room is told by the filling as it was. What finds no block stays where it is.
   Shares given(due, free_steps, ball.tick);
   std::int64_t moved = 0, shared = 0;
-  wide.forBlocks([&](glm::ivec3 block, std::size_t number, const Weights& cover) {
+  wide.forBlocks(part, has_room, [&](glm::ivec3 block, std::size_t number, const Weights& cover) {
     if (shared == due || room(block, number, cover, weight) == 0) return;
     BlockState state = ball.filling.stateOf(number);
     std::int64_t here = 0;
@@ -221,11 +249,9 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
     if (here != 0 && ball.filling.setBlock(number, state, ball.strokes)) moved += here;
   });
   if (moved == 0) return 0;
-  // As much is taken: what was laid beside is outside of the ball, but for voxels at its rim.
-  std::int64_t left = 0;
-  under.forBlocks([&](glm::ivec3, std::size_t number, const Weights& cover) { left += excess(number, cover, weight); });
-  Shares taken(std::min(moved, left), left, ball.tick);
-  under.forBlocks([&](glm::ivec3, std::size_t number, const Weights& cover) {
+  // As much is taken, from what was in the way before.
+  Shares taken(moved, all, ball.tick);
+  under.forBlocks(under.box(), has_filling, [&](glm::ivec3, std::size_t number, const Weights& cover) {
     if (excess(number, cover, weight) == 0) return;
     BlockState state = ball.filling.stateOf(number);
     for (std::size_t n = 0; n < weight.size(); ++n) {

@@ -1,6 +1,7 @@
 // What instruments with a ball at their tip do to a filling: lay material into air, press it aside. Frame P; steps of
-// 1/255 of a voxel, so that sums are exact. The thread that owns the filling; two passes over the blocks under the
-// ball, some 10 to 100 us with 0.5 to 1 mm at 0.08 mm; no allocation, no throw. Carving: bone/carve. Light: bone/cure.
+// 1/255 of a voxel, so that sums are exact. The thread that owns the filling; several passes over the blocks under the
+// ball: layBall 50 us, packBall 130 us, 300 at most, with 0.5 and 0.7 mm at 0.08 mm; no allocation, no throw. Carving:
+// bone/carve. Light: bone/cure.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,8 @@ Tool sanitised(const Tool& tool) noexcept {
             tool.handpiece,
             tool.grips,
             tool.grips || tool.elevator > ElevatorKind::cryer_right ? ElevatorKind::none : tool.elevator};
-  if (!safe.luxates() && tool.hand_instrument <= HandInstrument::curing_lamp) safe.hand_instrument = tool.hand_instrument;
+  if (!safe.luxates() && tool.hand_instrument <= HandInstrument::curing_lamp)
+    safe.hand_instrument = tool.hand_instrument;
   if (!safe.luxates() && !safe.isHandInstrument()) safe.file = sanitised(tool.file);
   const Shaft& shaft = tool.shaft;
   if (shaft.radius_mm > 0.0 && shaft.length_mm > 0.0 && std::isfinite(shaft.radius_mm) &&

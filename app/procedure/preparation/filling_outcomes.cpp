@@ -134,8 +134,11 @@ std::vector<Increment> incrementsOf(const Crown& crown, const LaidBoxes& filling
     if (isCurable(tissue)) sum.curable += mm3;
     if (isCured(tissue)) sum.cured += mm3;
     const glm::dvec3 p = crown.frame.local(grid.centre_P_mm(ijk));
-    sum.columns[{static_cast<int>(std::floor(p.x / kColumn_mm)), static_cast<int>(std::floor(p.y / kColumn_mm))}] +=
-        mm3;
+    // Shared out between the four columns around, else a column would hold now more, now fewer voxels.
+    const glm::dvec2 column = glm::dvec2(p) / kColumn_mm, low = glm::floor(column), f = column - low;
+    for (int n = 0; n < 4; ++n)
+      sum.columns[{static_cast<int>(low.x) + (n & 1), static_cast<int>(low.y) + (n >> 1)}] +=
+          mm3 * ((n & 1) != 0 ? f.x : 1.0 - f.x) * ((n >> 1) != 0 ? f.y : 1.0 - f.y);
   });
   std::vector<Increment> increments;
   for (const auto& [number, sum] : sums) {

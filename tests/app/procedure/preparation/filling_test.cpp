@@ -27,7 +27,7 @@ struct Filled {
   LaidBoxes laid;
 
   explicit Filled(double floor_mm = 5.0, bool is_askew = false)
-      : scene(0.05, is_askew),
+      : scene(0.08, is_askew),
         made(scene.made(drilled(floor_mm))),
         laid{BoxBytes(made.grid()), BoxBytes(made.grid()), BoxBytes(made.grid())} {}
 
@@ -47,7 +47,7 @@ struct Filled {
 };
 
 /// Between two heights, within a radius of the axis.
-shapes::Depth disc(double low_mm, double high_mm, double radius_mm = kRadius_mm + 0.5) {
+shapes::Depth disc(double low_mm, double high_mm, double radius_mm = kRadius_mm + 0.04) {
   return [=](const glm::dvec3& p) { return std::min({radius_mm - std::hypot(p.x, p.y), p.z - low_mm, high_mm - p.z}); };
 }
 
@@ -86,7 +86,7 @@ TEST(FillingOutcomes, FindAVoidOfItsSize) {
 
 TEST(FillingOutcomes, TellOverhangAndWhatIsTooHighOrLow) {
   Filled high;
-  high.lay(disc(4.9, 7.3));
+  high.lay(disc(4.9, 7.3, 1.5));
   const FillingOutcomes over = high.outcomes();
   // A disc of 1.5 mm radius stands 0.3 mm over the tooth, of which 0.2 count.
   EXPECT_NEAR(over.overhang_mm3, std::numbers::pi * 2.25 * 0.2, 0.25);
