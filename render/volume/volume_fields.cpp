@@ -112,13 +112,8 @@ void VolumeFields::blendRelabelled() {
   for (const std::size_t number : relabelled_) {
     const auto at = static_cast<int>(number);
     const glm::ivec3 brick(at % bricks.x, at / bricks.x % bricks.y, at / bricks.x / bricks.y);
-    around.insert(number);
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int way : {-1, 1}) {
-        glm::ivec3 next = brick;
-        next[axis] += way;
-        if (next[axis] >= 0 && next[axis] < bricks[axis]) around.insert(indexIn(bricks, next));
-      }
+    const glm::ivec3 low = glm::max(brick - 1, 0), high = glm::min(brick + 2, bricks);
+    forEachIn({low, high - low}, [&](glm::ivec3 next) { around.insert(indexIn(bricks, next)); });
   }
   relabelled_.clear();
   for (const std::size_t number : around) {

@@ -152,6 +152,36 @@ TEST(VolumeFields, APlacedPieceAddsItsMatterToTheShadeAndTakesItAwayAgain) {
   EXPECT_TRUE(equal(fields.ambient(), alone.ambient()));
 }
 
+TEST(VolumeFields, OfAFillingHaveItsTissueUntilItIsGone) {
+  const assets::VolumeGrid grid = testing::smallGrid({37, 43, 50});
+  const assets::CtVolume before = testing::ballVolume(grid, {{{0, 0, 0}, 8.0}});
+  assets::CtVolume filled = before;
+  const assets::CtVolume laid = testing::ballVolume(grid, {{{1.0, -2.0, 3.0}, 2.5}});
+  constexpr auto kComposite = static_cast<std::uint8_t>(assets::Tissue::composite);
+  for (std::size_t v = 0; v < laid.solid.size(); ++v)
+    if (laid.solid[v] > 127) filled.label[v] = kComposite;
+  VolumeFields fields(grid, before.solid, before.label);
+  const auto tell = [&](bool is_there) {
+    for (int b = 0; b < 5 * 6 * 7; ++b) {
+      const glm::ivec3 brick{b % 5, b / 5 % 6, b / 30};
+      std::array<std::uint8_t, 512> tissue = bricksOwn(laid, brick);
+      for (std::uint8_t& one : tissue) one = is_there && one > 127 ? kComposite : std::uint8_t{0};
+      fields.updateTissue(brick, tissue);
+    }
+    return fields.prepare();
+  };
+  EXPECT_FALSE(tell(true).tissue.empty());
+  const VolumeFields fresh(grid, filled.solid, filled.label);
+  EXPECT_TRUE(equal(fields.label(), fresh.label()));
+  EXPECT_TRUE(equal(fields.appearance(), fresh.appearance()));
+  EXPECT_TRUE(tell(true).tissue.empty()) << "nothing is new";
+  EXPECT_FALSE(tell(false).tissue.empty());
+  const VolumeFields again(grid, before.solid, before.label);
+  EXPECT_TRUE(equal(fields.label(), again.label()));
+  EXPECT_TRUE(equal(fields.appearance(), again.appearance()));
+  EXPECT_FALSE(equal(fresh.appearance(), again.appearance()));
+}
+
 TEST(AppearanceField, IsThatOfTheTissueDeepInside) {
   assets::CtVolume ct = testing::ballVolume(testing::smallGrid(glm::ivec3(20)), {});
   std::ranges::fill(ct.solid, std::uint8_t{255});

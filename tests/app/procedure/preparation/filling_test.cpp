@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/procedure/preparation/preparation_watch.h"
+#include "haptics/bone/lay.h"
 #include "tests/app/procedure/preparation/round_tooth.h"
 
 namespace app {
@@ -119,6 +122,34 @@ TEST(FillingOutcomes, TellIncrementsOverTwoMillimetresAndWhatIsCured) {
   packed.lay(disc(3.9, 7.0), Tissue::amalgam, 1);
   EXPECT_FALSE(packed.outcomes().increments[0].isTooDeep());
   EXPECT_EQ(packed.outcomes().curable_mm3, 0.0);
+}
+
+TEST(FillingOutcomes, AreMeasuredOfTheBytesThatARecordingKeeps) {
+  assets::CtVolume ct;
+  ct.grid = {glm::ivec3(40, 36, 44), 0.08, {-1.6, -1.4, -1.8}};
+  ct.solid.assign(ct.grid.voxelCount(), 0);
+  ct.label.assign(ct.grid.voxelCount(), static_cast<std::uint8_t>(Tissue::dentine));
+  assets::forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) { ct.solid[v] = ijk.z < 9 ? 255 : 0; });
+  haptics::Bodies bodies(ct.grid, ct.solid, ct.label);
+  ToothCopy copy(ct, ct.solid);
+  const auto follow = [&] {
+    std::vector<glm::ivec3> bricks;
+    bodies.takeDirtyBricks(bricks);
+    copy.take(bodies, bricks);
+  };
+  follow();
+  EXPECT_TRUE(copy.filling().laid.empty());
+  for (unsigned n = 0; n < 3; ++n) {
+    const calibration::Point<calibration::Patient> at{{0.4 * n - 0.4, 0.1, -0.9 + 0.3 * n}};
+    haptics::layBall({bodies.jaw().field(), *bodies.filling(), at, 0.5}, Tissue::amalgam, n + 1, 1'000'000'000);
+    follow();
+  }
+  const haptics::Filling::Volumes kept = bodies.filling()->volumes();
+  // The copy's grid is of whole blocks, as this one is.
+  EXPECT_EQ(copy.filling().laid, kept.laid);
+  EXPECT_EQ(copy.filling().tissue, kept.tissue);
+  EXPECT_EQ(copy.filling().increment, kept.increment);
+  EXPECT_EQ(*std::ranges::max_element(kept.increment), 3);
 }
 
 TEST(FillingOutcomes, OfNothingAreNone) {
