@@ -160,7 +160,9 @@ void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::
   const auto renderer = display().newRenderer([&](render::Backend backend) {
     return newRenderer({.backend = backend, .samples = kSnapshotSamples}, any_moved ? plan_.patient.ct.solid : solid);
   });
-  if (any_moved) BrickUploader().uploadEverything(*bodies_, frame.pieces, *renderer);
+  const haptics::Filling* const filling = bodies_->filling();
+  if (any_moved || (filling != nullptr && !filling->isEmpty()))
+    BrickUploader().uploadEverything(*bodies_, frame.pieces, *renderer);
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
   frame.gap = frame.tool_visible && !in_force_.tool.isFile() ? renderer->gap(frame) : std::nullopt;

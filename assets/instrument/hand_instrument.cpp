@@ -90,6 +90,13 @@ constexpr Knot kApplicatorTip[] = {
     {0.25, {0.0, 0.0}, {0.43, 0.43}, 0, 0, 0, 1},  {0.60, {0.0, 0.0}, {0.34, 0.34}, 0, 0, 0, 2},
     {9.00, {0.0, 0.0}, {0.40, 0.40}, 0, 0, 0, 3},  {16.0, {0.0, 0.0}, {0.75, 0.75}, 0, 0, 0, 2},
     {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
+// Of gutta-percha: a slender cone.
+constexpr Knot kConeTip[] = {
+    {-0.40, {0.0, 0.0}, {0.05, 0.05}, 0, 0, 0, 1}, {-0.36, {0.0, 0.0}, {0.20, 0.20}, 0, 0, 0, 1},
+    {-0.20, {0.0, 0.0}, {0.33, 0.33}, 0, 0, 0, 1}, {0.00, {0.0, 0.0}, {0.38, 0.38}, 0, 0, 0, 2},
+    {3.00, {0.0, 0.0}, {0.45, 0.45}, 0, 0, 0, 2},  {6.00, {0.0, 0.0}, {0.52, 0.52}, 0, 0, 0, 2},
+    {9.00, {0.0, 0.0}, {0.56, 0.56}, 0, 0, 0, 3},  {16.0, {0.0, 0.0}, {0.75, 0.75}, 0, 0, 0, 2},
+    {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
 constexpr Knot kCarrierTip[] = {{-0.80, {0.0, 0.0}, {0.10, 0.10}, 0, 0, 0, 1},
                                 {-0.75, {0.0, 0.0}, {0.55, 0.55}, 0, 0, 0, 1},
                                 {-0.50, {0.0, 0.0}, {0.78, 0.78}, 0, 0, 0, 2},
@@ -207,7 +214,7 @@ MeshModel handInstrument(HandInstrumentForm form) {
     case HandInstrumentForm::wax:
       return applicator(kApplicatorTip, {0.20f, 0.45f, 0.30f});
     case HandInstrumentForm::gutta_percha:
-      return applicator(kApplicatorTip, {0.85f, 0.36f, 0.30f});
+      return applicator(kConeTip, {0.85f, 0.36f, 0.30f});
     case HandInstrumentForm::plugger:
       return withHandle(part(kPluggerTip, "Blade", kSteel));
     case HandInstrumentForm::carver:

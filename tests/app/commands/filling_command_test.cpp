@@ -13,7 +13,7 @@ namespace app {
 namespace {
 
 /// A hand in the frame of a tooth, its instrument upright.
-struct Hand {
+struct FillingHand {
   assets::ToothFrame frame;
   std::string rows = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,tool\n";
   double t_s = 0.0;
@@ -47,7 +47,7 @@ class FillingCommand : public ProgramTest {
 };
 
 TEST_F(FillingCommand, TellsWhatAFillingHasComeToAndReplaysItBitForBit) {
-  Hand away;
+  FillingHand away;
   away.frame.axes_P = glm::dmat3(1.0);
   away.go({0.0, 0.0, 200.0}, 0.2);
   ASSERT_EQ(fill(write("far.csv", away.rows), "--record " + at("far.molar")).status, 0);
@@ -58,7 +58,7 @@ TEST_F(FillingCommand, TellsWhatAFillingHasComeToAndReplaysItBitForBit) {
   EXPECT_NEAR(ready.at("P9_depth_mm").get<double>(), 2.0, 0.15);
   EXPECT_FALSE(ready.contains("filling"));
 
-  Hand hand;
+  FillingHand hand;
   hand.frame = SessionReader(at("far.molar")).about().setup.prepared->frame;
   hand.go({0.0, 0.0, 9.0}, 0.3, false, "composite");
   for (const double height_mm : {3.0, 3.5, 4.0})  // the floor holds it off
