@@ -18,6 +18,8 @@
 
 namespace render {
 
+struct SurfacePaint;
+
 /// How tooth and bone are drawn: the surface solid = 0.5, the translucent volume, the surface as triangles, or the
 /// volume as clear as glass with the walls of a tooth and its canals.
 enum class ViewMode { iso, dvr, mesh, clear };
@@ -36,6 +38,10 @@ struct Layers {
   bool obstacles = true;     ///< Frame::obstacles
   // Of a root-canal file in the hand; what the frame is made from, drawn by ViewMode::clear and Frame::magnified.
   bool clear_tooth = false, tip_inset = false;
+  // Of a tooth preparation; what the frame's paint and arrow are made of.
+  bool deviation = false;  ///< distance to the ideal
+  bool insertion = false;  ///< the way of insertion, and what is undercut
+  bool marks = true;       ///< of articulating paper
 };
 
 /// Larger gaps are not reported.
@@ -56,6 +62,14 @@ struct RulerLine {
 inline bool operator==(const RulerLine& a, const RulerLine& b) {
   return a.from_P.mm == b.from_P.mm && a.to_P.has_value() == b.to_P.has_value() &&
          (!a.to_P || a.to_P->mm == b.to_P->mm);
+}
+
+/// A direction on the patient, drawn as an arrow that is seen through tooth and bone as well.
+struct GuideArrow {
+  calibration::Point<calibration::Patient> from_P, to_P;
+};
+inline bool operator==(const GuideArrow& a, const GuideArrow& b) {
+  return a.from_P.mm == b.from_P.mm && a.to_P.mm == b.to_P.mm;
 }
 
 /// A place shown larger in a corner of the picture, tooth and bone as clear as glass: across `up_P`, which is upright,
@@ -138,6 +152,7 @@ struct Frame {
   double bur_angle_rad = 0.0;    ///< rotation of the bur
   std::optional<BoneGap> gap;    ///< of this pose; none: farther than kMaxGap_mm, or not known
   std::optional<RulerLine> ruler;
+  std::optional<GuideArrow> arrow;
   std::optional<Magnified> magnified;
   glm::dvec3 slices_beside_bur_P_mm{0.0};  ///< where the CT slices cross, from the bur
   bool tool_visible = true;
@@ -157,6 +172,9 @@ struct Frame {
   const assets::MeshModel* flap = nullptr;  ///< null: none
   const assets::MeshModel* gum = nullptr;   ///< the gum around it, instead of FrameRenderer::setGingiva()
   std::uint64_t flap_serial = 0, gum_serial = 0;
+  /// On tooth and bone, drawn as a surface; borrowed alike.
+  const SurfacePaint* paint = nullptr;  ///< null: none
+  std::uint64_t paint_serial = 0;
 };
 
 }  // namespace render

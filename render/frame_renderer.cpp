@@ -16,11 +16,13 @@
 #include "render/scene/obstacle_mesh.h"
 #include "render/scene_renderer.h"
 #include "render/volume/clearance_legend.h"
+#include "render/volume/paint_legend.h"
 
 namespace render {
 namespace {
 
 constexpr double kLegendLine = 0.023, kMaxLegendHeight = 0.3, kLegendTop = 0.28;  // of the viewer's screen
+constexpr double kMaxPaintLegendHeight = 0.5;
 constexpr int kLeastLegendLine_px = 11;
 constexpr double kMagnifiedHeight = 0.32, kMagnifiedTop = 0.30;  // alike, at the right
 constexpr std::array<std::uint8_t, 4> kMagnifiedRim{205, 214, 220, 255};
@@ -189,6 +191,20 @@ void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
     seen.corner_px.y = static_cast<int>(kLegendTop * per_height.y);
     if (glm::all(glm::greaterThanEqual(seen.corner_px, glm::ivec2(0)))) add(seen, clearanceLegend(line_px));
   }
+  if (frame.paint != nullptr && !frame.paint->rows.empty() && !isTranslucent(frame.mode)) {
+    const int line_px = std::max(static_cast<int>(kLegendLine * per_height.y), kLeastLegendLine_px);
+    const auto stretched = glm::dvec2(per_height.x / per_height.y, 1.0);
+    PixelBox seen;
+    seen.size_px = glm::max(glm::ivec2(glm::round(glm::dvec2(paintLegendSize(*frame.paint, line_px)) * stretched)), 1);
+    seen.corner_px = seen_px - seen.size_px - glm::ivec2(kInsetGap * per_height);
+    // Under what else is shown at this side.
+    int top_px = static_cast<int>(kLegendTop * per_height.y);
+    if (frame.magnified) top_px += static_cast<int>((kMagnifiedHeight + kInsetGap) * per_height.y);
+    seen.corner_px.y = top_px;
+    const bool fits = seen.corner_px.x >= 0 && seen.corner_px.y + seen.size_px.y <= seen_px.y &&
+                      seen.size_px.y <= kMaxPaintLegendHeight * per_height.y;
+    if (fits) add(seen, paintLegend(*frame.paint, line_px));
+  }
   scene_->setInsets(std::move(insets));
 }
 
@@ -223,6 +239,12 @@ void FrameRenderer::updateTissue(glm::ivec3 brick, std::span<const std::uint8_t,
 }
 
 void FrameRenderer::updateRuler(const Frame& frame) {
+  if (frame.arrow != arrow_) {
+    arrow_ = frame.arrow;
+    for (const bool behind : {false, true})
+      scene_->setModel(behind ? Model::arrow_overlay : Model::arrow,
+                       arrow_ ? arrowMesh(*arrow_, behind) : assets::MeshModel{});
+  }
   if (frame.ruler == ruler_) return;
   ruler_ = frame.ruler;
   for (const bool behind : {false, true})
@@ -249,6 +271,12 @@ void FrameRenderer::updateFlap(const Frame& frame) {
   flap_serial_ = frame.flap_serial, gum_serial_ = frame.gum_serial;
 }
 
+void FrameRenderer::updatePaint(const Frame& frame) {
+  if (frame.paint_serial == paint_serial_) return;
+  paint_serial_ = frame.paint_serial;
+  scene_->setPaint(frame.paint);
+}
+
 void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   scene_->drawEye(frame, eye, px);
   drawn(eye) = {frame, px};
@@ -267,6 +295,7 @@ void FrameRenderer::prepare(const Frame& frame) {
   updateBeads(frame);
   updateObstacles(frame);
   updateFlap(frame);
+  updatePaint(frame);
   bool any_changed = false;
   for (std::size_t n = 0; n < kMostPieces; ++n) {
     if (!pieces_[n] || !frame.pieces[n] || !pieces_[n]->mesh.prepare()) continue;

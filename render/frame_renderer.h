@@ -120,6 +120,7 @@ class FrameRenderer {
   void updateBeads(const Frame& frame);
   void updateObstacles(const Frame& frame);
   void updateFlap(const Frame& frame);
+  void updatePaint(const Frame& frame);
   std::vector<PlacedFields> placedPieces(const Frame& frame) const;
   void prepare(const Frame& frame);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
@@ -141,10 +142,11 @@ class FrameRenderer {
   std::optional<CtSlices> slices_;
   std::optional<GuideField> guides_;
   bool has_canal_ = false;
-  std::optional<RulerLine> ruler_;  ///< whose meshes the back-end has
-  std::vector<Bead> beads_;         ///< alike
-  Obstacles obstacles_;             ///< alike
-  std::uint64_t flap_serial_ = 0, gum_serial_ = 0;
+  std::optional<RulerLine> ruler_;   ///< whose meshes the back-end has
+  std::optional<GuideArrow> arrow_;  ///< alike
+  std::vector<Bead> beads_;          ///< alike
+  Obstacles obstacles_;              ///< alike
+  std::uint64_t flap_serial_ = 0, gum_serial_ = 0, paint_serial_ = 0;
   std::vector<OverlayPanel> overlay_;
   std::array<ShownOverlay, 3> shown_overlays_;  ///< of both outputs and the bystanders' view
   std::uint64_t patch_serial_ = 0;

@@ -58,6 +58,7 @@ class GlSceneRenderer final : public SceneRenderer {
     models_[static_cast<std::size_t>(model)] = SceneMesh(mesh, model);
   }
   void setGuides(GuideField guides) override { volume_.setGuides(guides); }
+  void setPaint(const SurfacePaint* paint) override { volume_.setPaint(paint != nullptr ? *paint : SurfacePaint{}); }
   void setInsets(std::vector<Inset> insets) override {
     insets_.clear();
     for (const Inset& inset : insets)
@@ -176,10 +177,12 @@ void GlSceneRenderer::drawView(const Frame& frame, const EyeBlock& block, bool m
       meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], mirrored);
   };
   constexpr std::array kOutside{Model::face, Model::instrument, Model::second_instrument};
-  constexpr std::array kInside{Model::gingiva,   Model::flap,   Model::mandibular_canal, Model::ruler,  Model::beads,
-                               Model::fragments, pieceModel(0), pieceModel(1),           pieceModel(2), pieceModel(3)};
+  constexpr std::array kInside{Model::gingiva, Model::flap,      Model::mandibular_canal, Model::ruler,  Model::arrow,
+                               Model::beads,   Model::fragments, pieceModel(0),           pieceModel(1), pieceModel(2),
+                               pieceModel(3)};
   static_assert(kMostPieces == 4);
-  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::obstacles, Model::ghost};
+  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ruler_overlay, Model::arrow_overlay,
+                                Model::obstacles, Model::ghost};
   bool any_transparent = false;
   for (std::size_t m = 0; m < kModels; ++m)
     any_transparent = any_transparent || MeshPass::hasTransparent(models_[m], placements[m].opacity);

@@ -19,6 +19,7 @@
 #include "render/render_options.h"
 #include "render/scene/models.h"
 #include "render/volume/guide_field.h"
+#include "render/volume/surface_paint.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
@@ -42,6 +43,8 @@ class SceneRenderer {
   /// An empty mesh removes the model.
   virtual void setModel(Model model, const assets::MeshModel& mesh) = 0;
   virtual void setGuides(GuideField guides) = 0;
+  /// Copied; null: none. Shown in frames that have some.
+  virtual void setPaint(const SurfacePaint* paint) = 0;
   /// For the eyes drawn from now on.
   virtual void setInsets(std::vector<Inset> insets) = 0;
 

@@ -502,6 +502,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) describeSetup(plan, options, jaw, former);
   if (plan.recording && plan.patient.prepared) plan.recording->whole = plan.scanned_solid;
+  plan.paper_mm = 0.001 * options.paper_um;
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   placeInRoom(plan, position, chosen, device, X_PF);
   return std::move(plan);

@@ -63,6 +63,12 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .showsDefault()
       .needs(task);
   command
+      .option("--paper-um", options.paper_um,
+              "Of a preparation: articulating paper, its thickness in µm (real ones: 8 to 200)")
+      .from(kLeastPaper_um, kMostPaper_um)
+      .showsDefault()
+      .needs(task);
+  command
       .option("--tooth", options.tooth,
               "The tooth of a root-canal treatment or a preparation, FDI number, see molar teeth")
       .wholeFrom(11, 48)

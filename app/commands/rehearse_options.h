@@ -7,6 +7,7 @@
 
 #include "app/options/display_option.h"
 #include "app/options/picture_option.h"
+#include "app/procedure/preparation/bite.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
@@ -27,6 +28,7 @@ struct RehearseOptions {
   std::string task = "extraction", access = "closed", locator = "real", wear = "rate";
   std::string ideal = "crown:all-ceramic";  ///< of a tooth preparation
   std::string cavity = "uncut";             ///< ready: of a preparation, cut to its ideal
+  double paper_um = kUsualPaper_um;         ///< of a tooth preparation
   std::optional<int> tooth;                 ///< of a root-canal treatment or a preparation
   bool list_cases = false, assess = false;
   PictureOption picture;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/review/bite_review.h"
 #include "app/review/preparation_review.h"
 #include "app/review/reference_set.h"
 #include "app/review/session_sound.h"
@@ -32,7 +33,7 @@ namespace {
 struct ReplayOptions {
   std::string session, out, sound;
   std::optional<double> to_s;
-  bool verify = false, digest = false, json = false, force = false;
+  bool verify = false, digest = false, json = false, bites = false, force = false;
 };
 
 /// 0: every byte as recorded, and every bit of a re-run where this version recorded it; 1: not.
@@ -73,6 +74,18 @@ int printMoment(const ReplayOptions& options) {
   return 0;
 }
 
+/// Of a tooth preparation: 0, every bite on articulating paper marks the re-run tooth as it was recorded; 1: not.
+int biteAgain(const std::string& path) {
+  int status = 0;
+  for (const BiteAgain& one : bitesAgain(path)) {
+    const bool same = one.again == one.recorded;
+    if (!same) status = 1;
+    std::printf("%.3f s %s: %s\n", one.recorded.t_s, same ? "the same" : "another mark",
+                biteInWords(one.again).c_str());
+  }
+  return status;
+}
+
 /// What was heard.
 int writeSound(const ReplayOptions& options) {
   if (!options.sound.ends_with(".flac")) throw UsageError("--sound-file " + options.sound + ": name it .flac");
@@ -105,9 +118,17 @@ void addReplay(CommandLine& molar) {
       .excludes(digest);
   Option sound = command.option("--sound-file", options->sound, "Write what was heard, .flac, in step with the ticks");
   sound.excludes(check).excludes(out).excludes(to).excludes(digest);
+  command
+      .flag("--bites", options->bites, "Of a preparation: bite on the paper again at the times recorded, and compare")
+      .excludes(check)
+      .excludes(out)
+      .excludes(to)
+      .excludes(digest)
+      .excludes(sound);
   command.flag("--force", options->force, "Replace the output if it exists");
   command.does([options] {
     options->session = sessionNamed(options->session);
+    if (options->bites) return biteAgain(options->session);
     if (!options->sound.empty()) return writeSound(*options);
     if (options->json) return printMoment(*options);
     if (options->to_s && options->out.empty() && !options->digest)

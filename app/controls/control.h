@@ -42,7 +42,10 @@ enum class Control : std::uint8_t {
   assistant,
   draw,
   draw_next,
-  clear_tooth
+  clear_tooth,
+  deviation,
+  insertion,
+  bite
 };
 
 inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
@@ -68,7 +71,7 @@ struct ControlMeaning {
   std::string_view also = "";  ///< a second key
 };
 
-inline constexpr std::array<ControlMeaning, 29> kControls = {{
+inline constexpr std::array<ControlMeaning, 32> kControls = {{
     {Control::law, "law", "1 - 7", "force law: instructor or --verbose", ControlValue::law, true},
     {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
     {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
@@ -98,6 +101,9 @@ inline constexpr std::array<ControlMeaning, 29> kControls = {{
     {Control::draw, "draw", "G", "own plan: a point of trough or section", ControlValue::none, false},
     {Control::draw_next, "draw-next", "Shift+G", "own plan: next line; then all anew", ControlValue::none, false},
     {Control::clear_tooth, "clear-tooth", "C", "tooth as clear as glass around a file", ControlValue::on_or_off, false},
+    {Control::deviation, "deviation", "V", "colours: off the ideal", ControlValue::on_or_off, false},
+    {Control::insertion, "insertion", "Shift+V", "way of insertion, undercut", ControlValue::on_or_off, false},
+    {Control::bite, "bite", "B", "bite on articulating paper", ControlValue::none, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }

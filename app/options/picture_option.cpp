@@ -55,10 +55,11 @@ void PictureOption::addTo(CommandLine& command) {
       .oneOf(namesOf(kModes))
       .showsDefault();
   command
-      .option("--layers", layers_,
-              "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT); of "
-              "a root-canal "
-              "file: clear-tooth (as glass), tip (magnified)")
+      .option(
+          "--layers", layers_,
+          "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT); of "
+          "a root-canal file: clear-tooth (as glass), tip (magnified); of a preparation: deviation (off the ideal), "
+          "insertion (its way, undercut)")
       .separatedByCommas()
       .oneOf(namesOf(kLayers));
   command.option("--face-opacity", face_opacity_, "The face faded: 1 whole, 0 away").from(0.0, 1.0).showsDefault();

@@ -22,7 +22,7 @@ struct PictureLayer {
   bool render::Layers::*on;
 };
 
-inline constexpr std::array<PictureLayer, 10> kPictureLayers = {{
+inline constexpr std::array<PictureLayer, 13> kPictureLayers = {{
     {"gum", "Gum", &render::Layers::gingiva},
     {"canal", "Mandibular canal", &render::Layers::mandibular_canal},
     {"clearance", "Clearance bands", &render::Layers::clearance},
@@ -33,12 +33,15 @@ inline constexpr std::array<PictureLayer, 10> kPictureLayers = {{
     {"obstacles", "Bone in the way", &render::Layers::obstacles},
     {"clear-tooth", "Clear tooth", &render::Layers::clear_tooth},
     {"tip", "File's tip", &render::Layers::tip_inset},
+    {"deviation", "Off the ideal", &render::Layers::deviation},
+    {"insertion", "Way of insertion", &render::Layers::insertion},
+    {"marks", "Marks of paper", &render::Layers::marks},
 }};
 
 /// Layers that show what a surgeon cannot see: not in an assessment.
 constexpr bool isHelp(const PictureLayer& layer) {
   return layer.name == "canal" || layer.name == "clearance" || layer.name == "plan" || layer.name == "obstacles" ||
-         layer.name == "clear-tooth" || layer.name == "tip";
+         layer.name == "clear-tooth" || layer.name == "tip" || layer.name == "deviation" || layer.name == "insertion";
 }
 
 class PictureOption {

@@ -189,6 +189,7 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
     head_up_.say(!plan_.patient.canals      ? "it is for a root canal treatment"
                  : frame.layers.clear_tooth ? "the tooth is clear while a file is in the hand"
                                             : "the tooth is as the eye sees it");
+  if (request.control == Control::deviation || request.control == Control::insertion) tellPaint(request, frame.layers);
   if (request.control == Control::slice_up || request.control == Control::slice_down)
     frame.slices_beside_bur_P_mm =
         scrolledSlices(frame, render::SlicePlane::axial, request.control == Control::slice_up ? 1.0 : -1.0);
@@ -197,12 +198,23 @@ void ControlRouter::execute(const ControlRequest& request, render::Frame& frame,
   if (request.control == Control::draw) drawn_.push_back(touched_P_mm(frame));
   if (request.control == Control::draw_next) drawn_.push_back(std::nullopt);
   if (request.control == Control::step) ++steps_;
+  if (request.control == Control::bite && !plan_.patient.prepared) head_up_.say("it is for a tooth preparation");
+  if (request.control == Control::bite) ++bites_;
   if (request.control == Control::way) asks_way_ = true;
   if (request.control == Control::sound) sound_ = request.value;
   if (request.control == Control::home) {
     equipment_.workstation().setHome();
     head_up_.say("the handle is at home");
   }
+}
+
+void ControlRouter::tellPaint(const ControlRequest& request, const render::Layers& layers) {
+  const bool is_deviation = request.control == Control::deviation;
+  const bool shown = is_deviation ? layers.deviation : layers.insertion;
+  head_up_.say(!plan_.patient.prepared ? "it is for a tooth preparation"
+               : !shown                ? "the tooth as the eye sees it"
+               : is_deviation          ? "colours: how far the tooth is off its ideal"
+                                       : "arrow: way of insertion; purple: undercut");
 }
 
 /// In an assessment; who asked is recorded.
@@ -215,6 +227,8 @@ bool ControlRouter::isHelpRefused(const ControlRequest& request) {
                            : request.control == Control::redo        ? "redo"
                            : request.control == Control::way         ? "what keeps the tooth in"
                            : request.control == Control::clear_tooth ? "a clear tooth"
+                           : request.control == Control::deviation   ? "distances to the ideal"
+                           : request.control == Control::insertion   ? "the way of insertion"
                            : layer != nullptr && isHelp(*layer)      ? "layer " + std::string(layer->name)
                                                                      : "";
   if (help.empty()) return false;

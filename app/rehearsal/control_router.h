@@ -44,6 +44,8 @@ class ControlRouter {
   int takeSteps() { return std::exchange(steps_, 0); }
   /// Whether it was asked since the last call what keeps the tooth in.
   bool takeWay() { return std::exchange(asks_way_, false); }
+  /// How often the jaws were to close on paper since the last call.
+  int takeBites() { return std::exchange(bites_, 0); }
   /// Touches of the surgeon's own plan since the last call, in order; none in it: on to the next line.
   std::vector<std::optional<glm::dvec3>> takeDrawn() { return std::exchange(drawn_, {}); }
   /// The instruments to choose from, while they are shown.
@@ -71,6 +73,7 @@ class ControlRouter {
   void executeScript(const haptics::Tick& newest, render::Frame& frame);
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
   void stopMotors();
+  void tellPaint(const ControlRequest& request, const render::Layers& layers);
   bool isHelpRefused(const ControlRequest& request);
   void takeSnapshot(const render::Frame& frame);
   glm::dvec3 touched_P_mm(render::Frame& frame);
@@ -95,6 +98,7 @@ class ControlRouter {
   EndQuestion end_question_;
   PredictionQuestion prediction_;
   int steps_ = 0;
+  int bites_ = 0;
   bool asks_way_ = false;
   std::vector<std::optional<glm::dvec3>> drawn_;
   ToolRing ring_;

@@ -85,6 +85,9 @@ render::Layers layersAfter(const render::Layers& before, const ControlRequest& r
   }
   if (request.control == Control::clear_tooth)
     layers.clear_tooth = request.value == kNoValue ? !layers.clear_tooth : request.value != 0;
+  const auto switched = [&](bool shown) { return request.value == kNoValue ? !shown : request.value != 0; };
+  if (request.control == Control::deviation) layers.deviation = switched(layers.deviation);
+  if (request.control == Control::insertion) layers.insertion = switched(layers.insertion);
   if (request.control == Control::face) layers.face_opacity = static_cast<float>(request.value) / 100.0f;
   return layers;
 }

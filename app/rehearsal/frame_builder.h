@@ -33,7 +33,8 @@ FieldClarity openingClarity(const RehearsalPlan& plan);
 /// What covers the site, as drawn.
 render::SurgicalField surgicalField(const FieldClarity& clarity);
 
-/// After a request: `layer` toggles one, `clear-tooth` switches its, `face` sets its opacity; others change nothing.
+/// After a request: `layer` toggles one, `clear-tooth`, `deviation` and `insertion` switch theirs, `face` sets its
+/// opacity; others change nothing.
 render::Layers layersAfter(const render::Layers& before, const ControlRequest& request);
 
 }  // namespace app

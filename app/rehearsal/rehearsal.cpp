@@ -331,7 +331,8 @@ class Rehearsal {
     // tooth is out they are taken.
     const bool may_loosen = !demonstration_ || demonstration_->isToothOut();
     site_->follow({changed, newest_, drawn, router_.takeWay(), demonstration_.has_value(), may_loosen}, frame_);
-    tooth_->followBone(changed, newest_);
+    if (router_.takeBites() > 0) tooth_->bite(newest_);
+    tooth_->followBone(changed, newest_, frame_);
     if (steps_) steps_->followBone(changed, newest_.t_s, !pace_.isRealTime());
   }
 
@@ -454,6 +455,7 @@ class Rehearsal {
     const RecordingSummary recorded = station().stop();
     countSoftTouches(station().takeTicks());
     readServo();
+    if (last_) tooth_->paintNow(frame_);
     if (last_ && (!plan_.evaluation || plan_.evaluation->allowsPictures()))
       view_.takeSnapshot(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
                          station().bodies().solidInGridOrder());

@@ -82,6 +82,7 @@ struct RehearsalPlan {
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};
   std::optional<ApexLocator::Mode> locator;  ///< of a root-canal treatment; none: it lies in its drawer
+  double paper_mm = 0.04;                    ///< articulating paper of a tooth preparation
   double face_window_mm = 0.0;
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;

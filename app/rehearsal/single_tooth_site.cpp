@@ -28,7 +28,11 @@ SingleToothSite::SingleToothSite(const Links& links) : links_(links) {
   const std::span<const std::uint8_t> before = plan.scanned_solid.empty() ? patient.ct.solid : plan.scanned_solid;
   // An assessment tells nothing on the way.
   const bool measures = links_.is_real_time && !plan.is_assessed;
-  if (patient.prepared && measures) preparation_.emplace(*patient.prepared, patient.ct, before, links_.bodies);
+  if (patient.prepared) {
+    painting_.emplace(patient.ct.grid);
+    bite_.emplace(*patient.prepared, patient.ct, before, links_.bodies, plan.paper_mm);
+    if (!plan.is_assessed) preparation_.emplace(*patient.prepared, patient.ct, before, links_.bodies);
+  }
   if (!patient.canals) return;
   const assets::ToothCanals& tooth = *patient.canals;
   canal_log_.emplace(tooth, plan.command.wear.law, patient.fragments);
@@ -72,9 +76,39 @@ std::optional<std::span<const assets::MetalFragment>> SingleToothSite::takeFragm
   return canal_log_ ? canal_log_->takeFragments() : std::nullopt;
 }
 
-void SingleToothSite::followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest) {
+void SingleToothSite::followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest,
+                                 render::Frame& picture) {
   if (treatment_) treatment_->follow(bricks, newest, canal_log_->use());
-  if (preparation_ && preparation_->follow(bricks, newest)) tellIncrements(newest.t_s);
+  if (painting_) {
+    if (preparation_ && links_.is_real_time && preparation_->follow(bricks, newest)) {
+      painting_->take(preparation_->paint());
+      tellIncrements(newest.t_s);
+    }
+    if (bite_->follow()) tellBite();
+    painting_->show(picture);
+  }
+}
+
+void SingleToothSite::bite(const haptics::Tick& newest) {
+  if (!bite_) return;
+  if (const std::string why_not = bite_->close(newest, !links_.is_real_time); !why_not.empty())
+    links_.head_up.say(why_not);
+}
+
+void SingleToothSite::tellBite() {
+  const BiteRecord& record = bite_->record();
+  links_.event_log.note(kBiteEvent, biteText(record));
+  const std::string line = biteLine(bite_->marked()->bite);
+  links_.head_up.say(line);
+  if (links_.plan.headless) printMessage(fmt::format("at {:.1f} s {}", record.t_s, line));
+  painting_->take(*bite_->marked());
+}
+
+void SingleToothSite::paintNow(render::Frame& picture) {
+  if (!preparation_ || !(picture.layers.deviation || picture.layers.insertion)) return;
+  if (!preparation_->measureNow()) printMessage(preparation_->line());
+  painting_->take(preparation_->paint());
+  painting_->show(picture);
 }
 
 /// Once each.

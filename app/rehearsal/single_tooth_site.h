@@ -11,6 +11,7 @@
 
 #include <glm/glm.hpp>
 
+#include "app/procedure/preparation/bite_watch.h"
 #include "app/procedure/preparation/preparation_watch.h"
 #include "app/procedure/root_canal/access_watch.h"
 #include "app/procedure/root_canal/treatment_watch.h"
@@ -19,6 +20,7 @@
 #include "app/rehearsal/head_up.h"
 #include "app/rehearsal/locator_watch.h"
 #include "app/rehearsal/rehearsal_plan.h"
+#include "app/rehearsal/tooth_painting.h"
 #include "haptics/body/bodies.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
@@ -45,8 +47,13 @@ class SingleToothSite {
   void followHand(const haptics::Tick& newest, const haptics::Command& command, render::Frame& picture);
   /// What broken files have left in the tooth, if that has changed since the last call.
   std::optional<std::span<const assets::MetalFragment>> takeFragments();
-  /// Once a frame. `bricks`: of the jaw's grid, changed since the last call.
-  void followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
+  /// Once a frame. `bricks`: of the jaw's grid, changed since the last call. The picture is lent what is painted on the
+  /// tooth.
+  void followBone(std::span<const glm::ivec3> bricks, const haptics::Tick& newest, render::Frame& picture);
+  /// The jaws close on articulating paper.
+  void bite(const haptics::Tick& newest);
+  /// With the servo stopped, for a last picture: paints the tooth as it is left, where its layers ask for it. Waits.
+  void paintNow(render::Frame& picture);
   /// Before the recording is closed.
   void finish();
 
@@ -64,6 +71,7 @@ class SingleToothSite {
  private:
   void tellIncrements(double t_s);
   void tell(const std::string& line, double t_s, const char* kind);
+  void tellBite();
 
   Links links_;
   std::optional<CanalLog> canal_log_;
@@ -73,6 +81,8 @@ class SingleToothSite {
   std::optional<PreparationWatch> preparation_;
   std::set<int> deep_increments_;  ///< told
   bool tells_full_ = false;
+  std::optional<BiteWatch> bite_;
+  std::optional<ToothPainting> painting_;
   bool tells_blocks_ = false;  ///< that the live tooth is cut by whole blocks
 };
 

@@ -152,6 +152,29 @@ std::string pictureOf(const PreparationOfSession& of) {
                       "Coloured by the distance to the ideal: blue is cut too deep, red is left too high.");
 }
 
+std::string biteOf(const PreparationOfSession& of) {
+  const BiteRecord& bite = of.bite;
+  TableRows rows;
+  for (const BiteRecord::Contact& one : bite.contacts)
+    rows.push_back({one.where, fixedText(one.area_mm2, 2) + " mm²", fixedText(one.gap_um, 0) + " µm"});
+  std::string text = "<p>" + escaped(fmt::format("On paper of {:g} µm, on the tooth as it was left: ", bite.paper_um));
+  if (bite.high_um > 0.0)
+    text += escaped(fmt::format("it keeps the jaws {:.0f} µm open and touches first {}. ", bite.high_um, bite.first));
+  if (rows.empty())
+    text += escaped(bite.clearance_um ? fmt::format("no mark; it is free by {:.2f} mm. ", 0.001 * *bite.clearance_um)
+                                      : std::string("nothing opposes it. "));
+  if (bite.is_made) text += "The opposing tooth was made from the tooth's own biting surface, not scanned. ";
+  text += "A mark's area tells where teeth meet, not how hard.</p>\n";
+  if (!rows.empty()) text += tableMarkup({"mark", "area along the way of closing", "narrowest gap"}, rows);
+  if (of.bites.empty()) return text;
+  TableRows times;
+  for (const BiteRecord& one : of.bites)
+    times.push_back({fmt::format("{:.0f} s", one.t_s), fmt::format("{:g} µm", one.paper_um),
+                     std::to_string(one.contacts.size()), fixedText(one.area_mm2(), 2) + " mm²",
+                     fixedText(one.high_um, 0) + " µm"});
+  return text + tableMarkup({"bites", "paper", "marks", "area", "jaws kept open"}, times);
+}
+
 }  // namespace
 
 void addPreparation(HtmlPage& page, const PreparationOfSession& of) {
@@ -163,6 +186,7 @@ void addPreparation(HtmlPage& page, const PreparationOfSession& of) {
                    "</p>\n" + (of.outcomes.cavity ? cavityFormOf(of) : crownForm(of)));
   if (of.outcomes.filling) page.section("Filling", fillingOf(*of.outcomes.filling));
   page.section("Against the ideal", againstIdeal(of.outcomes) + pictureOf(of));
+  page.section("Bite", biteOf(of));
 }
 
 }  // namespace app

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/procedure/preparation/bite_watch.h"
 #include "app/procedure/preparation/preparation_picture.h"
 #include "app/procedure/root_canal/dense_tooth.h"
 #include "assets/tooth.h"
@@ -17,6 +18,8 @@ using OrderedJson = nlohmann::ordered_json;
 
 double inDegrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 OrderedJson orNull(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(); }
+
+constexpr double kToldHigh_um = 5.0;
 
 bool isMolar(int fdi) { return assets::positionOf(fdi) >= 6; }
 
@@ -55,6 +58,20 @@ OrderedJson cavityJson(const CavityForm& form) {
           {"P9_box_width_mm", orNull(form.box_width_mm)},
           {"P9_box_height_mm", form.box_height_mm},
           {"P9_unsupported_enamel_mm2", form.unsupported_mm2}};
+}
+
+OrderedJson biteJson(const BiteRecord& of) {
+  OrderedJson marks = OrderedJson::array();
+  for (const BiteRecord::Contact& one : of.contacts)
+    marks.push_back({{"where", one.where}, {"area_mm2", one.area_mm2}, {"gap_um", one.gap_um}});
+  return {{"paper_um", of.paper_um},
+          {"antagonist", of.is_made ? "made" : "scanned"},
+          {"high_spot_um", of.high_um},
+          {"first_contact", of.first.empty() ? OrderedJson() : OrderedJson(of.first)},
+          {"clearance_um", of.clearance_um ? OrderedJson(*of.clearance_um) : OrderedJson()},
+          {"contacts", of.contacts.size()},
+          {"mark_area_mm2", of.area_mm2()},
+          {"marks", marks}};
 }
 
 std::string crownTable(const PreparationOfSession& of) {
@@ -154,17 +171,23 @@ std::string cavityTable(const PreparationOfSession& of) {
 
 }  // namespace
 
-std::optional<PreparationOfSession> preparationOfSession(const StoredStart& start,
-                                                         std::span<const std::uint8_t> solid_after,
-                                                         const std::optional<haptics::Filling::Volumes>& filling) {
+std::optional<PreparationOfSession> preparationOfSession(SessionReader& session, const StoredStart& start,
+                                                         std::span<const std::uint8_t> solid_after) {
   if (!start.setup.prepared) return {};
-  PreparationOfSession of{*start.setup.prepared, idealRule(start.setup.prepared->ideal, "--ideal"), {}, {}};
+  PreparationOfSession of{*start.setup.prepared, idealRule(start.setup.prepared->ideal, "--ideal"), {}, {}, {}, {}};
+  for (const SessionEvent& event : session.events())
+    if (event.kind == kBiteEvent)
+      if (auto bite = biteFrom(event.text)) of.bites.push_back(std::move(*bite));
   const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
   PreparationMeasure measure(Crown(before, of.tooth.frame), of.rule, "--ideal");
+  const std::optional<haptics::Filling::Volumes> filling = session.finalFilling(start);
   const BoxBytes made(DenseSolid(start.grid, solid_after), measure.crown().solid.grid());
   of.outcomes = measure.outcomesOf(made);
   if (filling) of.outcomes.filling = measure.fillingOf(made, laidBoxes(*filling, start.grid, made.grid()));
   of.picture = preparationPicture(measure, made, of.outcomes);
+  const double paper_um = of.bites.empty() ? kUsualPaper_um : of.bites.back().paper_um;
+  const BoxBytes bitten = filling ? filledTooth(made, *filling, start.grid) : made;
+  of.bite = recordOf(BittenTooth(measure.crown()).bitten(bitten, 0.001 * paper_um).bite, 0.0);
   return of;
 }
 
@@ -173,7 +196,7 @@ std::optional<PreparationOfSession> preparationOfSession(const std::string& path
   if (!session.about().setup.prepared) return {};
   const StoredStart start = session.start();
   const auto end = session.finalBone(start);
-  return end ? preparationOfSession(start, end->solid, session.finalFilling(start)) : std::nullopt;
+  return end ? preparationOfSession(session, start, end->solid) : std::nullopt;
 }
 
 std::string preparationJson(const PreparationOfSession& of) {
@@ -202,6 +225,13 @@ std::string preparationJson(const PreparationOfSession& of) {
                       {"dentine_mm3", removed.dentine_mm3},
                       {"pulp_open_mm2", removed.pulp_open_mm2}};
   if (of.outcomes.filling) json["filling"] = fillingJson(*of.outcomes.filling);
+  json["bite"] = biteJson(of.bite);
+  json["bites"] = OrderedJson::array();
+  for (const BiteRecord& one : of.bites) {
+    OrderedJson bite = {{"t_s", one.t_s}};
+    bite.update(biteJson(one));
+    json["bites"].push_back(std::move(bite));
+  }
   json.update(of.outcomes.cavity ? cavityJson(*of.outcomes.cavity) : crownJson(of.outcomes, of.tooth.fdi));
   return json.dump();
 }
@@ -221,7 +251,19 @@ std::string preparationTable(const PreparationOfSession& of) {
   text += fmt::format("{:.0f} % of it within 0.2 mm\n", 100.0 * deviation.within[1]);
   text += fmt::format("enamel {:.1f} mm3, dentine {:.1f} mm3; of a neighbour {:.2f} mm3; pulp open {:.2f} mm2\n",
                       removed.enamel_mm3, removed.dentine_mm3, removed.neighbour_mm3, removed.pulp_open_mm2);
-  return of.outcomes.filling ? text + fillingTable(*of.outcomes.filling) : text;
+  if (of.outcomes.filling) text += fillingTable(*of.outcomes.filling);
+  return text + "bite as it was left: " + biteInWords(of.bite) + "\n";
+}
+
+std::string biteInWords(const BiteRecord& of) {
+  std::string text = fmt::format("{:g} µm paper{}: ", of.paper_um, of.is_made ? " on a made antagonist" : "");
+  if (of.high_um >= kToldHigh_um) text += fmt::format("{:.0f} µm too high, {}; ", of.high_um, of.first);
+  if (of.contacts.empty())
+    return text + (of.clearance_um ? fmt::format("no mark, free by {:.2f} mm", 0.001 * *of.clearance_um)
+                                   : std::string("nothing opposes the tooth"));
+  text += fmt::format("{} mark{}, {:.2f} mm2:", of.contacts.size(), of.contacts.size() == 1 ? "" : "s", of.area_mm2());
+  for (const BiteRecord::Contact& one : of.contacts) text += fmt::format(" {} {:.2f}", one.where, one.area_mm2);
+  return text;
 }
 
 }  // namespace app

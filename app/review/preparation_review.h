@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/procedure/preparation/preparation_outcomes.h"
+#include "app/session/bite_event.h"
 #include "app/session/session_reader.h"
 #include "assets/prepared_tooth.h"
 #include "render/image.h"
@@ -18,16 +20,19 @@ struct PreparationOfSession {
   IdealRule rule;
   PreparationOutcomes outcomes;
   render::Image picture;
+  BiteRecord bite;                ///< on the tooth as it was left, on the paper used last
+  std::vector<BiteRecord> bites;  ///< of the surgeon, as recorded
 };
 
-/// None: another operation.
-std::optional<PreparationOfSession> preparationOfSession(const StoredStart& start,
-                                                         std::span<const std::uint8_t> solid_after,
-                                                         const std::optional<haptics::Filling::Volumes>& filling);
+/// None: another operation. `start` is that of this session.
+std::optional<PreparationOfSession> preparationOfSession(SessionReader& session, const StoredStart& start,
+                                                         std::span<const std::uint8_t> solid_after);
 /// None: another operation, or one that was not ended in order.
 std::optional<PreparationOfSession> preparationOfSession(const std::string& path);
 
 std::string preparationJson(const PreparationOfSession& of);
+/// "40 µm paper on a made antagonist: 3 marks, 0.92 mm2: mesiobuccal 0.45 …".
+std::string biteInWords(const BiteRecord& of);
 /// For people, with its first line.
 std::string preparationTable(const PreparationOfSession& of);
 

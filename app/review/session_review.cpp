@@ -40,7 +40,7 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
         TreatmentReview{*treated, treatmentFilms(start, again.left.solid, metal, jaw ? &*jaw : nullptr)});
   }
 
-  review.preparation = preparationOfSession(start, again.left.solid, session.finalFilling(start));
+  review.preparation = preparationOfSession(session, start, again.left.solid);
   if (again.patient != nullptr && again.patient->site)
     review.plan = extractionPlan(*again.patient, again.patient->title);
   else

@@ -24,12 +24,13 @@ bool isSameView(const calibration::Rig& a, const calibration::Rig& b) {
 
 bool areSameLayers(const render::Layers& a, const render::Layers& b) {
   // A new layer does not compile until it is compared.
-  [[maybe_unused]] const auto& [face, gingiva, canal, clearance, cut, ghost, slices, ring, obstacles, clear_tooth,
-                                tip] = a;
+  [[maybe_unused]] const auto& [face, gingiva, canal, clearance, cut, ghost, slices, ring, obstacles, clear_tooth, tip,
+                                deviation, insertion, paper] = a;
   return a.face_opacity == b.face_opacity && a.gingiva == b.gingiva && a.mandibular_canal == b.mandibular_canal &&
          a.clearance == b.clearance && a.planned_cut == b.planned_cut && a.ghost_tool == b.ghost_tool &&
          a.slices == b.slices && a.gap_ring == b.gap_ring && a.obstacles == b.obstacles &&
-         a.clear_tooth == b.clear_tooth && a.tip_inset == b.tip_inset;
+         a.clear_tooth == b.clear_tooth && a.tip_inset == b.tip_inset && a.deviation == b.deviation &&
+         a.insertion == b.insertion && a.marks == b.marks;
 }
 
 // Water drains and blood wells up for seconds after the last motion; less than this is not seen.
@@ -64,9 +65,9 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // A new member does not compile until it is compared; quality and display are not the scene's; field,
   // glass and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, profile, shaft, angle, gap, ruler, magnified, slices, tool, shades, handpiece,
-                                X_PO, second, glass, pieces, window, site, field, marks, beads, obstacles, flap, gum,
-                                flap_serial, gum_serial] = a;
+                                length, profile, shaft, angle, gap, ruler, arrow, magnified, slices, tool, shades,
+                                handpiece, X_PO, second, glass, pieces, window, site, field, marks, beads, obstacles,
+                                flap, gum, flap_serial, gum_serial, paint, paint_serial] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
       a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
     return false;
@@ -74,9 +75,9 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
       a.bur_profile != b.bur_profile || a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)
     return false;
   if (a.slices_beside_bur_P_mm != b.slices_beside_bur_P_mm || a.face_window_mm != b.face_window_mm ||
-      a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.beads != b.beads ||
+      a.gap.has_value() != b.gap.has_value() || a.ruler != b.ruler || a.arrow != b.arrow || a.beads != b.beads ||
       a.obstacles != b.obstacles || a.site_P.mm != b.site_P.mm || a.flap_serial != b.flap_serial ||
-      a.gum_serial != b.gum_serial)
+      a.gum_serial != b.gum_serial || a.paint_serial != b.paint_serial)
     return false;
   constexpr double kSameTip_mm = 0.01;
   if (a.magnified.has_value() != b.magnified.has_value() ||

@@ -92,6 +92,7 @@ class CpuSceneRenderer final : public SceneRenderer {
 
   void setModel(Model model, const assets::MeshModel& mesh) override { meshes_.setModel(model, mesh); }
   void setGuides(GuideField guides) override { guides_ = std::move(guides); }
+  void setPaint(const SurfacePaint* paint) override { paint_ = paint != nullptr ? *paint : SurfacePaint{}; }
   void setInsets(std::vector<Inset> insets) override { insets_ = std::move(insets); }
   void setPatches(int output, std::span<const OverlayPatch> patches) override {
     patches_[static_cast<std::size_t>(output)].assign(patches.begin(), patches.end());
@@ -127,6 +128,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   Occupancy matter_;  ///< where ambient occlusion can occur
   OpacityTable opacity_;
   std::optional<GuideField> guides_;
+  SurfacePaint paint_;
   MeshScene meshes_;
   std::vector<Inset> insets_;
   std::array<std::vector<OverlayPatch>, kOutputs> patches_;
@@ -189,6 +191,10 @@ TraceScene CpuSceneRenderer::sceneOf(const Frame& frame, const EyeBlock& eye) {
   if (guides_) {
     shade.guides = viewOf(*guides_);
     shade.visible_guides = visibleGuides(frame);
+  }
+  if (frame.paint != nullptr && paint_.texels.layout().size.x > 0) {
+    shade.paint = viewOf(paint_.texels);
+    shade.paint_low = paint_.low;
   }
   shade.ambient_occlusion = frame.quality.ambient_occlusion;
   shade.lamp_shadow = frame.quality.lamp_shadow;

@@ -12,8 +12,8 @@ namespace render {
 namespace {
 
 bool isOverlay(Model model) {
-  return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::ghost ||
-         model == Model::obstacles;
+  return model == Model::mandibular_canal_overlay || model == Model::ruler_overlay || model == Model::arrow_overlay ||
+         model == Model::ghost || model == Model::obstacles;
 }
 bool isSeenFromOutside(Model model) { return finishOf(model) == Finish::guide || finishOf(model) == Finish::obstacle; }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }

@@ -73,7 +73,10 @@ class MeshBodies {
   /// By instance ID; some slots may be free.
   const std::vector<MeshBody>& all() const { return bodies_; }
   float opacityOf(Model model) const { return placements_[model].opacity; }
-  bool hasGuides() const { return opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ruler) > 0.0f; }
+  bool hasGuides() const {
+    return opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ruler) > 0.0f ||
+           opacityOf(Model::arrow) > 0.0f;
+  }
   const FaceWindow& window() const { return window_; }
   const SoftBlock& soft() const { return soft_; }
   std::uint64_t staticRevision() const { return static_revision_; }

@@ -38,6 +38,8 @@ struct ShadeScene {
   FieldView<std::uint8_t> matter_distance;  ///< per brick, without border: bricks to the next one with matter
   FieldView<glm::u16vec2> guides;           ///< guide_field.h on the cells of the ambient map
   int visible_guides = 0;                   ///< GUIDE_CLEARANCE, GUIDE_PLAN
+  FieldView<std::uint32_t> paint;           ///< surface_paint.h; no size: none
+  glm::ivec3 paint_low{0};                  ///< voxel of its first texel
   bool ambient_occlusion = true, lamp_shadow = true;
 };
 

@@ -1,5 +1,5 @@
-// tissue_appearance.glsl, guides.glsl and the normals of ray_march.glsl in lanes. Included only by the kernels
-// (shade_kernel.cpp); internal linkage.
+// tissue_appearance.glsl, guides.glsl, paint.glsl and the normals of ray_march.glsl in lanes. Included only by the
+// kernels (shade_kernel.cpp); internal linkage.
 #pragma once
 
 #include "render/cpu/field_body.h"
@@ -121,6 +121,24 @@ inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3
   return colour;
 }
 
+// paint.glsl
+inline Float3 painted(const ShadeScene& scene, const Float3& albedo, const Float3& index, Mask mask) {
+  if (scene.paint.size.x == 0) return albedo;
+  const Float3 at = index - splat(glm::vec3(scene.paint_low - 1));
+  const Mask inside = mask & insideBorder(at, scene.paint.size);
+  if (none(inside)) return albedo;
+  const auto unpacked = [](Int rgba) {
+    return Appearance{{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff)},
+                      toFloat(shiftRightLogical(rgba, 24))};
+  };
+  const Appearance paint = mixedAround(scene.paint, at, inside, [&](const std::uint32_t* from, Int offset, Float part) {
+    const IntPair both = gather64<4>(from, offset);
+    return mix(unpacked(both.low), unpacked(both.high), part);
+  });
+  const Float3 colour = (1.0f / 255.0f) * paint.root;
+  return select(inside, (1.0f - (1.0f / 255.0f) * paint.finish) * albedo + colour, albedo);
+}
+
 inline Surface tissueAt(const ShadeScene& scene, const Float3& index, const Float3& outward, const Float3& grain,
                         const Float3& p_P, const Float3& normal, Float open, Mask mask, Float& enamel) {
   Float finish;
@@ -143,7 +161,7 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
                              Float open, Mask mask) {
   Float enamel;
   Surface surface = tissueAt(scene, index, normal, p_P, p_P, normal, open, mask, enamel);
-  surface.albedo = guided(scene, surface.albedo, index, p_P, enamel, mask);
+  surface.albedo = guided(scene, painted(scene, surface.albedo, index, mask), index, p_P, enamel, mask);
   surface.scatter = surface.albedo;
   return surface;
 }

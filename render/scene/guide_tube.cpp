@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint32_t kSides = 24;
 constexpr glm::vec4 kCanalColour{0.90f, 0.36f, 0.05f, 1.0f};  // customary for the nerve in planning software
 constexpr glm::vec4 kRulerColour{0.02f, 0.85f, 0.55f, 1.0f};  // of no tissue and no other guide
+constexpr glm::vec4 kArrowColour{0.95f, 0.82f, 0.10f, 1.0f};
 constexpr int kBeadRows = 12;
 constexpr float kBehind = 0.6f;  // share of the colour behind bone
 
@@ -164,6 +165,35 @@ assets::MeshModel rulerMesh(const RulerLine& ruler, bool behind) {
       joinLastTwo(part);
     }
   }
+  return {{std::move(part)}};
+}
+
+assets::MeshModel arrowMesh(const GuideArrow& arrow, bool behind) {
+  const double length_mm = glm::distance(arrow.from_P.mm, arrow.to_P.mm);
+  if (length_mm < 1e-6) return {};
+  assets::MeshPart part = partNamed("Arrow", glm::vec4((behind ? kBehind : 1.0f) * glm::vec3(kArrowColour), 1.0f));
+  const glm::dvec3 along = (arrow.to_P.mm - arrow.from_P.mm) / length_mm;
+  const glm::dvec3 neck = arrow.to_P.mm - std::min(kArrowHeadLength_mm, length_mm) * along;
+  const std::array<glm::dvec3, 2> shaft{arrow.from_P.mm, neck}, head{neck, arrow.to_P.mm};
+  const auto join = [&](const Ring& from, const Ring& to) {
+    append(part, from);
+    append(part, to);
+    joinLastTwo(part);
+  };
+  if (length_mm > kArrowHeadLength_mm) {
+    const std::vector<Ring> rings = ringsAlong(shaft, kArrowRadius_mm);
+    join(endAt(arrow.from_P.mm, -along), rings[0]);
+    join(rings[0], rings[1]);
+  }
+  // The head's base, and its cone with the slant's normals.
+  Ring base = ringsAlong(head, kArrowHead_mm)[0];
+  Ring flat = base;
+  flat.normal.fill(-along);
+  join(endAt(neck, -along), flat);
+  Ring tip = endAt(arrow.to_P.mm, along);
+  for (std::uint32_t s = 0; s < kSides; ++s)
+    base.normal[s] = tip.normal[s] = glm::normalize(kArrowHeadLength_mm * base.normal[s] + kArrowHead_mm * along);
+  join(base, tip);
   return {{std::move(part)}};
 }
 

@@ -30,6 +30,8 @@ Placements placementsIn(const Frame& frame) {
         {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)},
         {.opacity = shown(frame.ruler.has_value())},
         {.opacity = frame.ruler ? kRulerOverlay : 0.0f},
+        {.opacity = shown(frame.arrow.has_value())},
+        {.opacity = frame.arrow ? kRulerOverlay : 0.0f},
         {.opacity = shown(!frame.beads.empty())},
         {.opacity = layers.obstacles && !frame.obstacles.middle_P_mm.empty() ? kObstacles : 0.0f},
         {.opacity = shown(layers.gingiva && frame.flap != nullptr)},

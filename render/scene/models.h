@@ -11,8 +11,8 @@
 
 namespace render {
 
-/// `mandibular_canal`, `ruler`: where they are visible; their overlays: seen through bone and gingiva. `ghost`: the
-/// instrument at the hand, seen through them too, as `obstacles` are.
+/// `mandibular_canal`, `ruler`, `arrow`: where they are visible; their overlays: seen through bone and gingiva.
+/// `ghost`: the instrument at the hand, seen through them too, as `obstacles` are.
 enum class Model {
   face,
   gingiva,
@@ -23,6 +23,8 @@ enum class Model {
   ghost,
   ruler,
   ruler_overlay,
+  arrow,
+  arrow_overlay,
   beads,
   obstacles,
   flap,
@@ -49,10 +51,10 @@ enum class Finish {
 };
 
 constexpr Finish finishOf(Model model) {
-  constexpr std::array kFinish{Finish::skin,      Finish::gingiva, Finish::instrument, Finish::instrument,
-                               Finish::guide,     Finish::guide,   Finish::instrument, Finish::guide,
-                               Finish::guide,     Finish::tooth,   Finish::obstacle,   Finish::gingiva,
-                               Finish::instrument};
+  constexpr std::array kFinish{Finish::skin,     Finish::gingiva, Finish::instrument, Finish::instrument,
+                               Finish::guide,    Finish::guide,   Finish::instrument, Finish::guide,
+                               Finish::guide,    Finish::guide,   Finish::guide,      Finish::tooth,
+                               Finish::obstacle, Finish::gingiva, Finish::instrument};
   if (model >= Model::first_piece) return Finish::piece;
   return kFinish[static_cast<std::size_t>(model)];
 }

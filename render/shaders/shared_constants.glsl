@@ -30,6 +30,7 @@
 #define INSET_UNIT 13
 #define REFLECTED_LIGHT_UNIT 14
 #define REFLECTED_DISTANCE_UNIT 15
+#define PAINT_UNIT 16
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1

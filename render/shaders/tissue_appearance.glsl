@@ -3,6 +3,7 @@
 #include "volume_block.glsl"
 #include "surgical_field.glsl"
 #include "guides.glsl"
+#include "paint.glsl"
 
 float hashed(ivec3 cell) {
   uvec3 q = uvec3(cell) * uvec3(1597334673u, 3812015801u, 2798796415u);
@@ -42,11 +43,11 @@ Surface tissueAt(vec3 index, vec3 outward, vec3 grain, vec3 p_P, vec3 normal, fl
   return covered(Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo), p_P, normal, marrow, mottle, open);
 }
 
-// Of what lies where it was scanned, with the guides.
+// Of what lies where it was scanned, with paint and guides.
 Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P, float open) {
   float enamel;
   Surface surface = tissueAt(index, normal, p_P, p_P, normal, open, enamel);
-  surface.albedo = guided(surface.albedo, index, p_P, enamel);
+  surface.albedo = guided(painted(surface.albedo, index), index, p_P, enamel);
   surface.scatter = surface.albedo;
   return surface;
 }

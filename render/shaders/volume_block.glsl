@@ -7,6 +7,8 @@ layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
   ivec4 bricks;          // w: VIEW_…
   ivec4 ambient_size;    // cells of the ambient map; x is 0 when there is no volume
   vec4 march;            // x: voxels between samples; y, z: 1 for ambient occlusion, for the lamp shadow; w: GUIDE_… bits
+  ivec4 paint_low;       // voxel at which the painted box begins
+  ivec4 paint_size;      // its voxels; w: 1 where there is paint
 } volume;
 
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
@@ -14,6 +16,7 @@ layout(binding = SMOOTH_UNIT) uniform sampler3D smooth_field;
 layout(binding = LABEL_UNIT) uniform usampler3D label_field;
 layout(binding = APPEARANCE_UNIT) uniform sampler3D appearance_field;
 layout(binding = GUIDE_UNIT) uniform sampler3D guide_field;
+layout(binding = PAINT_UNIT) uniform sampler3D paint_field;
 layout(binding = EMPTINESS_UNIT) uniform usampler3D emptiness;
 layout(binding = AMBIENT_UNIT) uniform sampler3D ambient_map;
 

@@ -19,6 +19,7 @@ RayCaster::RayCaster(Stage stage, bool skip_empty_space)
 
 void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame) {
   const int guides = volume.hasGuides() ? visibleGuides(frame) : 0;
+  const bool is_painted = frame.paint != nullptr && volume.paintSize().x > 0;
   const assets::VolumeGrid& grid = fields.grid();
   block_.set(VOLUME_BLOCK,
              {.origin_P = glm::vec4(glm::vec3(grid.origin_P_mm), static_cast<float>(grid.spacing_mm)),
@@ -26,7 +27,9 @@ void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, co
               .bricks = glm::ivec4(grid.bricks(), isTranslucent(frame.mode) ? VIEW_DVR : VIEW_ISO),
               .ambient_size = glm::ivec4(fields.ambient().layout().size, 0),
               .march = {static_cast<float>(frame.quality.step_voxels), frame.quality.ambient_occlusion ? 1.0f : 0.0f,
-                        frame.quality.lamp_shadow ? 1.0f : 0.0f, static_cast<float>(guides)}});
+                        frame.quality.lamp_shadow ? 1.0f : 0.0f, static_cast<float>(guides)},
+              .paint_low = glm::ivec4(volume.paintLow(), 0),
+              .paint_size = glm::ivec4(volume.paintSize(), is_painted ? 1 : 0)});
   transfer_.set(TRANSFER_BLOCK, transferBlock(transferOf(frame.mode)));
   volume.bind();
 }

@@ -19,8 +19,9 @@ struct VolumeBlock {
   glm::vec4 origin_P;
   glm::ivec4 size{0}, bricks{0}, ambient_size{0};
   glm::vec4 march{0.0f};
+  glm::ivec4 paint_low{0}, paint_size{0};
 };
-static_assert(sizeof(VolumeBlock) == 80);
+static_assert(sizeof(VolumeBlock) == 112);
 
 class RayCaster {
  public:

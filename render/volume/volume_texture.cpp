@@ -75,6 +75,16 @@ void VolumeTexture::setGuides(const GuideField& guides) {
   upload(guides_, guides, whole(guides));
 }
 
+// The box of a tooth stays as large as it is: its texture is kept.
+void VolumeTexture::setPaint(const SurfacePaint& paint) {
+  const glm::ivec3 size = paint.texels.layout().size;
+  const bool fits = size == paint_size_;
+  paint_low_ = paint.low, paint_size_ = size;
+  if (size.x <= 0) return;
+  if (!fits) paint_ = Texture::volume(size, TexelFormat::rgba8);
+  upload(paint_, paint.texels, whole(paint.texels));
+}
+
 void VolumeTexture::bind() const {
   solid_.bind(SOLID_UNIT);
   smooth_.bind(SMOOTH_UNIT);
@@ -83,6 +93,7 @@ void VolumeTexture::bind() const {
   emptiness_.bind(EMPTINESS_UNIT);
   ambient_.bind(AMBIENT_UNIT);
   if (hasGuides()) guides_.bind(GUIDE_UNIT);
+  if (paint_size_.x > 0) paint_.bind(PAINT_UNIT);
 }
 
 }  // namespace render

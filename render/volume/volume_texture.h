@@ -9,6 +9,7 @@
 #include "render/gpu/texture.h"
 #include "render/volume/guide_field.h"
 #include "render/volume/occupancy.h"
+#include "render/volume/surface_paint.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
@@ -21,12 +22,17 @@ class VolumeTexture {
   void update(const VolumeFields& fields, const FieldChanges& changes);
   void setGuides(const GuideField& guides);
   bool hasGuides() const { return guides_.name() != 0; }
+  /// Empty texels: none.
+  void setPaint(const SurfacePaint& paint);
+  glm::ivec3 paintLow() const { return paint_low_; }
+  glm::ivec3 paintSize() const { return paint_size_; }
   void bind() const;
 
  private:
   void uploadSolid(const VolumeFields& fields, const VoxelBox& box);
 
-  Texture solid_, smooth_, appearance_, label_, emptiness_, ambient_, guides_;
+  Texture solid_, smooth_, appearance_, label_, emptiness_, ambient_, guides_, paint_;
+  glm::ivec3 paint_low_{0}, paint_size_{0};  ///< of the texture
   Occupancy occupancy_;
   std::vector<std::uint16_t> wide_;
   int frames_since_rebuild_ = 0;

@@ -4,7 +4,9 @@
 
 #include "app/case/prepared_tooth.h"
 #include "app/case/treated_tooth.h"
+#include "app/procedure/preparation/bite_watch.h"
 #include "app/procedure/preparation/preparation_outcomes.h"
+#include "app/procedure/preparation/preparation_paint.h"
 #include "assets/synthetic/jaw.h"
 #include "tests/bench/cpu_time.h"
 
@@ -29,4 +31,14 @@ int main() {
   bench::printCost("  P3, P4, P6: walls",
                    [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
   bench::printCost("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });
+  const app::PreparationOutcomes outcomes = measure->outcomesOf(made);
+  bench::printCost("what is painted on the live tooth", [&] {
+    return static_cast<double>(app::preparationPaint(*measure, made, outcomes).deviation.size());
+  });
+  std::optional<app::BittenTooth> bitten;
+  bench::printCost("what opposes it, made, once", [&] {
+    bitten.emplace(crown);
+    return 0.0;
+  });
+  bench::printCost("a bite on articulating paper", [&] { return bitten->bitten(made, 0.04).bite.clearance_mm; });
 }

@@ -165,6 +165,15 @@ LaidBoxes laidBoxes(const haptics::Filling::Volumes& filling, const assets::Volu
   return boxes;
 }
 
+BoxBytes filledTooth(const BoxBytes& made, const haptics::Filling::Volumes& filling, const assets::VolumeGrid& grid) {
+  BoxBytes all = made;
+  if (filling.laid.empty()) return all;
+  const LaidBoxes boxes = laidBoxes(filling, grid, made.grid());
+  for (std::size_t v = 0; v < all.bytes().size(); ++v)
+    all.bytes()[v] = static_cast<std::uint8_t>(std::min(kFullByte, all.bytes()[v] + boxes.laid.bytes()[v]));
+  return all;
+}
+
 FillingMeasure::FillingMeasure(const Crown& intact) : intact_(intact), own_(ownOf(intact)), distance_(own_) {}
 
 FillingOutcomes FillingMeasure::outcomesOf(const BoxBytes& made, const LaidBoxes& filling) const {

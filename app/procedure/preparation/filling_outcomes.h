@@ -56,6 +56,9 @@ struct LaidBoxes {
 LaidBoxes laidBoxes(const haptics::Filling::Volumes& filling, const assets::VolumeGrid& grid,
                     const assets::VolumeGrid& box);
 
+/// What opposing teeth meet: the tooth as it is made and what was laid into it; no filling: the tooth.
+BoxBytes filledTooth(const BoxBytes& made, const haptics::Filling::Volumes& filling, const assets::VolumeGrid& grid);
+
 class FillingMeasure {
  public:
   /// `intact` must outlive it.

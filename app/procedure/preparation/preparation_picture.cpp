@@ -7,14 +7,15 @@
 
 #include <fmt/core.h>
 
+#include "app/procedure/preparation/deviation_colour.h"
 #include "app/report/drawing.h"
 
 namespace app {
 namespace {
 
 constexpr int kPanel = 300;
-constexpr double kNamesHeight = 26.0, kLetters = 13.0, kLegend = 64.0, kFullColour_mm = 0.5;
-constexpr glm::dvec3 kBlue(0.0, 0.447, 0.698), kPale(0.93, 0.90, 0.84), kRed(0.835, 0.369, 0.0);
+constexpr double kNamesHeight = 26.0, kLetters = 13.0, kLegend = 64.0;
+constexpr glm::dvec3 kOutline(0.0, 0.447, 0.698);
 constexpr glm::dvec3 kTaken(0.86, 0.89, 0.92), kLeft(0.94, 0.86, 0.72), kUncut(0.80, 0.80, 0.78);
 
 /// The tooth's frame as a panel shows it: to the right, up, towards the viewer.
@@ -29,11 +30,6 @@ constexpr std::array<PanelView, 5> kViews{{
     {"from mesial", {0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
     {"from distal", {0, -1, 0}, {0, 0, 1}, {-1, 0, 0}},
 }};
-
-glm::dvec3 colourOf(double deviation_mm) {
-  const double share = std::clamp(std::abs(deviation_mm) / kFullColour_mm, 0.0, 1.0);
-  return glm::mix(kPale, deviation_mm > 0.0 ? kRed : kBlue, share);
-}
 
 /// A square of pixels with depth.
 class Panel {
@@ -116,7 +112,7 @@ Panel surfacePanel(const PreparationMeasure& measure, const BoxBytes& made, cons
     const double facing = glm::dot(out, view.out);
     if (facing <= 0.0) continue;
     splat(crown.frame.local(glm::dvec3(place.p_P_mm)), 0.55 + 0.45 * facing,
-          colourOf(static_cast<double>(place.deviation_mm)));
+          deviationColour(static_cast<double>(place.deviation_mm)));
   }
   return panel;
 }
@@ -143,8 +139,8 @@ Panel sectionPanel(const PreparationMeasure& measure, const BoxBytes& made, cons
       const bool is_edge =
           is_in != (value(measure.ideal(), x + 1, y) >= 0.5) || is_in != (value(measure.ideal(), x, y + 1) >= 0.5);
       if (!is_edge || !(crown.solid.at(p_P) >= 0.25)) continue;
-      panel.put(x, y, kBlue);
-      panel.put(x + 1, y, kBlue);
+      panel.put(x, y, kOutline);
+      panel.put(x + 1, y, kOutline);
     }
   return panel;
 }
@@ -190,7 +186,7 @@ render::Image preparationPicture(const PreparationMeasure& measure, const BoxByt
   constexpr double kStrip = 240.0;
   for (int n = 0; n < 60; ++n) {
     const double mm = kFullColour_mm * (n - 29.5) / 30.0;
-    const glm::dvec3 colour = colourOf(mm);
+    const glm::dvec3 colour = deviationColour(mm);
     drawing.box({8.0 + kStrip * n / 60.0, y - 18.0}, {kStrip / 60.0 + 0.5, 16.0}, Ink{colour.r, colour.g, colour.b});
   }
   drawing.text(fmt::format("{:g} mm too deep", kFullColour_mm), {8.0, y + 12.0}, kLetters, paper::kInk, Align::left);

@@ -26,12 +26,13 @@ struct PreparationWatch::Copy {
       measure.emplace(Crown(ToothBlocks(DenseTooth(volume.grid(), volume.before(), volume.labels())), tooth.frame),
                       rule, "--ideal");
     const BoxBytes made(DenseSolid(volume.grid(), volume.now()), measure->crown().solid.grid());
-    PreparationOutcomes outcomes = measure->outcomesOf(made);
+    Measured measured{measure->outcomesOf(made), {}, {}};
     if (!volume.filling().laid.empty())
-      outcomes.filling = measure->fillingOf(made, laidBoxes(volume.filling(), volume.grid(), made.grid()));
-    return {std::move(outcomes), {}};
+      measured.outcomes->filling = measure->fillingOf(made, laidBoxes(volume.filling(), volume.grid(), made.grid()));
+    measured.paint = preparationPaint(*measure, made, *measured.outcomes);
+    return measured;
   } catch (const UsageError& error) {
-    return {{}, error.what()};
+    return {{}, {}, error.what()};
   }
 };
 
@@ -51,15 +52,26 @@ bool PreparationWatch::follow(std::span<const glm::ivec3> bricks, const haptics:
   bool is_new = false;
   if (measuring_.valid()) {
     if (measuring_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-    Measured measured = measuring_.get();
-    newest_ = std::move(measured.outcomes);
-    line_ = newest_ ? preparationLine(*newest_) : measured.refusal;
+    take(measuring_.get());
     is_new = true;
   }
   if (!pause_.isDue(newest, !changed_.empty())) return is_new;
   copy_->volume.take(bodies_, std::exchange(changed_, {}));
   measuring_ = std::async(std::launch::async, [copy = copy_.get()] { return copy->measured(); });
   return is_new;
+}
+
+bool PreparationWatch::measureNow() {
+  if (measuring_.valid()) take(measuring_.get());
+  copy_->volume.take(bodies_, std::exchange(changed_, {}));
+  take(copy_->measured());
+  return newest_.has_value();
+}
+
+void PreparationWatch::take(Measured measured) {
+  newest_ = std::move(measured.outcomes);
+  paint_ = std::move(measured.paint);
+  line_ = newest_ ? preparationLine(*newest_) : measured.refusal;
 }
 
 std::string fillingLine(const FillingOutcomes& filling) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/procedure/preparation/preparation_outcomes.h"
+#include "app/procedure/preparation/preparation_paint.h"
 #include "app/procedure/tooth_copy.h"
 #include "assets/prepared_tooth.h"
 
@@ -27,6 +28,10 @@ class PreparationWatch {
   bool follow(std::span<const glm::ivec3> bricks, const haptics::Tick& newest);
   /// None: nothing was measured yet.
   const std::optional<PreparationOutcomes>& newest() const { return newest_; }
+  /// Of the newest outcomes; empty where there are none.
+  const PreparationPaint& paint() const { return paint_; }
+  /// Waits: all of the tooth as it is, for a picture of it. False: it cannot be measured.
+  bool measureNow();
   /// For the surgeon: "34 of 118 mm³ cut, 0.4 too much; walls 14°, margin 0.9 mm"; why the tooth cannot be measured;
   /// empty: nothing was measured.
   const std::string& line() const { return line_; }
@@ -35,8 +40,11 @@ class PreparationWatch {
   struct Copy;
   struct Measured {
     std::optional<PreparationOutcomes> outcomes;
+    PreparationPaint paint;
     std::string refusal;
   };
+
+  void take(Measured measured);
 
   std::unique_ptr<Copy> copy_;  ///< the worker reads it
   const haptics::Bodies& bodies_;
@@ -44,6 +52,7 @@ class PreparationWatch {
   std::future<Measured> measuring_;
   StrokePause pause_;
   std::optional<PreparationOutcomes> newest_;
+  PreparationPaint paint_;
   std::string line_;
 };
 

@@ -18,6 +18,8 @@ constexpr double kAside_mm = 1.2;
 constexpr double kCone_rad = 5.0 * std::numbers::pi / 180.0;
 /// Of the size of the voxels' roughness: no reason to leave the tooth's axis.
 constexpr double kWorth_mm3 = 0.05;
+/// A place begins that far off its surface, so that what leans over by less is not told.
+constexpr double kOff_mm = 0.03;
 
 }  // namespace
 
@@ -88,6 +90,27 @@ InsertionWay bestInsertion(const CrownColumns& columns) {
       step *= 0.5;
   }
   return axis.undercut_mm3 - best.undercut_mm3 < kWorth_mm3 ? axis : best;
+}
+
+glm::dvec3 wayOf(const InsertionWay& insertion, const assets::ToothFrame& frame) {
+  return frame.axes_P * glm::normalize(glm::dvec3(insertion.lean, 1.0));
+}
+
+std::vector<glm::dvec3> undercutPlaces_P_mm(const Crown& crown, const BoxBytes& made,
+                                            std::span<const DeviationPlace> surface, const glm::dvec3& way_P) {
+  std::vector<glm::dvec3> places;
+  const double step_mm = made.grid().spacing_mm;
+  for (const DeviationPlace& place : surface) {
+    const glm::dvec3 p_P(place.p_P_mm), out_P(place.out_P);
+    const double up_mm = crown.top_mm - crown.frame.local(p_P).z;
+    for (double mm = step_mm; mm < up_mm + step_mm; mm += step_mm) {
+      const glm::dvec3 over_P = p_P + kOff_mm * out_P + mm * way_P;
+      if (made.at(over_P) < 0.5 || !crown.isTooth(over_P)) continue;
+      places.push_back(p_P);
+      break;
+    }
+  }
+  return places;
 }
 
 }  // namespace app

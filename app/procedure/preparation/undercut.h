@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "app/procedure/preparation/crown.h"
+#include "app/procedure/preparation/deviation.h"
 
 namespace app {
 
@@ -40,5 +42,13 @@ struct InsertionWay {
 /// Columns for the search, and what is found told by finer ones. The tooth's axis itself where nothing is better by
 /// more than the last digit.
 InsertionWay bestInsertion(const CrownColumns& columns);
+
+/// Towards the bite, unit, P.
+glm::dvec3 wayOf(const InsertionWay& insertion, const assets::ToothFrame& frame);
+
+/// Of the prepared surface, what stands under something along the way; roughness of the voxels does not count. Some 60
+/// ms.
+std::vector<glm::dvec3> undercutPlaces_P_mm(const Crown& crown, const BoxBytes& made,
+                                            std::span<const DeviationPlace> surface, const glm::dvec3& way_P);
 
 }  // namespace app

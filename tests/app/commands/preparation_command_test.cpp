@@ -114,6 +114,36 @@ TEST_F(PreparationCommand, ANeighbourThatIsCutIsTold) {
   EXPECT_GT(of.at("P7_neighbour_mm3").get<double>(), 0.05);
 }
 
+TEST_F(PreparationCommand, ABiteIsRecordedAndMarksAgain) {
+  // On the intact tooth, and where the rest of the teeth meet first.
+  const std::string hand = write("bite.csv",
+                                 "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,action\n0,0,-300,0,1,0,0,0,0,\n"
+                                 "0.1,0,-300,0,1,0,0,0,0,bite\n0.3,0,-300,0,1,0,0,0,0,\n");
+  const ProgramOutput said = prepare(
+      hand, "--paper-um 100 --layers deviation,insertion --snapshot " + at("p.png") + " --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("marks of 100 µm paper"), std::string::npos) << said.err;
+  EXPECT_EQ(read("p_left.png").substr(1, 3), "PNG");
+
+  const auto of = nlohmann::json::parse(molar("metrics " + at("s.molar") + " --json").out).at("preparation");
+  ASSERT_EQ(of.at("bites").size(), 1u);
+  const auto& bite = of.at("bites")[0];
+  EXPECT_EQ(bite.at("antagonist"), "made");
+  EXPECT_EQ(bite.at("paper_um"), 100.0);
+  EXPECT_EQ(bite.at("high_spot_um"), 0.0);
+  EXPECT_EQ(bite.at("clearance_um"), 0.0);
+  EXPECT_GE(bite.at("contacts"), 3) << "an intact tooth rests as a tripod";
+  EXPECT_GT(bite.at("mark_area_mm2"), 0.2);
+  EXPECT_EQ(of.at("bite").at("marks"), bite.at("marks")) << "nothing was cut since";
+
+  const ProgramOutput again = molar("replay " + at("s.molar") + " --bites");
+  EXPECT_EQ(again.status, 0) << again.out << again.err;
+  EXPECT_NE(again.out.find("the same: 100 µm paper on a made antagonist"), std::string::npos) << again.out;
+  const std::string page = (molar("report " + at("s.molar") + " --out " + at("s.html")), read("s.html"));
+  EXPECT_NE(page.find("was made from the tooth's own biting surface"), std::string::npos);
+  EXPECT_NE(page.find("not how hard"), std::string::npos);
+}
+
 TEST_F(PreparationCommand, RefusesInOneLine) {
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const ProgramOutput said = molar("rehearse --headless " + arguments);
@@ -125,6 +155,8 @@ TEST_F(PreparationCommand, RefusesInOneLine) {
   refused("--task preparation --tooth 45 --device scripted --tool round:1.2", "burs of its own");
   refused("--task preparation --tooth 45 --flap closed --device poses:" + farAway(), "is of an extraction");
   refused("--task preparation --tooth 11 --device poses:" + farAway(), "no such tooth");
+  refused("--task preparation --tooth 45 --paper-um 0.5 --device poses:" + farAway(), "--paper-um");
+  refused("--paper-um 40 --device poses:" + farAway(), "--task");
   refused("--task preparation --tooth 45 --ideal crown:wood --device poses:" + farAway(), "crown:wood");
 }
 

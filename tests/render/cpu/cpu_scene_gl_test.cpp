@@ -10,6 +10,7 @@
 #include "assets/tooth.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/offscreen_context.h"
+#include "render/volume/surface_paint.h"
 #include "tests/render/drawn_scene.h"
 #include "tests/render/twin_scene.h"
 
@@ -209,6 +210,55 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   f.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
   f.X_PT_at_hand = {glm::angleAxis(1.1, glm::dvec3(1, 0, 0)), {2, -4, 5}};
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 6) << "at the rims of the tube and the ghost";
+}
+
+/// Over the front of the larger ball, in cells of colours and covers of their own.
+SurfacePaint cellsOfPaint(const assets::VolumeGrid& grid) {
+  SurfacePaint paint;
+  const glm::ivec3 size{21, 17, 30};
+  paint.low = glm::ivec3(glm::round(grid.indexFromPoint({-9, -9, -7})));
+  paint.texels = PaintTexels(size);
+  forEachIn({glm::ivec3(0), size}, [&](glm::ivec3 ijk) {
+    const glm::ivec3 cell = ijk / 3;
+    const int n = cell.x * 7 + cell.y * 3 + cell.z * 5;
+    *paint.texels.at(ijk) =
+        paintTexel(glm::vec3(n % 3, n % 4, n % 5) / glm::vec3(2, 3, 4), static_cast<float>(n % 6) / 5.0f);
+  });
+  paint.title = "off the ideal";
+  paint.rows = {
+      {glm::vec3(0.7f, 0.1f, 0.0f), "0.5 mm too high"}, {glm::vec3(0.0f, 0.2f, 0.5f), "too deep"}, {{}, "made"}};
+  return paint;
+}
+
+TEST_F(CpuScene, ShowsPaintAndItsLegendAsTheShadersDo) {
+  open();
+  const Frame bare = frame();
+  const SurfacePaint paint = cellsOfPaint(ct_.grid);
+  Frame f = bare;
+  f.paint = &paint;
+  f.paint_serial = 1;
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
+  const Image painted = cpu_->readEye(Eye::cyclopean);
+  cpu_->renderEye(bare, Eye::cyclopean);
+  const Image without = cpu_->readEye(Eye::cyclopean);
+  int changed = 0;
+  for (std::size_t at = 0; at < painted.rgba.size(); at += 4)
+    changed += std::abs(painted.rgba[at] - without.rgba[at]) > 20 ? 1 : 0;
+  EXPECT_GT(changed, 600) << "of the ball and of the legend";
+  EXPECT_LT(changed, 8000) << "the box alone";
+  // Taken away it is gone, as a frame that borrows nothing says.
+  gl_->renderEye(bare, Eye::cyclopean);
+  Frame none = bare;
+  none.paint_serial = 2;
+  EXPECT_LE(between(*gl_, *cpu_, none, Eye::cyclopean).worst, 2);
+  EXPECT_EQ(cpu_->readEye(Eye::cyclopean).rgba, without.rgba);
+}
+
+TEST_F(CpuScene, ShowsAnArrowAsTheShadersDo) {
+  open();
+  Frame f = frame();
+  f.arrow = GuideArrow{{{-4, -14, 12}}, {{-4, -2, 2}}};
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 6) << "at its rims";
 }
 
 // Every head over the bone, with gum beside it, from 0.1 to 9 mm away.
