@@ -15,9 +15,14 @@ namespace app {
 /// Of voxels: a margin of 0.5 mm is six of them, and the row fits into 100 MB.
 inline constexpr double kPreparedVoxel_mm = 0.08;
 
-/// `jaw`: of the built-in patient; none: a scan. `ideal`: the name of what it is measured against. Throws UsageError,
-/// beginning with `option`, where the patient has no such tooth.
+struct Restoration {
+  std::string ideal;   ///< name of what it is measured against
+  std::string caries;  ///< a site of cariesSites(), where a lesion is placed; empty: none
+};
+
+/// `jaw`: of the built-in patient; none: a scan. Throws UsageError, beginning with `option`, where the patient has no
+/// such tooth, with --caries where no lesion can be placed.
 assets::Patient preparedTooth(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
-                              const std::string& ideal, const std::string& option);
+                              const Restoration& restoration, const std::string& option);
 
 }  // namespace app

@@ -11,6 +11,7 @@
 #include "app/case/root_canals.h"
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
+#include "assets/import/modelled_canals.h"
 #include "assets/load_error.h"
 #include "assets/scenery/rubber_dam.h"
 #include "assets/tooth.h"
@@ -147,12 +148,17 @@ assets::Patient treatedTooth(const assets::Patient& whole, const assets::ToothCa
 }
 
 FineTooth fineToothAlone(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
-                         double spacing_mm, const std::string& option) {
+                         double spacing_mm, const std::string& option, Canals canals) {
   const std::vector<CanalTooth> teeth = jaw ? canalTeeth(*jaw) : canalTeeth(whole.ct);
   const auto found = std::ranges::find(teeth, fdi, &CanalTooth::fdi);
   if (found == teeth.end())
     throw UsageError(fmt::format("{} {}: this patient has no such tooth, give {}", option, fdi,
                                  joined(teeth, [](const CanalTooth& tooth) { return std::to_string(tooth.fdi); })));
+  if (!found->canals && !jaw && canals == Canals::wanted) {
+    assets::ToothCanals none = assets::unmodelledTooth(whole.ct, fdi);
+    auto fine = fineTooth(withoutNeighbours(whole.ct, fdi), jaw, none, spacing_mm);
+    return {std::move(none), std::move(fine)};
+  }
   // What a scan's tooth lacks is said by its remark, an impacted one of the built-in jaw has canals and lies too deep.
   if (!found->canals || (jaw && !found->remark.empty()))
     throw UsageError(fmt::format("{} {}: {}, choose another, see molar teeth", option, fdi, found->remark));

@@ -32,9 +32,10 @@ struct FineTooth {
   assets::ToothCanals canals;
   std::unique_ptr<assets::ToothSampler> fine;
 };
+enum class Canals { needed, wanted };  ///< wanted: a scan's tooth whose canals cannot be modelled is as it is labelled
 /// Throws UsageError, beginning with `option`, as treatedTooth() does.
 FineTooth fineToothAlone(const assets::Patient& whole, const std::optional<assets::JawParameters>& jaw, int fdi,
-                         double spacing_mm, const std::string& option);
+                         double spacing_mm, const std::string& option, Canals canals = Canals::needed);
 
 /// Of a voxel of some tissue that is solid in part, Hounsfield.
 std::int16_t greyOf(std::uint8_t solid, std::uint8_t label);

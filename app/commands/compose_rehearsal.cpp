@@ -222,14 +222,15 @@ void chooseTools(RehearseOptions& options) {
   if (isPreparation(options)) {
     // A round-ended taper for walls and margin, a torpedo for a chamfer, a flame and a wheel for the biting surface;
     // for a cavity a pear and a narrow cylinder, a round one and an inverted cone, and what fills it.
-    if (idealRule(options.ideal, "--ideal").kind == IdealKind::cavity)
+    const IdealRule* const rule = isIdealFile(options.ideal) ? nullptr : &idealRule(options.ideal, "--ideal");
+    if (rule != nullptr && rule->kind == IdealKind::cavity)
       options.tools = {"pear:0.5,1.2", "cylinder:0.4,4", "round:1.0", "inverted-cone:0.5,0.8",
                        "flame:0.6,6",  "composite",      "plugger",   "carver",
                        "curing-lamp",  "glass-ionomer",  "amalgam",   "wax"};
     else
       options.tools = {"round-taper:0.9,8", "torpedo:0.8,8",  "flame:0.6,6",
                        "wheel:1.8,1.2",     "cylinder:0.5,6", "round:1.4"};
-    if (options.plan.device == "scripted") options.tools = scriptedBurs(idealRule(options.ideal, "--ideal"));
+    if (rule != nullptr && options.plan.device == "scripted") options.tools = scriptedBurs(*rule);
     return;
   }
   if (const auto task = practiceOf(options))
@@ -362,6 +363,8 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.task = "preparation";
       options.tooth = prepared->fdi;
       options.ideal = prepared->ideal;
+      options.caries = prepared->caries;
+      options.given_ideal = prepared->given;
       refuseUnlessForPreparation(options);
     }
     plan.drawn = former->drawn;
@@ -387,9 +390,18 @@ void completeTray(RehearsalPlan& plan) {
     plan.other_tools.push_back(haptics::handInstrumentTool(kind));
 }
 
+/// A crown, or the cavity over a lesion.
+std::string usualIdeal(const std::string& caries) {
+  if (caries.empty()) return "crown:all-ceramic";
+  return caries == "occlusal" ? "class-1" : "class-2:" + caries;
+}
+
 /// The tooth has room for its ideal, and a scripted hand knows its way; throws UsageError where it has none.
 void planPreparation(RehearsalPlan& plan) {
   const assets::PreparedTooth& tooth = *plan.patient.prepared;
+  if (tooth.given && plan.device == "scripted")
+    throw UsageError("--device scripted: no hand knows the way to an ideal from a file, give mouse or poses:FILE.csv");
+  if (tooth.given) return;
   const assets::CtVolume& ct = plan.patient.ct;
   Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
   const IdealRule& rule = idealRule(tooth.ideal, "--ideal");
@@ -406,8 +418,9 @@ void planPreparation(RehearsalPlan& plan) {
 std::vector<std::uint8_t> cutReady(assets::Patient& patient) {
   const assets::PreparedTooth& tooth = *patient.prepared;
   assets::CtVolume& ct = patient.ct;
-  const Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
-  const BoxBytes left = PreparedIdeal(crown, idealRule(tooth.ideal, "--ideal"), "--ideal").left(crown);
+  const PreparationMeasure measure(Crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame), tooth,
+                                   "--ideal");
+  const BoxBytes& left = measure.ideal();
   std::vector<std::uint8_t> whole = ct.solid;
   const glm::ivec3 low(glm::round(ct.grid.indexFromPoint(left.grid().origin_P_mm)));
   assets::forVoxels(left.grid(), [&](glm::ivec3 ijk, std::size_t from) {
@@ -443,7 +456,10 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   const bool are_tools_named = options.tools != kUntouched.tools;
   const std::optional<assets::PracticeTask> block = practiceOf(options);
   if (isRootCanal(options)) refuseUnlessForRootCanal(options);
-  if (isPreparation(options)) refuseUnlessForPreparation(options);
+  if (isPreparation(options)) {
+    if (options.ideal.empty()) options.ideal = usualIdeal(options.caries);
+    refuseUnlessForPreparation(options);
+  }
   if (block) {
     refuseUnlessForBlock(options);
     plan.instruction = assets::textOf(*block).instruction;

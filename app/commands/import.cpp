@@ -1,4 +1,5 @@
-// `molar import SOURCE --out PATIENT`: a scan becomes a patient folder, de-identified, and is checked.
+// `molar import SOURCE --out PATIENT`: a scan becomes a patient folder, de-identified, and is checked. A single tooth:
+// import_tooth.h.
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,7 @@
 #include "app/commands/dicom_options.h"
 #include "app/commands/dicom_report.h"
 #include "app/commands/import_course.h"
+#include "app/commands/import_tooth.h"
 #include "app/commands/patient_words.h"
 #include "app/commands/segmenter.h"
 #include "app/commands/shown_import.h"
@@ -47,7 +49,8 @@ namespace app {
 namespace {
 
 struct ImportOptions {
-  std::string source, out, window, scale, report, label_set, segment_with, clicks;
+  std::string source, out, tooth, window, scale, report, label_set, segment_with, clicks;
+  ToothImport single;  ///< its volume is `tooth` where that is no number
   DicomOptions dicom;
   assets::ScanImportOptions choices;
   bool no_face = false, no_check = false, force = false;
@@ -250,7 +253,27 @@ bool isWatched(const ImportOptions& options) {
          (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
 }
 
+/// `--tooth`: a number of the scan's, or the file of a single tooth.
+void readTooth(ImportOptions& options) {
+  if (const auto fdi = parseNumber<int>(options.tooth))
+    options.choices.tooth_fdi = *fdi;
+  else
+    options.single.volume = options.tooth;
+  if (options.single.volume.empty()) {
+    if (options.source.empty())
+      throw UsageError("SOURCE: name a folder of DICOM files or a volume file, or a single tooth's with --tooth FILE");
+    if (options.single.upright || !options.single.levels.empty() || options.single.fdi != ToothImport{}.fdi)
+      throw UsageError("--tooth " + options.tooth +
+                       ": --tooth-number, --levels and --upright are for a single tooth, whose FILE --tooth names");
+    return;
+  }
+  if (!options.source.empty())
+    throw UsageError("--tooth " + options.tooth + ": is no FDI number; a single tooth's file is given without SOURCE");
+  refuseUnknownTooth(options.single);
+}
+
 int import(ImportOptions options) {
+  readTooth(options);
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
     throw UsageError("--tooth " + std::to_string(*fdi) + ": not an FDI number, give 11 to 48 or 51 to 85");
   if (const auto named = std::ranges::find(assets::kLabelSets, options.label_set); named != assets::kLabelSets.end())
@@ -270,8 +293,13 @@ int import(ImportOptions options) {
   }
   Imported imported;
   options.is_shown = isWatched(options);
-  const std::unique_ptr<CheckWindow> window =
-      runShown([&](ImportCourse& course) { imported = importWhole(options, course); }, options.is_shown);
+  const auto work = [&](ImportCourse& course) {
+    imported = options.single.volume.empty()
+                   ? importWhole(options, course)
+                   : Imported{importTooth(options.single, options.out, options.force, course), false};
+  };
+  if (!options.single.volume.empty()) options.is_shown = false;
+  const std::unique_ptr<CheckWindow> window = runShown(work, options.is_shown);
   std::fputs(imported.words.c_str(), stderr);
   if (has_no_place)
     printMessage("imported as " + std::filesystem::path(options.out).filename().string() + ", in " +
@@ -294,12 +322,12 @@ int import(ImportOptions options) {
 void addImport(CommandLine& molar) {
   auto options = std::make_shared<ImportOptions>();
   CommandLine& command = molar.command("import", "A scan becomes a patient folder, de-identified");
-  command
-      .option(
-          "SOURCE", options->source,
-          "Folder of DICOM files; https://HOST/PATH of DICOMweb or dicom://HOST:PORT/AETITLE, with --find; folder with "
-          "ct.nrrd, labels.nrrd and teeth.nrrd; or one volume file")
-      .required();
+  command.example("molar import --tooth TOOTH.nrrd --tooth-number 46 --out PATIENT",
+                  "one tooth's densities, set into a row of teeth to be prepared");
+  command.option(
+      "SOURCE", options->source,
+      "Folder of DICOM files; https://HOST/PATH of DICOMweb or dicom://HOST:PORT/AETITLE, with --find; folder with "
+      "ct.nrrd, labels.nrrd and teeth.nrrd; or one volume file");
   command.option("--out", options->out,
                  "Patient folder to write [a new one in the data folder, which molar start offers]");
   command.option("--iso", options->choices.classification.iso_hu, "Grey value of the bone's surface, HU")
@@ -308,7 +336,14 @@ void addImport(CommandLine& molar) {
   command.option("--sigma", options->choices.classification.sigma_hu, "Width of the soft transition, HU")
       .from(1.0, 2000.0)
       .showsDefault();
-  command.option("--tooth", options->choices.tooth_fdi, "FDI number of the operated tooth [the third molar]");
+  const Option tooth =
+      command
+          .option(
+              "--tooth", options->tooth,
+              "FDI number of the operated tooth [the third molar]; or, without SOURCE, the volume of a single tooth: "
+              "uint8 densities air 0, pulp 100, dentine 150, enamel 255 and values between")
+          .valueNamed("NUMBER|FILE");
+  addToothOptions(command, tooth, options->single);
   const Option window =
       command.option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
   command.option("--labels", options->choices.labels,

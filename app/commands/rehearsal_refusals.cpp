@@ -5,9 +5,11 @@
 #include <fmt/core.h>
 
 #include "app/device/pose_source_table.h"
+#include "app/procedure/preparation/given_ideal.h"
 #include "app/procedure/preparation/ideal_rule.h"
 #include "app/session/session_folder.h"
 #include "app/session/session_reader.h"
+#include "app/text/list.h"
 #include "app/text/usage_error.h"
 #include "assets/scan/tooth_division.h"
 #include "assets/synthetic/practice_block.h"
@@ -80,12 +82,18 @@ void refuseTooWide(const RehearsalPlan& plan) {
 
 void refuseUnlessForPreparation(const RehearseOptions& options) {
   refuseUnlessForOneTooth(options);
+  if (!options.given_ideal && !isIdealFile(options.ideal)) {
+    if (std::ranges::find(idealRules(), options.ideal, &IdealRule::name) == idealRules().end())
+      throw UsageError("--ideal " + options.ideal + ": no such preparation, give " +
+                       joined(idealRules(), [](const IdealRule& rule) { return std::string(rule.name); }) +
+                       ", or a FILE.nrrd or FILE.stl of the prepared tooth");
+  }
   static const RehearseOptions kAsked;
   if (options.plan.device == "scripted" && options.tools != kAsked.tools)
     throw UsageError("--tool: a scripted hand prepares a tooth with burs of its own, leave it out");
   if (options.cavity != "ready") return;
-  if (idealRule(options.ideal, "--ideal").kind != IdealKind::cavity)
-    throw UsageError("--cavity ready: " + options.ideal + " is a crown, give --ideal class-1 or class-2");
+  if (isIdealFile(options.ideal) || idealRule(options.ideal, "--ideal").kind != IdealKind::cavity)
+    throw UsageError("--cavity ready: " + options.ideal + " is no cavity by rule, give --ideal class-1 or class-2");
   if (options.plan.device == "scripted")
     throw UsageError("--cavity ready: a scripted hand cuts the cavity itself, leave it out or give another --device");
   if (!options.continued.empty())

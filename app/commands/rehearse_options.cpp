@@ -1,5 +1,6 @@
 #include "app/commands/rehearse_options.h"
 
+#include "app/case/caries_lesion.h"
 #include "app/case/case.h"
 #include "app/case/patient_placement.h"
 #include "app/controls/control.h"
@@ -49,11 +50,19 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
                                "extraction; or root-canal: one tooth, its canals, burs for the access and K-files; or "
                                "preparation: one tooth is prepared for a crown or a filling");
   task.oneOf({"extraction", "root-canal", "preparation"}).showsDefault();
-  std::vector<std::string> ideals;
-  for (const IdealRule& rule : idealRules()) ideals.emplace_back(rule.name);
-  command.option("--ideal", options.ideal, "Of a preparation: what it is measured against")
-      .oneOf(ideals)
-      .showsDefault()
+  command
+      .option(
+          "--ideal", options.ideal,
+          "Of a preparation, what it is measured against: " +
+              joined(idealRules(), [](const IdealRule& rule) { return std::string(rule.name); }) +
+              "; or FILE.nrrd, solid fraction or 0 and 1; or FILE.stl, the closed surface of the prepared tooth; both "
+              "where the patient's tooth stands, mm [crown:all-ceramic; with --caries the cavity over it]")
+      .valueNamed("NAME|FILE")
+      .needs(task);
+  command
+      .option("--caries", options.caries,
+              "Of a preparation: a carious lesion there, soft inside and firm around, to be excavated")
+      .oneOf(cariesSites())
       .needs(task);
   command
       .option("--cavity", options.cavity,

@@ -11,6 +11,7 @@
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
+#include "assets/prepared_tooth.h"
 #include "assets/synthetic/jaw.h"
 
 namespace app {
@@ -26,10 +27,12 @@ struct RehearseOptions {
   std::string side = "right", second_tool = "mirror", case_name, procedure, guidance, predict, drawn, coach,
               flap = "raised";
   std::string task = "extraction", access = "closed", locator = "real", wear = "rate";
-  std::string ideal = "crown:all-ceramic";  ///< of a tooth preparation
-  std::string cavity = "uncut";             ///< ready: of a preparation, cut to its ideal
-  double paper_um = kUsualPaper_um;         ///< of a tooth preparation
-  std::optional<int> tooth;                 ///< of a root-canal treatment or a preparation
+  std::string ideal;   ///< of a tooth preparation: a rule's name or a file; empty: as the caries asks for, else a crown
+  std::string caries;  ///< of a tooth preparation; empty: none
+  std::optional<assets::GivenIdeal> given_ideal;  ///< of the session that goes on
+  std::string cavity = "uncut";                   ///< ready: of a preparation, cut to its ideal
+  double paper_um = kUsualPaper_um;               ///< of a tooth preparation
+  std::optional<int> tooth;                       ///< of a root-canal treatment or a preparation
   bool list_cases = false, assess = false;
   PictureOption picture;
   std::vector<std::string> settings;

@@ -16,6 +16,8 @@
 #include "app/case/trough_plan.h"
 #include "app/controls/prediction_question.h"
 #include "app/device/pose_source_table.h"
+#include "app/procedure/preparation/given_ideal.h"
+#include "app/procedure/root_canal/dense_tooth.h"
 #include "app/rehearsal/live_view.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
@@ -77,7 +79,14 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
     const auto built_in = options.patient.empty() ? std::optional(jaw) : std::nullopt;
     // A straight handpiece held upright would press lip and cheek all the time, where a
     // dentist's is bent: they are held away.
-    one.patient = preparedTooth(one.patient, built_in, *options.tooth, options.ideal, "--tooth");
+    const bool is_given = isIdealFile(options.ideal) || options.given_ideal;
+    one.patient = preparedTooth(one.patient, built_in, *options.tooth,
+                                {is_given ? assets::kGivenIdeal : options.ideal, options.caries}, "--tooth");
+    if (!is_given) return one;
+    const Crown crown(ToothBlocks(DenseTooth(one.patient.ct.grid, one.patient.ct.solid, one.patient.ct.label)),
+                      one.patient.prepared->frame);
+    one.patient.prepared->given =
+        options.given_ideal ? *options.given_ideal : readGivenIdeal(options.ideal, crown, "--ideal");
     return one;
   }
   if (options.flap == "closed") {

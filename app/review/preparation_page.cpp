@@ -32,11 +32,14 @@ std::string gate(bool is_error, const std::string& question, const std::string& 
 }
 
 std::string gatesOf(const PreparationOutcomes& of) {
-  constexpr double kTouched_mm3 = 0.005;
+  constexpr double kTouched_mm3 = 0.005, kSoftLeft_mm3 = 0.05;
   return "<div class=\"beside\">\n" +
          gate(of.removed.neighbour_mm3 > kTouched_mm3, "Neighbour cut",
               fixedText(of.removed.neighbour_mm3, 2) + " mm³") +
          gate(of.removed.pulp_open_mm2 > 0.0, "Pulp opened", fixedText(of.removed.pulp_open_mm2, 2) + " mm²") +
+         (of.caries ? gate(of.caries->soft_left_mm3 > kSoftLeft_mm3, "Soft caries left",
+                           fixedText(of.caries->soft_left_mm3, 2) + " mm³")
+                    : std::string()) +
          "</div>\n";
 }
 
@@ -53,7 +56,7 @@ std::string crownForm(const PreparationOfSession& of) {
       {"height of the walls", millimetres(walls.height_mm, 1),
        fmt::format("at least {:g} mm", leastHeight_mm(is_molar))},
       {"height over width", fixedText(walls.height_over_width, 2), fmt::format("at least {:g}", kLeastHeightOverWidth)},
-      {"P4 width of the margin", millimetres(margin.mean_mm), fmt::format("{:g} mm", of.rule.margin_mm)},
+      {"P4 width of the margin", millimetres(margin.mean_mm), fmt::format("{:.2g} mm", of.rule.margin_mm)},
       {"from, to; waves (standard deviation)",
        millimetres(margin.least_mm) + ", " + millimetres(margin.most_mm) + "; " + millimetres(margin.waviness_mm), ""},
       {"margin above the wanted height", signedText(margin.off_height_mm, 2) + " mm", "0"},
@@ -92,6 +95,16 @@ std::string cavityFormOf(const PreparationOfSession& of) {
                     millimetres(of.rule.box_height_mm, 1)});
   }
   return tableMarkup({"Measure", "made", "wanted"}, rows);
+}
+
+std::string cariesOf(const CariesOutcome& of) {
+  return tableMarkup({"Caries", "before", "left"},
+                     {{"soft (infected): to be removed", fixedText(of.soft_before_mm3, 2) + " mm³",
+                       fixedText(of.soft_left_mm3, 2) + " mm³"},
+                      {"firm (affected): may stay over the pulp", fixedText(of.firm_before_mm3, 2) + " mm³",
+                       fixedText(of.firm_left_mm3, 2) + " mm³"}}) +
+         "<p>Sound enamel and dentine cut: " + cubic(of.sound_cut_mm3) +
+         ". Least between the cut and the pulp: " + millimetres(of.least_over_pulp_mm) + ".</p>\n";
 }
 
 std::string againstIdeal(const PreparationOutcomes& of) {
@@ -179,11 +192,15 @@ std::string biteOf(const PreparationOfSession& of) {
 
 void addPreparation(HtmlPage& page, const PreparationOfSession& of) {
   page.section("Errors", gatesOf(of.outcomes));
-  page.section(of.outcomes.cavity ? "Form of the cavity" : "Walls and margin",
+  page.section(of.outcomes.walls ? "Walls and margin" : "Form of the cavity",
                "<p>" +
                    escaped(fmt::format("{} ({}), measured against: {}.", assets::toothName(of.tooth.fdi), of.tooth.fdi,
                                        of.rule.for_people)) +
-                   "</p>\n" + (of.outcomes.cavity ? cavityFormOf(of) : crownForm(of)));
+                   "</p>\n" +
+                   (of.outcomes.cavity  ? cavityFormOf(of)
+                    : of.outcomes.walls ? crownForm(of)
+                                        : "<p>The ideal is no crown: walls and margin are not measured.</p>\n"));
+  if (of.outcomes.caries) page.section("Caries", cariesOf(*of.outcomes.caries));
   if (of.outcomes.filling) page.section("Filling", fillingOf(*of.outcomes.filling));
   page.section("Against the ideal", againstIdeal(of.outcomes) + pictureOf(of));
   page.section("Bite", biteOf(of));

@@ -87,7 +87,7 @@ std::string crownTable(const PreparationOfSession& of) {
                       kLeastHeightOverWidth);
   if (std::isfinite(margin.mean_mm))
     text += fmt::format(
-        "margin {:.2f} mm wide (wanted {:g}; {:.2f} to {:.2f}, waves {:.2f} mm), {:+.2f} mm above the "
+        "margin {:.2f} mm wide (wanted {:.2g}; {:.2f} to {:.2f}, waves {:.2f} mm), {:+.2f} mm above the "
         "wanted height\n",
         margin.mean_mm, of.rule.margin_mm, margin.least_mm, margin.most_mm, margin.waviness_mm, margin.off_height_mm);
   if (margin.missing_share > 0.0)
@@ -174,12 +174,13 @@ std::string cavityTable(const PreparationOfSession& of) {
 std::optional<PreparationOfSession> preparationOfSession(SessionReader& session, const StoredStart& start,
                                                          std::span<const std::uint8_t> solid_after) {
   if (!start.setup.prepared) return {};
-  PreparationOfSession of{*start.setup.prepared, idealRule(start.setup.prepared->ideal, "--ideal"), {}, {}, {}, {}};
+  PreparationOfSession of{*start.setup.prepared, {}, {}, {}, {}, {}};
   for (const SessionEvent& event : session.events())
     if (event.kind == kBiteEvent)
       if (auto bite = biteFrom(event.text)) of.bites.push_back(std::move(*bite));
   const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
-  PreparationMeasure measure(Crown(before, of.tooth.frame), of.rule, "--ideal");
+  PreparationMeasure measure(Crown(before, of.tooth.frame), of.tooth, "--ideal");
+  of.rule = measure.rule();
   const std::optional<haptics::Filling::Volumes> filling = session.finalFilling(start);
   const BoxBytes made(DenseSolid(start.grid, solid_after), measure.crown().solid.grid());
   of.outcomes = measure.outcomesOf(made);
@@ -224,6 +225,16 @@ std::string preparationJson(const PreparationOfSession& of) {
                       {"enamel_mm3", removed.enamel_mm3},
                       {"dentine_mm3", removed.dentine_mm3},
                       {"pulp_open_mm2", removed.pulp_open_mm2}};
+  if (of.tooth.given) json["ideal_sha256"] = of.tooth.given->digest;
+  if (const auto& caries = of.outcomes.caries)
+    json["caries"] = {{"place", of.tooth.caries.empty() ? OrderedJson() : OrderedJson(of.tooth.caries)},
+                      {"soft_mm3", caries->soft_before_mm3},
+                      {"firm_mm3", caries->firm_before_mm3},
+                      {"soft_left_mm3", caries->soft_left_mm3},
+                      {"firm_left_mm3", caries->firm_left_mm3},
+                      {"sound_cut_mm3", caries->sound_cut_mm3},
+                      {"least_over_pulp_mm", orNull(caries->least_over_pulp_mm)},
+                      {"pulp_open_mm2", removed.pulp_open_mm2}};
   if (of.outcomes.filling) json["filling"] = fillingJson(*of.outcomes.filling);
   json["bite"] = biteJson(of.bite);
   json["bites"] = OrderedJson::array();
@@ -232,7 +243,8 @@ std::string preparationJson(const PreparationOfSession& of) {
     bite.update(biteJson(one));
     json["bites"].push_back(std::move(bite));
   }
-  json.update(of.outcomes.cavity ? cavityJson(*of.outcomes.cavity) : crownJson(of.outcomes, of.tooth.fdi));
+  if (of.outcomes.cavity) json.update(cavityJson(*of.outcomes.cavity));
+  if (of.outcomes.walls) json.update(crownJson(of.outcomes, of.tooth.fdi));
   return json.dump();
 }
 
@@ -245,12 +257,20 @@ std::string preparationTable(const PreparationOfSession& of) {
   for (std::size_t n = 0; n < kPreparedZones; ++n)
     text += fmt::format("  {:<9} {:>6.1f} mm3 too much, {:>6.1f} mm3 left\n", nameOf(static_cast<PreparedZone>(n)),
                         removed.zones[n].over_mm3, removed.zones[n].under_mm3);
-  text += of.outcomes.cavity ? cavityTable(of) : crownTable(of);
+  if (of.outcomes.cavity) text += cavityTable(of);
+  if (of.outcomes.walls) text += crownTable(of);
   text += fmt::format("surface {:.2f} mm off (root mean square), {:.2f} mm too high and {:.2f} mm too deep at most; ",
                       deviation.rms_mm, deviation.most_left_mm, deviation.deepest_mm);
   text += fmt::format("{:.0f} % of it within 0.2 mm\n", 100.0 * deviation.within[1]);
   text += fmt::format("enamel {:.1f} mm3, dentine {:.1f} mm3; of a neighbour {:.2f} mm3; pulp open {:.2f} mm2\n",
                       removed.enamel_mm3, removed.dentine_mm3, removed.neighbour_mm3, removed.pulp_open_mm2);
+  if (const auto& caries = of.outcomes.caries)
+    text += fmt::format(
+        "caries: soft {:.2f} of {:.2f} mm3 left, firm {:.2f} of {:.2f} mm3 left; sound tissue cut {:.1f} mm3; {}\n",
+        caries->soft_left_mm3, caries->soft_before_mm3, caries->firm_left_mm3, caries->firm_before_mm3,
+        caries->sound_cut_mm3,
+        std::isfinite(caries->least_over_pulp_mm) ? fmt::format("{:.2f} mm over the pulp", caries->least_over_pulp_mm)
+                                                  : std::string("the way to the pulp is not known"));
   if (of.outcomes.filling) text += fillingTable(*of.outcomes.filling);
   return text + "bite as it was left: " + biteInWords(of.bite) + "\n";
 }

@@ -32,6 +32,8 @@ inline constexpr std::string_view kWhole = "whole";
 inline constexpr std::string_view kLaid = "laid", kLaidTissue = "laid_tissue", kLaidIncrement = "laid_increment";
 /// Optional: FDI number of the tooth of each voxel.
 inline constexpr std::string_view kTeeth = "teeth";
+/// Optional: what is to be left of a prepared tooth, as a file gave it, on its own grid (key prepared of `about`).
+inline constexpr std::string_view kIdeal = "ideal";
 /// Soft tissue, on its own grid (key soft_tissue_grid of `about`): low, then high bytes of the distances; tissues.
 inline constexpr std::string_view kSoftDistance = "soft_distance", kSoftTissue = "soft_tissue";
 

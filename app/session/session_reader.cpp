@@ -197,6 +197,14 @@ struct SessionReader::Impl {
 
   StoredStart about() { return isPacked() ? old_formats::packedAbout(database, schema) : aboutWithLabels().start; }
 
+  /// The grid is known.
+  void readIdeal(SessionSetup& setup) {
+    if (!setup.prepared || !setup.prepared->given) return;
+    assets::GivenIdeal& given = *setup.prepared->given;
+    given.solid = volume(session_format::kIdeal, given.grid.voxelCount());
+    if (given.solid.empty()) throw damagedSession("its ideal is missing");
+  }
+
   /// The grid is known; size 0: none is stored.
   void readSoftTissue(assets::SoftTissueField& soft) {
     if (soft.grid.size.x == 0) return;
@@ -223,6 +231,7 @@ struct SessionReader::Impl {
       start.whole = volume(session_format::kWhole, voxels);
       start.is_tooth = volume(session_format::kIsTooth, voxels);
       start.teeth = volume(session_format::kTeeth, voxels);
+      readIdeal(start.setup);
       readSoftTissue(start.soft_tissue);
     }
     for (std::uint8_t& value : start.label) value = label[value];

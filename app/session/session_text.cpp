@@ -105,6 +105,36 @@ haptics::CanalFile fileFrom(const json& object) {
   return file;
 }
 
+json gridJson(const assets::VolumeGrid& grid) {
+  return {{"size", {grid.size.x, grid.size.y, grid.size.z}},
+          {"spacing_mm", grid.spacing_mm},
+          {"origin_P_mm", {grid.origin_P_mm.x, grid.origin_P_mm.y, grid.origin_P_mm.z}}};
+}
+
+assets::VolumeGrid gridFrom(const json& about, const char* name = "grid") {
+  const auto found = about.find(name);
+  assets::VolumeGrid grid;
+  const auto three = [&](const char* key) -> const json& {
+    const auto at = found->find(key);
+    if (at == found->end() || !at->is_array() || at->size() != 3)
+      throw damagedSession("its bone has no valid position");
+    return *at;
+  };
+  if (found == about.end() || !found->is_object()) throw damagedSession("its bone has no grid");
+  const json &size = three("size"), &origin = three("origin_P_mm");
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (!size[i].is_number_integer() || !origin[i].is_number()) throw damagedSession("its bone has no valid position");
+    // Checked by refuseInvalidGrid; here only limited to an int.
+    const auto voxels = size[i].get<std::int64_t>();
+    grid.size[axis] = voxels < 0 || voxels > 1 << 20 ? 0 : static_cast<int>(voxels);
+    grid.origin_P_mm[axis] = origin[i].get<double>();
+  }
+  const auto spacing = found->find("spacing_mm");
+  grid.spacing_mm = spacing != found->end() && spacing->is_number() ? spacing->get<double>() : 0.0;
+  return grid;
+}
+
 json setupJson(const SessionSetup& setup) {
   json object = json::object();
   if (setup.built_in)
@@ -140,6 +170,9 @@ json setupJson(const SessionSetup& setup) {
                           {"ideal", prepared->ideal},
                           {"cervix_P_mm", three(prepared->frame.cervix_P_mm)},
                           {"axes_P", axes}};
+    if (!prepared->caries.empty()) object["prepared"]["caries"] = prepared->caries;
+    if (prepared->given)
+      object["prepared"]["given"] = {{"sha256", prepared->given->digest}, {"grid", gridJson(prepared->given->grid)}};
   }
   if (setup.down_P) object["down_P"] = three(*setup.down_P);
   if (setup.proposed.tooth) object["not_confirmed"].push_back("tooth");
@@ -174,6 +207,15 @@ assets::PreparedTooth preparedFrom(const json& object) {
   const glm::dmat3 unit = glm::transpose(prepared.frame.axes_P) * prepared.frame.axes_P;
   for (int axis = 0; axis < 3; ++axis)
     if (!(glm::distance(unit[axis], glm::dmat3(1.0)[axis]) < 1e-3)) throw bad();
+  prepared.caries = valueOf(object, "caries", std::string());
+  if (prepared.caries.size() > kLongestName) throw bad();
+  if (const auto given = object.find("given"); given != object.end()) {
+    if (!given->is_object()) throw bad();
+    prepared.given = assets::GivenIdeal{valueOf(*given, "sha256", std::string()), gridFrom(*given), {}};
+    const std::string& digest = prepared.given->digest;
+    if (digest.size() != 64 || digest.find_first_not_of("0123456789abcdef") != std::string::npos) throw bad();
+    refuseInvalidGrid(prepared.given->grid);
+  }
   return prepared;
 }
 
@@ -246,36 +288,6 @@ SessionSetup setupFrom(const json& object) {
     setup.former = {valueOf(*former, "file", std::string()), valueOf(*former, "duration_s", 0.0),
                     std::strtoull(valueOf(*former, "bone_digest", std::string()).c_str(), nullptr, 16)};
   return setup;
-}
-
-json gridJson(const assets::VolumeGrid& grid) {
-  return {{"size", {grid.size.x, grid.size.y, grid.size.z}},
-          {"spacing_mm", grid.spacing_mm},
-          {"origin_P_mm", {grid.origin_P_mm.x, grid.origin_P_mm.y, grid.origin_P_mm.z}}};
-}
-
-assets::VolumeGrid gridFrom(const json& about, const char* name = "grid") {
-  const auto found = about.find(name);
-  assets::VolumeGrid grid;
-  const auto three = [&](const char* key) -> const json& {
-    const auto at = found->find(key);
-    if (at == found->end() || !at->is_array() || at->size() != 3)
-      throw damagedSession("its bone has no valid position");
-    return *at;
-  };
-  if (found == about.end() || !found->is_object()) throw damagedSession("its bone has no grid");
-  const json &size = three("size"), &origin = three("origin_P_mm");
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    if (!size[i].is_number_integer() || !origin[i].is_number()) throw damagedSession("its bone has no valid position");
-    // Checked by refuseInvalidGrid; here only limited to an int.
-    const auto voxels = size[i].get<std::int64_t>();
-    grid.size[axis] = voxels < 0 || voxels > 1 << 20 ? 0 : static_cast<int>(voxels);
-    grid.origin_P_mm[axis] = origin[i].get<double>();
-  }
-  const auto spacing = found->find("spacing_mm");
-  grid.spacing_mm = spacing != found->end() && spacing->is_number() ? spacing->get<double>() : 0.0;
-  return grid;
 }
 
 json ownLabels() {

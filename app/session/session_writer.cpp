@@ -158,6 +158,12 @@ struct SessionWriter::Impl {
       appendVolume(session_format::kTeeth, grid.voxelCount(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::ranges::copy(start.teeth.subspan(first, part.size()), part.begin());
       });
+    if (const auto& prepared = start.setup.prepared; prepared && prepared->given) {
+      const std::vector<std::uint8_t>& ideal = prepared->given->solid;
+      appendVolume(session_format::kIdeal, ideal.size(), [&](std::size_t first, std::span<std::uint8_t> part) {
+        std::copy_n(ideal.begin() + static_cast<std::ptrdiff_t>(first), part.size(), part.begin());
+      });
+    }
     if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty()) appendSoftTissue(*start.soft_tissue);
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
   }

@@ -23,7 +23,8 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
   }
   if (const auto& prepared = start.setup.prepared) {
     const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
-    patient = preparedTooth(patient, built_in, prepared->fdi, prepared->ideal, "--tooth");
+    patient = preparedTooth(patient, built_in, prepared->fdi, {prepared->ideal, prepared->caries}, "--tooth");
+    patient.prepared->given = prepared->given;
     patient.ct.solid = start.solid;
   }
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;

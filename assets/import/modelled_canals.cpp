@@ -19,8 +19,9 @@ constexpr double kConstrictionRadius_mm = 0.14, kForamenRadius_mm = 0.2, kConstr
 constexpr double kForamenUp_mm = 0.6, kApical_mm = 2.0, kLateral_mm = 1.5;
 constexpr double kDentine_mm = 0.5, kThinnest_mm = 0.1;
 constexpr double kOverFurcation_mm = 0.8;
-constexpr double kApart = 0.42;     ///< of a root's half width: two canals of one root
-constexpr double kToMiddle = 0.85;  ///< an orifice lies nearer to the chamber's middle than its root
+constexpr double kAllPulp_mm = -100.0;  ///< floor of a chamber that is as labelled
+constexpr double kApart = 0.42;         ///< of a root's half width: two canals of one root
+constexpr double kToMiddle = 0.85;      ///< an orifice lies nearer to the chamber's middle than its root
 
 /// Which canals a root has.
 struct RootCanals {
@@ -281,6 +282,16 @@ ToothCanals modelledCanals(const CtVolume& ct, int fdi) {
     }
   }
   chamber.outline_mm = hullOf(std::move(orifices));
+  return all;
+}
+
+ToothCanals unmodelledTooth(const CtVolume& ct, int fdi) {
+  if (std::ranges::find(ct.tooth, static_cast<std::uint8_t>(fdi)) == ct.tooth.end())
+    refuse(fdi, "no voxel is labelled as it, see molar inspect");
+  ToothCanals all;
+  all.fdi = fdi;
+  all.frame = toothFrame(ct, fdi);
+  all.chamber.floor_mm = all.chamber.roof_mm = kAllPulp_mm;
   return all;
 }
 

@@ -15,7 +15,11 @@ namespace assets {
 /// Throws LoadError: no voxel has the number, no pulp is labelled in it, or no root is found.
 ToothCanals modelledCanals(const CtVolume& ct, int fdi);
 
-/// `canals`: of modelledCanals().
+/// The tooth as it is labelled, without canals, to be prepared: it may have no pulp, or no roots. Throws LoadError: no
+/// voxel has the number.
+ToothCanals unmodelledTooth(const CtVolume& ct, int fdi);
+
+/// `canals`: of modelledCanals() or unmodelledTooth().
 std::unique_ptr<ToothSampler> fineScannedTooth(const CtVolume& ct, const ToothCanals& canals,
                                                double spacing_mm = kFineSpacing_mm);
 

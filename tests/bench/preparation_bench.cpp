@@ -27,7 +27,10 @@ int main() {
   const app::BoxBytes made = app::PreparedIdeal(crown, rule, "--ideal").left(crown);
   bench::printCost("P1 to P8, after a stroke", [&] { return measure->outcomesOf(made).deviation.rms_mm; });
   const app::PreparedIdeal ideal(crown, measure->rule(), "--ideal");
-  bench::printCost("  P1", [&] { return app::removedMaterial(crown, made, measure->ideal(), ideal).under_mm3(); });
+  bench::printCost("  P1", [&] {
+    return app::removedMaterial(crown, made, measure->ideal(), [&](const glm::dvec3& p) { return ideal.zone(p); })
+        .under_mm3();
+  });
   bench::printCost("  P3, P4, P6: walls",
                    [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
   bench::printCost("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });

@@ -11,7 +11,7 @@
 
 namespace app {
 
-enum class IdealKind { crown, cavity };
+enum class IdealKind { crown, cavity, free };  ///< free: of a file, and no crown
 
 struct IdealRule {
   std::string_view name;  ///< on the command line

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/text/usage_error.h"
+
 namespace app {
 namespace {
 
@@ -27,9 +29,33 @@ double deepestUndercut_mm(const StumpWalls& walls, const std::array<double, Stum
 }  // namespace
 
 PreparationMeasure::PreparationMeasure(Crown crown, const IdealRule& rule, const std::string& option)
-    : crown_(std::move(crown)), rule_(crown_, rule, option), ideal_(rule_.left(crown_)), distance_(ideal_) {
-  if (rule.kind == IdealKind::crown)
-    walls_before_.emplace(crown_, crown_.solid, rule.margin_height_mm - kBelowMargin_mm, crown_.top_mm);
+    : crown_(std::move(crown)), by_rule_(std::in_place, crown_, rule, option), ideal_(by_rule_->left(crown_)) {
+  measureBefore();
+}
+
+PreparationMeasure::PreparationMeasure(Crown crown, const assets::PreparedTooth& tooth, const std::string& option)
+    : crown_(std::move(crown)), ideal_(crown_.solid) {
+  if (tooth.given) {
+    if (!(tooth.given->grid == crown_.solid.grid()) || tooth.given->solid.size() != ideal_.bytes().size())
+      throw UsageError(option + ": the ideal is of another tooth");
+    std::ranges::copy(tooth.given->solid, ideal_.bytes().begin());
+    given_.emplace(crown_, ideal_);
+  } else {
+    by_rule_.emplace(crown_, idealRule(tooth.ideal, option), option);
+    ideal_ = by_rule_->left(crown_);
+  }
+  measureBefore();
+}
+
+void PreparationMeasure::measureBefore() {
+  caries_.emplace(crown_);
+  // Soft caries is to go, wherever a rule ends; an ideal that was given says so itself.
+  if (by_rule_)
+    for (std::size_t v = 0; v < ideal_.bytes().size(); ++v)
+      if (assets::Tissue{crown_.label.bytes()[v]} == assets::Tissue::caries_soft) ideal_.bytes()[v] = 0;
+  distance_.emplace(ideal_);
+  if (rule().kind == IdealKind::crown)
+    walls_before_.emplace(crown_, crown_.solid, rule().margin_height_mm - kBelowMargin_mm, crown_.top_mm);
 }
 
 FillingOutcomes PreparationMeasure::fillingOf(const BoxBytes& made, const LaidBoxes& filling) {
@@ -39,12 +65,11 @@ FillingOutcomes PreparationMeasure::fillingOf(const BoxBytes& made, const LaidBo
 
 PreparationOutcomes PreparationMeasure::outcomesOf(const BoxBytes& made) const {
   PreparationOutcomes outcomes;
-  outcomes.removed = removedMaterial(crown_, made, ideal_, rule_);
-  outcomes.deviation = deviationOf(crown_, made, ideal_, distance_);
-  if (rule().kind == IdealKind::cavity) {
-    outcomes.cavity = cavityForm(crown_, made, rule());
-    return outcomes;
-  }
+  outcomes.removed = removedMaterial(crown_, made, ideal_, [this](const glm::dvec3& p_mm) { return zone(p_mm); });
+  outcomes.deviation = deviationOf(crown_, made, ideal_, *distance_);
+  if (caries_->isThere()) outcomes.caries = caries_->outcomeOf(crown_, made);
+  if (rule().kind == IdealKind::cavity) outcomes.cavity = cavityForm(crown_, made, rule());
+  if (rule().kind != IdealKind::crown) return outcomes;
   const StumpWalls walls(crown_, made, rule().margin_height_mm - kBelowMargin_mm, crown_.top_mm);
   const auto heights_mm = marginHeights_mm(*walls_before_, walls);
   outcomes.walls = wallForm(walls, heights_mm);

@@ -6,9 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "app/procedure/preparation/caries_outcome.h"
 #include "app/procedure/preparation/cavity_form.h"
 #include "app/procedure/preparation/deviation.h"
 #include "app/procedure/preparation/filling_outcomes.h"
+#include "app/procedure/preparation/given_ideal.h"
 #include "app/procedure/preparation/margin_line.h"
 #include "app/procedure/preparation/removed_material.h"
 #include "app/procedure/preparation/undercut.h"
@@ -24,6 +26,7 @@ struct PreparationOutcomes {
   double deepest_undercut_mm = 0.0;             ///< P5: square to the wall; below 0.02 mm it is the voxels' roughness
   std::optional<CavityForm> cavity;             ///< P9: cavities
   std::optional<FillingOutcomes> filling;       ///< where something was laid
+  std::optional<CariesOutcome> caries;          ///< of a tooth that has some
 };
 
 /// The tooth and its ideal, measured as often as wanted.
@@ -31,6 +34,8 @@ class PreparationMeasure {
  public:
   /// Throws UsageError, beginning with `option`, where the tooth is too small for its ideal.
   PreparationMeasure(Crown crown, const IdealRule& rule, const std::string& option);
+  /// By rule, or as it was given. Throws UsageError, beginning with `option`, also where that is of another tooth.
+  PreparationMeasure(Crown crown, const assets::PreparedTooth& tooth, const std::string& option);
   PreparationMeasure(const PreparationMeasure&) = delete;
   PreparationMeasure& operator=(const PreparationMeasure&) = delete;
 
@@ -45,14 +50,19 @@ class PreparationMeasure {
 
   const Crown& crown() const { return crown_; }
   const BoxBytes& ideal() const { return ideal_; }
-  const IdealRule& rule() const { return rule_.rule(); }
+  const IdealRule& rule() const { return by_rule_ ? by_rule_->rule() : given_->rule(); }
 
  private:
+  PreparedZone zone(const glm::dvec3& p_mm) const { return by_rule_ ? by_rule_->zone(p_mm) : given_->zone(p_mm); }
+  void measureBefore();
+
   Crown crown_;
-  PreparedIdeal rule_;
+  std::optional<PreparedIdeal> by_rule_;  ///< one of both
+  std::optional<GivenForm> given_;
   BoxBytes ideal_;
   std::optional<StumpWalls> walls_before_;  ///< crowns
-  IdealDistance distance_;
+  std::optional<CariesMeasure> caries_;
+  std::optional<IdealDistance> distance_;
   std::optional<FillingMeasure> filling_;
 };
 

@@ -14,17 +14,18 @@ namespace app {
 
 struct PreparationWatch::Copy {
   assets::PreparedTooth tooth;
-  IdealRule rule;
   ToothCopy volume;
   std::optional<PreparationMeasure> measure;  ///< from the first measurement
 
   Copy(const assets::PreparedTooth& of, const assets::CtVolume& scan, std::span<const std::uint8_t> before)
-      : tooth(of), rule(idealRule(of.ideal, "--ideal")), volume(scan, before) {}
+      : tooth(of), volume(scan, before) {
+    if (!tooth.given) idealRule(tooth.ideal, "--ideal");  // whether there is one
+  }
 
   Measured measured() try {
     if (!measure)
       measure.emplace(Crown(ToothBlocks(DenseTooth(volume.grid(), volume.before(), volume.labels())), tooth.frame),
-                      rule, "--ideal");
+                      tooth, "--ideal");
     const BoxBytes made(DenseSolid(volume.grid(), volume.now()), measure->crown().solid.grid());
     Measured measured{measure->outcomesOf(made), {}, {}};
     if (!volume.filling().laid.empty())
@@ -100,6 +101,12 @@ std::string preparationLine(const PreparationOutcomes& outcomes) {
     line += fmt::format("; margin {:.1f} mm", outcomes.margin->mean_mm);
   if (outcomes.cavity && outcomes.cavity->isCut())
     line += fmt::format("; {:.1f} mm deep, {:.1f} mm wide", outcomes.cavity->depth_mm, outcomes.cavity->isthmus_mm);
+  if (const auto& caries = outcomes.caries) {
+    line += fmt::format("; soft caries {:.1f} mm³ left, firm {:.1f}; {:.1f} mm³ of sound tissue cut",
+                        caries->soft_left_mm3, caries->firm_left_mm3, caries->sound_cut_mm3);
+    if (std::isfinite(caries->least_over_pulp_mm))
+      line += fmt::format("; {:.1f} mm over the pulp", caries->least_over_pulp_mm);
+  }
   if (removed.neighbour_mm3 > 0.005) line += fmt::format("; neighbour cut, {:.2f} mm³", removed.neighbour_mm3);
   if (removed.pulp_open_mm2 > 0.0) line += fmt::format("; pulp open, {:.2f} mm²", removed.pulp_open_mm2);
   return line;

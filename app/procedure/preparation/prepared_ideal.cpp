@@ -36,8 +36,9 @@ std::string_view nameOf(PreparedZone zone) {
   return kNames[static_cast<std::size_t>(zone)];
 }
 
-OcclusalMap::OcclusalMap(const Crown& crown) : height_mm_(static_cast<std::size_t>(kSide) * kSide, kNone) {
-  const double step_mm = 0.5 * crown.solid.grid().spacing_mm, half_mm = wallReach_mm(crown.solid.grid());
+OcclusalMap::OcclusalMap(const Crown& crown, const BoxBytes& solid)
+    : height_mm_(static_cast<std::size_t>(kSide) * kSide, kNone) {
+  const double step_mm = 0.5 * solid.grid().spacing_mm, half_mm = wallReach_mm(solid.grid());
   const glm::dvec3& up_P = crown.frame.axes_P[2];
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
@@ -45,10 +46,10 @@ OcclusalMap::OcclusalMap(const Crown& crown) : height_mm_(static_cast<std::size_
       if (glm::length(at) > crown.reach_mm + kStep_mm) continue;
       for (double z = crown.top_mm + 4.0 * step_mm; z > 0.0; z -= step_mm) {
         const glm::dvec3 p_P = crown.frame.inP({at, z});
-        if (crown.solid.nearest(p_P) < 128 || !crown.isTooth(p_P)) continue;
+        if (solid.nearest(p_P) < 128 || !crown.isTooth(p_P)) continue;
         const double low_mm = z - half_mm;
-        cell(x, y) = static_cast<float>(
-            low_mm + crown.solid.solidBetween_mm(crown.frame.inP({at, low_mm}), up_P, 2.0 * half_mm));
+        cell(x, y) =
+            static_cast<float>(low_mm + solid.solidBetween_mm(crown.frame.inP({at, low_mm}), up_P, 2.0 * half_mm));
         break;
       }
     }

@@ -26,7 +26,9 @@ class OcclusalMap {
   static constexpr int kSide = 161;
   static constexpr float kNone = -100.0F;
 
-  explicit OcclusalMap(const Crown& crown);
+  explicit OcclusalMap(const Crown& crown) : OcclusalMap(crown, crown.solid) {}
+  /// Of what is left of it.
+  OcclusalMap(const Crown& crown, const BoxBytes& solid);
   /// Lowered by a ball that rolls beneath. Sides steeper than 65 degrees do not bite and lower nothing.
   OcclusalMap lowered(double radius_mm) const;
 

@@ -26,7 +26,7 @@ double RemovedMaterial::under_mm3() const {
 }
 
 RemovedMaterial removedMaterial(const Crown& crown, const BoxBytes& made, const BoxBytes& ideal,
-                                const PreparedIdeal& rule) {
+                                const ZoneOf& zone_of) {
   RemovedMaterial removed;
   const assets::VolumeGrid& grid = made.grid();
   const double voxel_mm3 = grid.voxelVolume_mm3(), face_mm2 = grid.spacing_mm * grid.spacing_mm;
@@ -43,8 +43,9 @@ RemovedMaterial removedMaterial(const Crown& crown, const BoxBytes& made, const 
     removed.wanted_mm3 += (had - wanted) / 255.0 * voxel_mm3;
     if (assets::Tissue{label} == assets::Tissue::enamel) removed.enamel_mm3 += cut_mm3;
     if (assets::Tissue{label} == assets::Tissue::dentine) removed.dentine_mm3 += cut_mm3;
-    if (has != wanted) {
-      auto& zone = removed.zones[static_cast<std::size_t>(rule.zone(crown.frame.local(grid.centre_P_mm(ijk))))];
+    // Firm caries may stay or go.
+    if (has != wanted && assets::Tissue{label} != assets::Tissue::caries_firm) {
+      auto& zone = removed.zones[static_cast<std::size_t>(zone_of(crown.frame.local(grid.centre_P_mm(ijk))))];
       (has < wanted ? zone.over_mm3 : zone.under_mm3) += std::abs(wanted - has) / 255.0 * voxel_mm3;
     }
     // Where tooth is gone beside the pulp.

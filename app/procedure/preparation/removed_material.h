@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "app/procedure/preparation/prepared_ideal.h"
 
@@ -25,7 +26,9 @@ struct RemovedMaterial {
   double under_mm3() const;
 };
 
-RemovedMaterial removedMaterial(const Crown& crown, const BoxBytes& made, const BoxBytes& ideal,
-                                const PreparedIdeal& rule);
+/// Of a place in the tooth's frame.
+using ZoneOf = std::function<PreparedZone(const glm::dvec3& p_mm)>;
+
+RemovedMaterial removedMaterial(const Crown& crown, const BoxBytes& made, const BoxBytes& ideal, const ZoneOf& zone_of);
 
 }  // namespace app
