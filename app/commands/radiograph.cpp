@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
+#include "app/case/patient_source.h"
 #include "app/commands/command.h"
 #include "app/commands/patient_or_case.h"
 #include "app/options/settings_text.h"
+#include "app/review/treatment_films.h"
 #include "app/session/replay.h"
 #include "app/session/session_folder.h"
 #include "app/text/command_line.h"
@@ -16,7 +19,6 @@
 #include "app/text/usage_error.h"
 #include "app/view/radiograph_picture.h"
 #include "assets/scan/fine_radiograph.h"
-#include "assets/scan/metal_shadow.h"
 #include "assets/synthetic/built_in_teeth.h"
 #include "assets/tooth.h"
 #include "calibration/output_file.h"
@@ -38,21 +40,19 @@ struct RadiographOptions {
 struct Exposed {
   assets::CtVolume ct;
   std::string name;
-  std::optional<assets::JawParameters> jaw;      ///< of a built-in patient, as it was made
-  std::vector<assets::MetalFragment> fragments;  ///< of files that broke
+  std::optional<assets::JawParameters> jaw;  ///< of a built-in patient, as it was made
 };
 
-Exposed exposedOf(const RadiographOptions& options) {
-  if (options.session.empty()) {
+/// `bone`: of the session; none: of a patient.
+Exposed exposedOf(const RadiographOptions& options, std::optional<BoneAtTime>& bone) {
+  if (!bone) {
     options.patient.refuseUnlessOne("radiograph");
-    return {options.patient.load().ct, options.patient.name(), options.patient.builtInJaw(), {}};
+    return {options.patient.load().ct, options.patient.name(), options.patient.builtInJaw()};
   }
-  BoneAtTime bone = boneAtTime(sessionNamed(options.session), options.to_s);
-  for (const std::string& remark : bone.remarks) printMessage(remark);
-  return {{bone.start.grid, {}, std::move(bone.start.label), std::move(bone.solid), std::move(bone.start.teeth)},
+  StoredStart& start = bone->start;
+  return {{start.grid, {}, std::move(start.label), std::move(bone->solid), std::move(start.teeth)},
           options.session,
-          std::nullopt,
-          std::move(bone.fragments)};
+          std::nullopt};
 }
 
 /// The canals of a built-in tooth are in it: no voxel of a scan holds them.
@@ -65,22 +65,48 @@ std::vector<float> weakening_mm(const Exposed& exposed, const assets::Periapical
   return assets::fineRadiographOf(ct, fdi, *assets::fineBuiltInTooth(tooth, ct, kSpacing_mm), view);
 }
 
+void save(const render::Image& image, calibration::OutputFile& out) {
+  calibration::writePng(out.temporaryPath(), {image.w, image.h}, image.rgba);
+  out.commit();
+}
+
+UsageError noSuchTooth(const std::string& name, int fdi) {
+  return UsageError(fmt::format("{}: no voxel is labelled as tooth {}, see molar inspect", name, fdi));
+}
+
+/// Of a root canal treatment: the one tooth, within its jaw where that is built in.
+render::Image treatedTooth(const RadiographOptions& options, const BoneAtTime& bone) {
+  const SessionSetup& setup = bone.start.setup;
+  if (setup.canals->fdi != options.fdi)
+    throw UsageError(fmt::format("--tooth {}: {} is a treatment of tooth {}, give that", options.fdi, options.session,
+                                 setup.canals->fdi));
+  std::optional<assets::CtVolume> jaw;
+  if (setup.built_in) jaw = builtInPatient(*setup.built_in).ct;
+  auto film = treatmentFilm(bone.start, bone.solid, bone.fragments, jaw ? &*jaw : nullptr, options.shift_deg);
+  if (!film) throw noSuchTooth(options.session, options.fdi);
+  return std::move(*film);
+}
+
 int expose(const RadiographOptions& options) {
   if (!options.session.empty() && options.patient.isGiven())
     throw UsageError("radiograph: give one of PATIENT, --case NAME and --session SESSION");
   if (!assets::isToothNumber(options.fdi))
     throw UsageError(fmt::format("--tooth {}: give an FDI number, 11 to 48 or 51 to 85", options.fdi));
   calibration::OutputFile out(options.out, options.force);
-  const Exposed exposed = exposedOf(options);
+  std::optional<BoneAtTime> bone;
+  if (!options.session.empty()) {
+    bone = boneAtTime(sessionNamed(options.session), options.to_s);
+    for (const std::string& remark : bone->remarks) printMessage(remark);
+    if (bone->start.setup.canals) {
+      save(treatedTooth(options, *bone), out);
+      return 0;
+    }
+  }
+  const Exposed exposed = exposedOf(options, bone);
   const assets::CtVolume& ct = exposed.ct;
   const auto view = assets::periapicalViewOf(ct, options.fdi, options.shift_deg);
-  if (!view)
-    throw UsageError(fmt::format("{}: no voxel is labelled as tooth {}, see molar inspect", exposed.name, options.fdi));
-  std::vector<float> bone_mm = weakening_mm(exposed, *view, options.fdi);
-  assets::addMetal(*view, exposed.fragments, bone_mm);
-  const render::Image image = radiographPicture(*view, bone_mm, options.fdi, options.shift_deg);
-  calibration::writePng(out.temporaryPath(), {image.w, image.h}, image.rgba);
-  out.commit();
+  if (!view) throw noSuchTooth(exposed.name, options.fdi);
+  save(radiographPicture(*view, weakening_mm(exposed, *view, options.fdi), options.fdi, options.shift_deg), out);
   return 0;
 }
 

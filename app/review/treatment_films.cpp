@@ -48,6 +48,20 @@ assets::CtVolume aloneIn(const Halved& half, int fdi) {
   return ct;
 }
 
+bool isIn(const assets::CtVolume* jaw, int fdi) {
+  return jaw != nullptr && std::ranges::count(jaw->tooth, static_cast<std::uint8_t>(fdi)) > 0;
+}
+
+/// `jaw`: null: the tooth alone.
+render::Image exposed(const Halved& tooth, std::span<const assets::MetalFragment> metal, const assets::CtVolume* jaw,
+                      int fdi, const assets::PeriapicalView& view, double shift_deg) {
+  std::vector<float> bone_mm =
+      jaw != nullptr ? assets::fineRadiographOf(*jaw, fdi, DenseTooth(tooth.grid, tooth.solid, tooth.label), view)
+                     : assets::radiographOf(tooth.grid, tooth.solid, tooth.label, view);
+  assets::addMetal(view, metal, bone_mm);
+  return radiographPicture(view, bone_mm, fdi, shift_deg);
+}
+
 }  // namespace
 
 TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
@@ -57,20 +71,26 @@ TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uin
   const Halved after = halved(start.grid, solid_after, start.label);
   const assets::CtVolume alone = aloneIn(before, fdi);
   TreatmentFilms films;
-  films.in_jaw = jaw != nullptr && std::ranges::count(jaw->tooth, static_cast<std::uint8_t>(fdi)) > 0;
+  films.in_jaw = isIn(jaw, fdi);
+  const assets::CtVolume* const around = films.in_jaw ? jaw : nullptr;
   for (const double shift_deg : kTubeShifts_deg) {
     const auto view = assets::periapicalViewOf(films.in_jaw ? *jaw : alone, fdi, shift_deg);
     if (!view) break;
-    const auto film = [&](const Halved& tooth, std::span<const assets::MetalFragment> metal) {
-      std::vector<float> bone_mm =
-          films.in_jaw ? assets::fineRadiographOf(*jaw, fdi, DenseTooth(tooth.grid, tooth.solid, tooth.label), *view)
-                       : assets::radiographOf(tooth.grid, tooth.solid, tooth.label, *view);
-      assets::addMetal(*view, metal, bone_mm);
-      return radiographPicture(*view, bone_mm, fdi, shift_deg);
-    };
-    films.pairs.push_back({shift_deg, film(before, start.setup.fragments), film(after, fragments)});
+    films.pairs.push_back({shift_deg, exposed(before, start.setup.fragments, around, fdi, *view, shift_deg),
+                           exposed(after, fragments, around, fdi, *view, shift_deg)});
   }
   return films;
+}
+
+std::optional<render::Image> treatmentFilm(const StoredStart& start, std::span<const std::uint8_t> solid,
+                                           std::span<const assets::MetalFragment> fragments,
+                                           const assets::CtVolume* jaw, double shift_deg) {
+  const int fdi = start.setup.canals->fdi;
+  const Halved tooth = halved(start.grid, solid, start.label);
+  const assets::CtVolume* const around = isIn(jaw, fdi) ? jaw : nullptr;
+  const auto view = assets::periapicalViewOf(around != nullptr ? *around : aloneIn(tooth, fdi), fdi, shift_deg);
+  if (!view) return {};
+  return exposed(tooth, fragments, around, fdi, *view, shift_deg);
 }
 
 }  // namespace app

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,5 +31,10 @@ struct TreatmentFilms {
 /// null or without that tooth: not known.
 TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
                               std::span<const assets::MetalFragment> fragments, const assets::CtVolume* jaw);
+
+/// One film of the tooth with `solid`; none: it shows no such tooth.
+std::optional<render::Image> treatmentFilm(const StoredStart& start, std::span<const std::uint8_t> solid,
+                                           std::span<const assets::MetalFragment> fragments,
+                                           const assets::CtVolume* jaw, double shift_deg);
 
 }  // namespace app
