@@ -31,6 +31,18 @@ std::vector<char> bites(const OcclusalRaster& intact) {
   return mask;
 }
 
+/// Where it can rest: within the biting surface, not on its rim, where a single voxel may stand out.
+bool rests(const std::vector<char>& mask, int x, int y) {
+  constexpr int kRim = 8;  ///< 0.4 mm
+  for (int n = 0; n < 9; ++n)
+    for (const int reach : {kRim / 2, kRim}) {
+      const int i = x + reach * (n % 3 - 1), j = y + reach * (n / 3 - 1);
+      if (i < 0 || j < 0 || i >= kCells || j >= kCells || mask[static_cast<std::size_t>(j * kCells + i)] == 0)
+        return false;
+    }
+  return true;
+}
+
 /// By a bell along one axis.
 std::vector<double> blurred(const std::vector<double>& from, bool along_x) {
   const int reach = static_cast<int>(3.0 * kSmooth_mm / kCell_mm);
@@ -119,7 +131,7 @@ Antagonist madeAntagonist(const OcclusalRaster& intact) {
   for (int y = 0; y < kCells; ++y)
     for (int x = 0; x < kCells; ++x) {
       const auto at = static_cast<std::size_t>(y * kCells + x);
-      if (mask[at] != 0)
+      if (rests(mask, x, y))
         supports.push_back(
             {OcclusalRaster::place_mm(x, y), static_cast<double>(intact.at(x, y)) - height[at] / weight[at]});
     }
@@ -127,7 +139,7 @@ Antagonist madeAntagonist(const OcclusalRaster& intact) {
   for (int y = 0; y < kCells; ++y)
     for (int x = 0; x < kCells; ++x) {
       const auto at = static_cast<std::size_t>(y * kCells + x);
-      if (mask[at] == 0) continue;
+      if (!rests(mask, x, y)) continue;
       const double smooth_mm = height[at] / weight[at];
       made.height_mm.at(x, y) =
           static_cast<float>(smooth_mm + glm::dot(plane, glm::dvec3(OcclusalRaster::place_mm(x, y), 1.0)));

@@ -1,5 +1,5 @@
 // Bites on articulating paper while a rehearsal goes on: the live tooth is copied when the jaws close and measured on a
-// thread of its own, half a second at the first bite, some 0.2 s after that. Main thread, once a frame; the copy some
+// thread of its own, a second at the first bite, half of one after that. Main thread, once a frame; the copy some
 // 20 ms. Frame P.
 #pragma once
 

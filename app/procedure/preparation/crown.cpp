@@ -100,4 +100,36 @@ Crown::Crown(const ToothBlocks& tooth, const assets::ToothFrame& of, double belo
   top_mm = extent.top_mm, reach_mm = extent.reach_mm;
 }
 
+BoxBytes attached(const Crown& crown, const BoxBytes& made) {
+  constexpr double kNeck_mm = 0.5;
+  const assets::VolumeGrid& grid = made.grid();
+  BoxBytes left = made;
+  std::vector<char> is_reached(grid.voxelCount(), 0);
+  std::vector<glm::ivec3> open;
+  const auto reach = [&](glm::ivec3 ijk) {
+    if (!grid.contains(ijk)) return;
+    const std::size_t v = grid.index(ijk);
+    // Any matter holds, however thin.
+    if (is_reached[v] != 0 || made.bytes()[v] < 64 || !assets::isToothPart(crown.label.bytes()[v])) return;
+    is_reached[v] = 1;
+    open.push_back(ijk);
+  };
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (made.bytes()[v] >= 64 && crown.frame.local(grid.centre_P_mm(ijk)).z < kNeck_mm) reach(ijk);
+  });
+  while (!open.empty()) {
+    const glm::ivec3 at = open.back();
+    open.pop_back();
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int way : {-1, 1}) {
+        glm::ivec3 next = at;
+        next[axis] += way;
+        reach(next);
+      }
+  }
+  for (std::size_t v = 0; v < is_reached.size(); ++v)
+    if (is_reached[v] == 0 && made.bytes()[v] >= 64 && assets::isToothPart(crown.label.bytes()[v])) left.bytes()[v] = 0;
+  return left;
+}
+
 }  // namespace app

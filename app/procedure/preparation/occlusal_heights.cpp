@@ -33,6 +33,18 @@ std::array<glm::dvec3, 9> columnsAcross(const glm::dvec3& up_P, double voxel_mm)
   return columns;
 }
 
+/// By 1 2 1 both ways, where all neighbours are: the voxels' last digit is noise, whose highest place would meet first.
+OcclusalRaster smoothed(const OcclusalRaster& rough) {
+  OcclusalRaster smooth = rough;
+  for (int y = 1; y + 1 < OcclusalRaster::kSide; ++y)
+    for (int x = 1; x + 1 < OcclusalRaster::kSide; ++x) {
+      const auto row = [&](int at) { return rough.at(x - 1, at) + 2.0F * rough.at(x, at) + rough.at(x + 1, at); };
+      const float mean = (row(y - 1) + 2.0F * row(y) + row(y + 1)) / 16.0F;
+      if (!std::isnan(mean)) smooth.at(x, y) = mean;
+    }
+  return smooth;
+}
+
 }  // namespace
 
 OcclusalRaster occlusalHeights(const Crown& crown, const BoxBytes& solid) {
@@ -61,7 +73,7 @@ OcclusalRaster occlusalHeights(const Crown& crown, const BoxBytes& solid) {
         break;
       }
     }
-  return heights;
+  return smoothed(heights);
 }
 
 }  // namespace app

@@ -1,7 +1,7 @@
 // The biting surface of a tooth as heights over its cross-section, along the way on which the jaws close: straight,
 // along the tooth's axis. A height is the sum of the solid along its column, some tenths of a µm at 0.05 mm. A
 // neighbour does not count; whatever else is solid does, so a filling that was laid. Frame of the tooth, mm. Immutable;
-// any thread; some 0.2 s a molar.
+// any thread; some 0.4 s a molar.
 #pragma once
 
 #include <cmath>

@@ -70,7 +70,8 @@ PreparationOutcomes PreparationMeasure::outcomesOf(const BoxBytes& made) const {
   if (caries_->isThere()) outcomes.caries = caries_->outcomeOf(crown_, made);
   if (rule().kind == IdealKind::cavity) outcomes.cavity = cavityForm(crown_, made, rule());
   if (rule().kind != IdealKind::crown) return outcomes;
-  const StumpWalls walls(crown_, made, rule().margin_height_mm - kBelowMargin_mm, crown_.top_mm);
+  const BoxBytes stump = attached(crown_, made);
+  const StumpWalls walls(crown_, stump, rule().margin_height_mm - kBelowMargin_mm, crown_.top_mm);
   const auto heights_mm = marginHeights_mm(*walls_before_, walls);
   outcomes.walls = wallForm(walls, heights_mm);
   outcomes.margin = marginLine(*walls_before_, heights_mm, *outcomes.walls, rule().margin_height_mm);
@@ -79,7 +80,7 @@ PreparationOutcomes PreparationMeasure::outcomesOf(const BoxBytes& made) const {
   for (const double height_mm : heights_mm)
     if (!std::isnan(height_mm)) from_mm = std::max(from_mm, height_mm);
   if (from_mm == -kBelowMargin_mm) from_mm = rule().margin_height_mm;
-  const CrownColumns columns(crown_, made, from_mm - walls.step_mm());
+  const CrownColumns columns(crown_, stump, from_mm - walls.step_mm());
   const glm::dvec2 upright(0.0);
   outcomes.axis = InsertionWay{upright, 0.0, columns.undercut_mm3(upright)};
   outcomes.insertion = bestInsertion(columns);

@@ -96,6 +96,17 @@ TEST(ToothPaint, AReversedWallIsUndercutUpToItsRim) {
   EXPECT_EQ(free, 36) << "nothing stands over the top";
 }
 
+TEST(ToothPaint, ASliverThatStandsAtANeighbourHindersNoCrown) {
+  const auto whole = stump(4.0, 6.0, 5.0);
+  const Painted painted([whole](const glm::dvec3& p) {
+    const glm::dvec3 off = glm::abs(p - glm::dvec3(4.75, 0.0, 3.0)) - glm::dvec3(0.2, 1.0, 0.5);
+    return std::max(whole(p), -std::max({off.x, off.y, off.z}));
+  });
+  EXPECT_EQ(painted.paint.hindered, "no undercut");
+  EXPECT_LT(painted.outcomes.insertion->undercut_mm3, 0.15);
+  EXPECT_GT(painted.outcomes.deviation.most_left_mm, 0.1) << "but it is left";
+}
+
 TEST(ToothPaint, BeforeTheFirstCutThereIsNoWay) {
   const Painted painted(intact_mm);
   EXPECT_TRUE(painted.paint.undercut.empty());
