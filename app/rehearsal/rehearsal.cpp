@@ -1,7 +1,5 @@
 #include "app/rehearsal/rehearsal.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <csignal>
 #include <utility>
@@ -178,8 +176,6 @@ class Rehearsal {
 
   void start() {
     placeMouse();
-    // What preparing the patient and its picture took goes back before the servo locks the memory.
-    malloc_trim(0);
     equipment_.start();
     for (const std::string& remark : plan_.remarks) station().note("calibration", remark);
     if (plan_.recording && plan_.recording->setup.former)

@@ -285,6 +285,7 @@ ToothCanals modelledCanals(const CtVolume& ct, int fdi) {
   return all;
 }
 
+// No canals, and a chamber below all pulp: what is labelled is all of it.
 ToothCanals unmodelledTooth(const CtVolume& ct, int fdi) {
   if (std::ranges::find(ct.tooth, static_cast<std::uint8_t>(fdi)) == ct.tooth.end())
     refuse(fdi, "no voxel is labelled as it, see molar inspect");

@@ -48,13 +48,15 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
     const double radius_mm = kHandInstrumentSizes[static_cast<std::size_t>(kind)].tip_radius_mm;
     const LaidBall ball{bodies.jaw().field(), *filling, {X_PT.translation_mm}, radius_mm, tick, &strokes};
     if (isApplicator(kind)) {
+      const assets::Tissue material = materialOf(kind);
+      ended_ = ended_ || material != material_;
       const unsigned increment = std::min(increment_ + (ended_ ? 1U : 0U), Filling::kMostIncrements);
       due_steps_ += kLaying_mm3_per_s * dt_s / step_mm3;
       const auto most = static_cast<std::int64_t>(due_steps_);
-      const std::int64_t laid = layBall(ball, materialOf(kind), increment, most);
+      const std::int64_t laid = layBall(ball, material, increment, most);
       // What finds no room is not owed.
       due_steps_ -= static_cast<double>(most);
-      if (laid > 0) increment_ = increment, ended_ = false;
+      if (laid > 0) increment_ = increment, material_ = material, ended_ = false;
     } else if (kind == HandInstrument::plugger) {
       const std::int64_t moved = packBall(ball, kPacking_per_s * dt_s);
       done.packed_mm3 = static_cast<double>(moved) * step_mm3;

@@ -26,7 +26,8 @@ class FillingHand {
  private:
   double due_steps_ = 0.0;
   unsigned increment_ = 0;
-  bool ended_ = true;  ///< the increment: what is laid next is another
+  assets::Tissue material_ = assets::Tissue::unlabelled;  ///< of it
+  bool ended_ = true;                                     ///< the increment: what is laid next is another
   bool worked_ = false;
   CuringLight light_;
 };

@@ -7,13 +7,14 @@
 namespace haptics {
 
 struct FillingWork {
-  bool works = false;          ///< lays, packs, carves or shines
-  bool is_full = false;        ///< no more can be laid anywhere (bone/filling)
-  std::uint8_t increment = 0;  ///< of what is laid now, from 1; light, or packing of what light does not set, ends it
-  double changed_mm3 = 0.0;    ///< by the instrument: laid, or carved away (below 0)
-  double packed_mm3 = 0.0;     ///< pressed aside
-  double total_mm3 = 0.0;      ///< in the tooth
-  double cured_mm3 = 0.0;      ///< of it
+  bool works = false;    ///< lays, packs, carves or shines
+  bool is_full = false;  ///< no more can be laid anywhere (bone/filling)
+  /// Of what is laid now, from 1; light, packing what light does not set, or another material ends it.
+  std::uint8_t increment = 0;
+  double changed_mm3 = 0.0;  ///< by the instrument: laid, or carved away (below 0)
+  double packed_mm3 = 0.0;   ///< pressed aside
+  double total_mm3 = 0.0;    ///< in the tooth
+  double cured_mm3 = 0.0;    ///< of it
 
   bool operator==(const FillingWork&) const = default;
 };

@@ -223,6 +223,21 @@ TEST(Filling, IsUndoneByTheServoAPressAtATime) {
   EXPECT_EQ(room.tick.bone_digest, room.ticks.front().bone_digest);
 }
 
+TEST(Filling, OfAnotherMaterialIsAnotherIncrement) {
+  Room room;
+  room.stroke();
+  EXPECT_EQ(room.tick.filling.increment, 1);
+  room.stroke();
+  EXPECT_EQ(room.tick.filling.increment, 1);
+  // Where there is air still.
+  room.command.tool = handInstrumentTool(HandInstrument::glass_ionomer);
+  room.go({-0.7, 0.0, 0.6}, 200);
+  room.hand.drill_pedal = true;
+  room.go({-0.7, 0.0, 0.9}, 200);
+  EXPECT_EQ(room.tick.filling.increment, 2);
+  EXPECT_GT(room.bodies.filling()->volume_mm3(Tissue::glass_ionomer_soft), 0.1);
+}
+
 TEST(Filling, IsTheSameBitsAgain) {
   Room first, second;
   for (Room* room : {&first, &second}) {

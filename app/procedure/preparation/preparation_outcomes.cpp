@@ -36,15 +36,27 @@ PreparationMeasure::PreparationMeasure(Crown crown, const IdealRule& rule, const
 PreparationMeasure::PreparationMeasure(Crown crown, const assets::PreparedTooth& tooth, const std::string& option)
     : crown_(std::move(crown)), ideal_(crown_.solid) {
   if (tooth.given) {
-    if (!(tooth.given->grid == crown_.solid.grid()) || tooth.given->solid.size() != ideal_.bytes().size())
-      throw UsageError(option + ": the ideal is of another tooth");
-    std::ranges::copy(tooth.given->solid, ideal_.bytes().begin());
+    takeGiven(*tooth.given, option);
     given_.emplace(crown_, ideal_);
   } else {
     by_rule_.emplace(crown_, idealRule(tooth.ideal, option), option);
     ideal_ = by_rule_->left(crown_);
   }
   measureBefore();
+}
+
+void PreparationMeasure::takeGiven(const assets::GivenIdeal& given, const std::string& option) {
+  constexpr double kOff = 1e-3, kFar = 1e6;  // voxels
+  const assets::VolumeGrid& grid = ideal_.grid();
+  const glm::dvec3 off = given.grid.indexFromPoint(grid.origin_P_mm), whole = glm::round(off);
+  if (given.grid.spacing_mm != grid.spacing_mm || !(glm::distance(off, whole) < kOff && glm::length(off) < kFar) ||
+      given.solid.size() != given.grid.voxelCount())
+    throw UsageError(option + ": the ideal is of another tooth");
+  // A tooth that was cut before has a smaller box.
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::ivec3 at = ijk + glm::ivec3(whole);
+    if (given.grid.contains(at)) ideal_.bytes()[v] = std::min(ideal_.bytes()[v], given.solid[given.grid.index(at)]);
+  });
 }
 
 void PreparationMeasure::measureBefore() {

@@ -54,6 +54,7 @@ class PreparationMeasure {
 
  private:
   PreparedZone zone(const glm::dvec3& p_mm) const { return by_rule_ ? by_rule_->zone(p_mm) : given_->zone(p_mm); }
+  void takeGiven(const assets::GivenIdeal& given, const std::string& option);
   void measureBefore();
 
   Crown crown_;

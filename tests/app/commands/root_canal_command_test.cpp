@@ -135,8 +135,9 @@ TEST_F(RootCanalCommand, WhatABrokenFileLeavesIsInTheToothFromThenOn) {
   ASSERT_EQ(molar("radiograph --session " + at("s.molar") + " --tooth 45 --out " + at("s.png")).status, 0);
   ASSERT_EQ(molar("radiograph --session " + at("b.molar") + " --tooth 45 --out " + at("b.png")).status, 0);
   EXPECT_NE(read("s.png"), read("b.png"));
-  const ProgramOutput next = molar("rehearse --continue " + at("b.molar") +
-                                   " --headless --device scripted --pace fast --seconds 1 --record " + at("c.molar"));
+  const ProgramOutput next =
+      molar("rehearse --continue " + at("b.molar") +
+            " --headless --pace fast --seconds 1 --device poses:" + at("p.csv") + " --record " + at("c.molar"));
   ASSERT_EQ(next.status, 0) << next.err;
   EXPECT_EQ(SessionReader(at("c.molar")).about().setup.fragments.size(), files.at("fragments").size());
   EXPECT_EQ(files_of("c.molar").at("fragments"), files.at("fragments"));

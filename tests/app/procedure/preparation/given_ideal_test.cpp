@@ -108,7 +108,7 @@ void expectAsByRule(const PreparationMeasure& given, double mm) {
   EXPECT_NEAR(given.rule().margin_height_mm, 0.0, 0.1);
   // The ideal itself is neither over nor under.
   const PreparationOutcomes ideal = given.outcomesOf(coarse().made(wanted()));
-  EXPECT_LT(ideal.removed.over_mm3() + ideal.removed.under_mm3(), 0.02 * ideal.removed.wanted_mm3);
+  EXPECT_LT(ideal.removed.over_mm3() + ideal.removed.under_mm3(), 0.03 * ideal.removed.wanted_mm3);
 }
 
 TEST(GivenIdeal, MeasuresAsTheRuleItWasMadeBy) {
