@@ -75,7 +75,7 @@ UsageError noSuchTooth(const std::string& name, int fdi) {
 }
 
 /// Of a root canal treatment: the one tooth, within its jaw where that is built in.
-render::Image treatedTooth(const RadiographOptions& options, const BoneAtTime& bone) {
+render::Image filmOfTreated(const RadiographOptions& options, const BoneAtTime& bone) {
   const SessionSetup& setup = bone.start.setup;
   if (setup.canals->fdi != options.fdi)
     throw UsageError(fmt::format("--tooth {}: {} is a treatment of tooth {}, give that", options.fdi, options.session,
@@ -98,7 +98,7 @@ int expose(const RadiographOptions& options) {
     bone = boneAtTime(sessionNamed(options.session), options.to_s);
     for (const std::string& remark : bone->remarks) printMessage(remark);
     if (bone->start.setup.canals) {
-      save(treatedTooth(options, *bone), out);
+      save(filmOfTreated(options, *bone), out);
       return 0;
     }
   }
