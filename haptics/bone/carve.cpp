@@ -158,7 +158,8 @@ CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
 int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept {
   const double radius =
       0.5 * std::sqrt(surfacePerPi_mm2(head)) / bone.grid().spacing_mm;  // of the ball of this surface
-  const double max_loss = *std::max_element(step.loss.begin(), step.loss.end());
+  // What was laid and has not set is gone in a step or two anyway.
+  const double max_loss = *std::max_element(step.loss.begin(), step.loss.begin() + assets::kScanTissueCount);
   int interleave = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
   while (interleave > 1 && !(max_loss * interleave <= 0.75)) interleave /= 2;
   return interleave;

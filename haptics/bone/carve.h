@@ -43,8 +43,8 @@ CarveResult carveTool(Filling& filling, const BurShape& head,
                       const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
                       std::uint64_t tick, int interleave = 1, StrokeHistory* strokes = nullptr) noexcept;
 
-/// `interleave` that keeps a tick with this head short: by the surface of the head, while no tissue loses more than
-/// three quarters of a voxel in a step.
+/// `interleave` that keeps a tick with this head short: by the surface of the head, while no tissue of a scan loses
+/// more than three quarters of a voxel in a step.
 int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept;
 
 /// One step for a head that moves straight from `from` to `to` and turns evenly: in equal parts in which no point moves

@@ -1,6 +1,7 @@
 #include "haptics/servo/filling_hand.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,13 @@
 
 namespace haptics {
 namespace {
+
+/// A table of this file, as the servo's functions reach no other's.
+constexpr auto kTipRadii_mm = [] {
+  std::array<double, kHandInstrumentSizes.size()> radii_mm{};
+  for (std::size_t n = 0; n < radii_mm.size(); ++n) radii_mm[n] = kHandInstrumentSizes[n].tip_radius_mm;
+  return radii_mm;
+}();
 
 assets::Tissue materialOf(HandInstrument kind) {
   switch (kind) {
@@ -45,7 +53,7 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
     light_.rest();
   } else {
     // An instrument is as thick as it is made, whatever a command says.
-    const double radius_mm = kHandInstrumentSizes[static_cast<std::size_t>(kind)].tip_radius_mm;
+    const double radius_mm = kTipRadii_mm[static_cast<std::size_t>(kind)];
     const LaidBall ball{bodies.jaw().field(), *filling, {X_PT.translation_mm}, radius_mm, tick, &strokes};
     if (isApplicator(kind)) {
       const assets::Tissue material = materialOf(kind);

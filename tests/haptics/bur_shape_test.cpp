@@ -96,7 +96,7 @@ TEST(Tool, IsOneKindOfInstrumentAtMost) {
   both.hand_instrument = HandInstrument::curette;
   EXPECT_FALSE(sanitised(both).isHandInstrument());
   haptics::Tool unknown;
-  unknown.hand_instrument = static_cast<HandInstrument>(9);
+  unknown.hand_instrument = static_cast<HandInstrument>(99);
   EXPECT_TRUE(sanitised(unknown).turns());
   const haptics::Tool scalpel = haptics::handInstrumentTool(HandInstrument::scalpel_15);
   EXPECT_EQ(sanitised(scalpel), scalpel);

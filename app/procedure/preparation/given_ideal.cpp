@@ -84,6 +84,15 @@ std::vector<std::uint8_t> grown(const assets::VolumeGrid& grid, std::vector<std:
   return chosen;
 }
 
+/// Where a file's tooth ends towards the root: below it nothing is known.
+double endOf_mm(const Crown& crown, const BoxBytes& left) {
+  double lowest_mm = crown.top_mm;
+  assets::forVoxels(left.grid(), [&](glm::ivec3 ijk, std::size_t v) {
+    if (left.bytes()[v] >= 128) lowest_mm = std::min(lowest_mm, crown.frame.local(left.grid().centre_P_mm(ijk)).z);
+  });
+  return lowest_mm + kSkin * left.grid().spacing_mm;
+}
+
 /// Where the ideal takes: thicker than a skin, and all that hangs on to that.
 std::vector<std::uint8_t> takenFrom(const Crown& crown, const BoxBytes& left) {
   const assets::VolumeGrid& grid = left.grid();
@@ -143,11 +152,14 @@ assets::GivenIdeal givenIdeal(BoxBytes left, const Crown& crown, std::string dig
   refuseMisplaced(crown, left, option);
   const std::vector<std::uint8_t> taken = takenFrom(crown, left);
   const assets::VolumeGrid& grid = left.grid();
+  const double end_mm = endOf_mm(crown, left);
   double taken_mm3 = 0.0;
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
     const std::uint8_t had = crown.solid.bytes()[v];
     std::uint8_t& byte = left.bytes()[v];
-    byte = taken[v] != 0 && crown.label.bytes()[v] != kNeighbour ? std::min(had, byte) : had;
+    const bool takes =
+        taken[v] != 0 && crown.label.bytes()[v] != kNeighbour && crown.frame.local(grid.centre_P_mm(ijk)).z > end_mm;
+    byte = takes ? std::min(had, byte) : had;
     if (crown.isTooth(ijk)) taken_mm3 += (had - byte) / 255.0 * grid.voxelVolume_mm3();
   });
   if (taken_mm3 < kLeastTaken_mm3)

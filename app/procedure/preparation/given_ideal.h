@@ -1,7 +1,8 @@
 // An ideal preparation from a file: a volume of solid fraction or of 0 and 1 (NRRD), or the closed mesh of the prepared
 // tooth (STL), both in frame P, mm, where the patient's tooth stands. It becomes what is to be left of the crown, on
 // the crown's voxels: a skin of a voxel or two between the file's surface and the tooth's is no preparation and is
-// taken off. And what it is: a crown where it goes all around. Any thread; a second.
+// taken off; below its end towards the root nothing is taken. And what it is: a crown where it goes all around. Any
+// thread; a second.
 #pragma once
 
 #include <string>
