@@ -143,8 +143,8 @@ std::optional<double> SingleToothSite::belowCusp_mm() const {
 }
 
 const std::optional<LocatorTold>& SingleToothSite::located() const {
-  static const std::optional<LocatorTold> nothing;
-  return locator_ ? locator_->told() : nothing;
+  static const std::optional<LocatorTold> kNothing;
+  return locator_ ? locator_->told() : kNothing;
 }
 
 }  // namespace app

@@ -60,7 +60,7 @@ struct TreatmentWatch::Copy {
       std::array<std::uint8_t, 512> bytes{};
       bodies.jaw().copyBrick(brick, bytes);
       assets::forVoxels(glm::ivec3(0), glm::ivec3(kBlocks), [&](glm::ivec3 part) {
-        auto& [block, to] = changes.emplace_back(kBlocks * brick + part, ToothNow::Bytes());
+        ToothNow::Bytes& to = changes.emplace_back(kBlocks * brick + part, ToothNow::Bytes()).second;
         std::size_t v = 0;
         const glm::ivec3 low = FineSolid::kEdge * part;
         assets::forVoxels(low, low + FineSolid::kEdge, [&](glm::ivec3 within) {

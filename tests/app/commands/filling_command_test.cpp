@@ -106,7 +106,7 @@ TEST_F(FillingCommand, RefusesInOneLine) {
     EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   };
-  refused("--cavity ready", "is a crown");
+  refused("--cavity ready", "no cavity by rule");
   refused("--cavity filled", "filled");
 }
 
