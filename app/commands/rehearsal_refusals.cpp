@@ -91,6 +91,8 @@ void refuseUnlessForPreparation(const RehearseOptions& options) {
   static const RehearseOptions kAsked;
   if (options.plan.device == "scripted" && options.tools != kAsked.tools)
     throw UsageError("--tool: a scripted hand prepares a tooth with burs of its own, leave it out");
+  if (options.plan.device == "scripted" && !options.continued.empty())
+    throw UsageError("--device scripted: its hand begins with an untouched tooth, leave --continue out");
   if (options.cavity != "ready") return;
   if (isIdealFile(options.ideal) || idealRule(options.ideal, "--ideal").kind != IdealKind::cavity)
     throw UsageError("--cavity ready: " + options.ideal + " is no cavity by rule, give --ideal class-1 or class-2");

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "assets/segment/cell_masks.h"
+
 namespace assets {
 namespace {
 
@@ -84,35 +86,16 @@ class Densities {
   bool is_plain_ = false;
 };
 
-/// What hangs together face to face and is the most; the others become 0.
+/// What hangs together face to face and is the most; the others become 0. Returns its share of all.
 double keepLargest(const VolumeGrid& grid, std::vector<std::uint8_t>& label) {
-  std::vector<std::uint32_t> piece(label.size());
-  std::vector<std::size_t> size{0}, open;
-  const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(grid.size.x),
-                                        static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y)};
-  std::size_t all = 0;
-  for (std::size_t first = 0; first < label.size(); ++first) {
-    if (label[first] == 0) continue;
-    ++all;
-    if (piece[first] != 0) continue;
-    const auto number = static_cast<std::uint32_t>(size.size());
-    size.push_back(0);
-    piece[first] = number;
-    open.push_back(first);
-    while (!open.empty()) {
-      const std::size_t v = open.back();
-      open.pop_back();
-      ++size[number];
-      // The border is air: no step leaves the volume.
-      for (const std::size_t way : step)
-        for (const std::size_t next : {v - way, v + way})
-          if (next < label.size() && label[next] != 0 && piece[next] == 0) piece[next] = number, open.push_back(next);
-    }
-  }
-  const auto largest = static_cast<std::uint32_t>(std::ranges::max_element(size) - size.begin());
+  const CellMask largest = largestPiece(grid.size, label);
+  const auto count = [](const std::vector<std::uint8_t>& cells) {
+    return static_cast<double>(cells.size()) - static_cast<double>(std::ranges::count(cells, std::uint8_t{0}));
+  };
+  const double all = count(label);
   for (std::size_t v = 0; v < label.size(); ++v)
-    if (piece[v] != largest) label[v] = 0;
-  return all == 0 ? 0.0 : static_cast<double>(size[largest]) / static_cast<double>(all);
+    if (largest[v] == 0) label[v] = 0;
+  return all == 0.0 ? 0.0 : count(largest) / all;
 }
 
 /// A quarter, a half and a quarter along each axis.

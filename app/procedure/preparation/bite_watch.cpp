@@ -37,22 +37,23 @@ BiteRecord recordOf(const Bite& bite, double t_s) {
 
 struct BiteWatch::Copy {
   assets::ToothFrame frame;
-  ToothCopy volume;
-  std::optional<BittenTooth> tooth;  ///< from the first bite
-
-  Copy(const assets::PreparedTooth& of, const assets::CtVolume& scan, std::span<const std::uint8_t> before)
-      : frame(of.frame), volume(scan, before) {}
+  const assets::CtVolume& scan;
+  std::span<const std::uint8_t> before;
+  // From the first bite.
+  std::optional<ToothCopy> volume;
+  std::optional<BittenTooth> tooth;
 
   BittenTooth::Marked marked(double paper_mm) {
-    if (!tooth) tooth.emplace(Crown(ToothBlocks(DenseTooth(volume.grid(), volume.before(), volume.labels())), frame));
-    const BoxBytes made(DenseSolid(volume.grid(), volume.now()), tooth->box());
-    return tooth->bitten(filledTooth(made, volume.filling(), volume.grid()), paper_mm);
+    const assets::VolumeGrid& grid = volume->grid();
+    if (!tooth) tooth.emplace(Crown(ToothBlocks(DenseTooth(grid, volume->before(), volume->labels())), frame));
+    const BoxBytes made(DenseSolid(grid, volume->now()), tooth->box());
+    return tooth->bitten(filledTooth(made, volume->filling(), grid), paper_mm);
   }
 };
 
 BiteWatch::BiteWatch(const assets::PreparedTooth& tooth, const assets::CtVolume& scan,
                      std::span<const std::uint8_t> before, const haptics::Bodies& bodies, double paper_mm)
-    : copy_(std::make_unique<Copy>(tooth, scan, before)), bodies_(bodies), paper_mm_(paper_mm) {}
+    : copy_(std::make_unique<Copy>(tooth.frame, scan, before)), bodies_(bodies), paper_mm_(paper_mm) {}
 
 BiteWatch::~BiteWatch() {
   if (marking_.valid()) marking_.wait();
@@ -63,7 +64,8 @@ std::string BiteWatch::close(const haptics::Tick& newest, bool waits) {
   if (marking_.valid()) return "the jaws are closing";
   std::vector<glm::ivec3> all;
   assets::forVoxels(glm::ivec3(0), bodies_.grid().bricks(), [&](glm::ivec3 brick) { all.push_back(brick); });
-  copy_->volume.take(bodies_, all);
+  if (!copy_->volume) copy_->volume.emplace(copy_->scan, copy_->before);
+  copy_->volume->take(bodies_, all);
   closed_at_s_ = newest.t_s + 0.5 * newest.dt_s;
   marking_ = std::async(waits ? std::launch::deferred : std::launch::async,
                         [copy = copy_.get(), paper_mm = paper_mm_] { return copy->marked(paper_mm); });

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/segment/cell_masks.h"
+
 namespace app {
 namespace {
 
@@ -102,33 +104,27 @@ Crown::Crown(const ToothBlocks& tooth, const assets::ToothFrame& of, double belo
 
 BoxBytes attached(const Crown& crown, const BoxBytes& made) {
   constexpr double kNeck_mm = 0.5;
+  constexpr std::uint8_t kHolds = 64;  ///< any matter holds, however thin
   const assets::VolumeGrid& grid = made.grid();
-  BoxBytes left = made;
-  std::vector<char> is_reached(grid.voxelCount(), 0);
-  std::vector<glm::ivec3> open;
-  const auto reach = [&](glm::ivec3 ijk) {
-    if (!grid.contains(ijk)) return;
-    const std::size_t v = grid.index(ijk);
-    // Any matter holds, however thin.
-    if (is_reached[v] != 0 || made.bytes()[v] < 64 || !assets::isToothPart(crown.label.bytes()[v])) return;
-    is_reached[v] = 1;
-    open.push_back(ijk);
-  };
+  const auto is_tooth = [&](std::size_t v) { return assets::isToothPart(crown.label.bytes()[v]); };
+  std::vector<std::uint8_t> matter(grid.voxelCount());
+  for (std::size_t v = 0; v < matter.size(); ++v) matter[v] = made.bytes()[v] >= kHolds && is_tooth(v) ? 1 : 0;
+  const assets::CellPieces pieces = assets::piecesOfCells(grid.size, matter);
+  std::vector<std::uint8_t> stands(pieces.cells.size(), 0);
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (made.bytes()[v] >= 64 && crown.frame.local(grid.centre_P_mm(ijk)).z < kNeck_mm) reach(ijk);
+    if (matter[v] != 0 && crown.frame.local(grid.centre_P_mm(ijk)).z < kNeck_mm)
+      stands[static_cast<std::size_t>(pieces.of[v])] = 1;
   });
-  while (!open.empty()) {
-    const glm::ivec3 at = open.back();
-    open.pop_back();
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int way : {-1, 1}) {
-        glm::ivec3 next = at;
-        next[axis] += way;
-        reach(next);
-      }
-  }
-  for (std::size_t v = 0; v < is_reached.size(); ++v)
-    if (is_reached[v] == 0 && made.bytes()[v] >= 64 && assets::isToothPart(crown.label.bytes()[v])) left.bytes()[v] = 0;
+  const auto is_left = [&](std::size_t v) { return stands[static_cast<std::size_t>(pieces.of[v])] != 0; };
+  // A rim that is thinner than what holds goes with what it borders on.
+  BoxBytes left = made;
+  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (made.bytes()[v] == 0 || !is_tooth(v) || is_left(v)) return;
+    bool is_beside = false;
+    assets::forVoxels(glm::max(ijk - 1, glm::ivec3(0)), glm::min(ijk + 2, grid.size),
+                      [&](glm::ivec3 at) { is_beside = is_beside || is_left(grid.index(at)); });
+    if (!is_beside) left.bytes()[v] = 0;
+  });
   return left;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/procedure/preparation/made_surface.h"
+#include "assets/segment/cell_masks.h"
 
 namespace app {
 namespace {
@@ -38,47 +39,29 @@ BoxBytes ownOf(const Crown& crown) {
 /// Air of a box by what it is connected to: 0 solid, 1 the outside, from 2 on the enclosed ones.
 class AirParts {
  public:
-  explicit AirParts(const BoxBytes& all) : all_(all), part_(all.grid().voxelCount(), 0) {
-    const assets::VolumeGrid& grid = all.grid();
+  explicit AirParts(const BoxBytes& all) : grid_(all.grid()) {
+    std::vector<std::uint8_t> air(grid_.voxelCount());
+    std::ranges::transform(all.bytes(), air.begin(),
+                           [](std::uint8_t byte) { return static_cast<std::uint8_t>(byte < kHalfByte ? 1 : 0); });
+    pieces_ = assets::piecesOfCells(grid_.size, air);
+    number_.assign(pieces_.cells.size(), 0);
     // The outside: all air at the box's faces.
-    assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-      const bool at_face = glm::any(glm::equal(ijk, glm::ivec3(0))) || glm::any(glm::equal(ijk, grid.size - 1));
-      if (at_face && isAir(v) && part_[v] == 0) spread(ijk, 1);
+    assets::forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
+      const bool at_face = glm::any(glm::equal(ijk, glm::ivec3(0))) || glm::any(glm::equal(ijk, grid_.size - 1));
+      if (at_face && air[v] != 0) number_[static_cast<std::size_t>(pieces_.of[v])] = 1;
     });
-    assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-      if (isAir(v) && part_[v] == 0) spread(ijk, count_++);
-    });
+    for (std::size_t piece = 1; piece < number_.size(); ++piece)
+      if (number_[piece] == 0) number_[piece] = count_++;
   }
 
-  bool isOutside(glm::ivec3 ijk) const { return !all_.grid().contains(ijk) || part_[all_.grid().index(ijk)] == 1; }
-  std::uint32_t at(std::size_t v) const { return part_[v]; }
+  bool isOutside(glm::ivec3 ijk) const { return !grid_.contains(ijk) || at(grid_.index(ijk)) == 1; }
+  std::uint32_t at(std::size_t v) const { return number_[static_cast<std::size_t>(pieces_.of[v])]; }
   std::uint32_t count() const { return count_; }
 
  private:
-  bool isAir(std::size_t v) const { return all_.bytes()[v] < kHalfByte; }
-  void spread(glm::ivec3 from, std::uint32_t number) {
-    const assets::VolumeGrid& grid = all_.grid();
-    part_[grid.index(from)] = number;
-    open_.assign(1, from);
-    while (!open_.empty()) {
-      const glm::ivec3 ijk = open_.back();
-      open_.pop_back();
-      for (int axis = 0; axis < 3; ++axis)
-        for (const int way : {-1, 1}) {
-          glm::ivec3 next = ijk;
-          next[axis] += way;
-          if (!grid.contains(next)) continue;
-          const std::size_t v = grid.index(next);
-          if (!isAir(v) || part_[v] != 0) continue;
-          part_[v] = number;
-          open_.push_back(next);
-        }
-    }
-  }
-
-  const BoxBytes& all_;
-  std::vector<std::uint32_t> part_;
-  std::vector<glm::ivec3> open_;
+  assets::VolumeGrid grid_;
+  assets::CellPieces pieces_;
+  std::vector<std::uint32_t> number_;  ///< by piece
   std::uint32_t count_ = 2;
 };
 

@@ -82,7 +82,7 @@ PreparationOutcomes PreparationMeasure::outcomesOf(const BoxBytes& made) const {
   if (caries_->isThere()) outcomes.caries = caries_->outcomeOf(crown_, made);
   if (rule().kind == IdealKind::cavity) outcomes.cavity = cavityForm(crown_, made, rule());
   if (rule().kind != IdealKind::crown) return outcomes;
-  const BoxBytes stump = attached(crown_, made);
+  const BoxBytes& stump = outcomes.stump.emplace(attached(crown_, made));
   const StumpWalls walls(crown_, stump, rule().margin_height_mm - kBelowMargin_mm, crown_.top_mm);
   const auto heights_mm = marginHeights_mm(*walls_before_, walls);
   outcomes.walls = wallForm(walls, heights_mm);

@@ -23,6 +23,7 @@ struct PreparationOutcomes {
   std::optional<WallForm> walls;                ///< P3, P6: crowns
   std::optional<MarginLine> margin;             ///< P4: crowns
   std::optional<InsertionWay> axis, insertion;  ///< P5: crowns, along the tooth's axis and along the best way
+  std::optional<BoxBytes> stump;                ///< crowns: without splinters that stand by themselves
   double deepest_undercut_mm = 0.0;             ///< P5: square to the wall; below 0.02 mm it is the voxels' roughness
   std::optional<CavityForm> cavity;             ///< P9: cavities
   std::optional<FillingOutcomes> filling;       ///< where something was laid

@@ -41,10 +41,10 @@ PreparationPaint preparationPaint(const PreparationMeasure& measure, const BoxBy
   if (!outcomes.insertion || !outcomes.walls || !std::isfinite(outcomes.walls->convergence_rad)) return paint;
   const glm::dvec3 way_P = wayOf(*outcomes.insertion, measure.crown().frame);
   PaintBrush undercut(paint.box);
-  for (const glm::dvec3& p_P : undercutPlaces_P_mm(measure.crown(), made, outcomes.deviation.places, way_P))
+  for (const glm::dvec3& p_P : undercutPlaces_P_mm(measure.crown(), *outcomes.stump, outcomes.deviation.places, way_P))
     undercut.lay(p_P, kUndercut);
   paint.undercut = undercut.spots();
-  const glm::dvec3 tip_P = stumpTop_P_mm(measure.crown(), made, way_P);
+  const glm::dvec3 tip_P = stumpTop_P_mm(measure.crown(), *outcomes.stump, way_P);
   paint.arrow = render::GuideArrow{{tip_P + kArrow_mm * way_P}, {tip_P}};
   const double degrees = outcomes.insertion->off_axis_rad * 180.0 / std::numbers::pi;
   paint.way = degrees < 0.05 ? "way of insertion: the tooth's axis"

@@ -136,46 +136,37 @@ struct Raster {
   double line_mm, step_mm, layer_mm, stock_mm;
 };
 
-/// Cross-sections from the bite down to the ideal, line by line to and fro.
-void rough(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
-  const haptics::BurShape& bur = hand.bur();
-  const double reach_mm = maps.crown.reach_mm + bur.radius_mm, top_mm = maps.crown.top_mm;
-  const double low_mm = maps.low_mm() + raster.stock_mm;
-  for (double level_mm = top_mm - raster.layer_mm; level_mm > low_mm - raster.layer_mm; level_mm -= raster.layer_mm) {
-    bool is_forth = true;
-    for (double y = -reach_mm; y <= reach_mm; y += raster.line_mm) {
-      for (double along = -reach_mm; along <= reach_mm; along += raster.step_mm) {
-        const glm::dvec2 at(is_forth ? along : -along, y);
-        const double floor_mm = maps.lowest_mm(at, bur, raster.stock_mm);
-        const double end_mm = std::max(level_mm, floor_mm);
-        // Beside the tooth, or nothing to be cut on this layer: through the air above.
-        const double there_mm = lowestEnd_mm(maps.had, at, bur, 0.0);
-        const bool cuts = there_mm > floor_mm + kToCut_mm && there_mm > level_mm && end_mm < level_mm + raster.layer_mm;
-        if (!cuts) continue;
-        if (glm::distance(glm::dvec2(hand.at_mm()), at) > 2.0 * raster.step_mm) hand.goOver(at, maps.clear_mm());
-        hand.go({at, end_mm}, kUp, kCut_mm_per_s, true);
-      }
-      is_forth = !is_forth;
-    }
-  }
-  hand.lift(maps.clear_mm());
-}
-
-/// Once over all that roughing left, at the ideal.
-void finish(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
+/// Line by line to and fro wherever something is to be cut, no lower than `level_mm` and the ideal, where that is
+/// within a layer over the level.
+void mill(ScriptedBur& hand, const Maps& maps, const Raster& raster, double level_mm, double mm_per_s) {
   const haptics::BurShape& bur = hand.bur();
   const double reach_mm = maps.crown.reach_mm + bur.radius_mm;
   bool is_forth = true;
   for (double y = -reach_mm; y <= reach_mm; y += raster.line_mm) {
     for (double along = -reach_mm; along <= reach_mm; along += raster.step_mm) {
       const glm::dvec2 at(is_forth ? along : -along, y);
-      const double end_mm = maps.lowest_mm(at, bur, raster.stock_mm);
-      if (lowestEnd_mm(maps.had, at, bur, 0.0) <= end_mm + kToCut_mm) continue;
+      const double floor_mm = maps.lowest_mm(at, bur, raster.stock_mm), end_mm = std::max(level_mm, floor_mm);
+      // Beside the tooth, or nothing to be cut on this layer: through the air above.
+      const double there_mm = lowestEnd_mm(maps.had, at, bur, 0.0);
+      if (there_mm <= floor_mm + kToCut_mm || there_mm <= level_mm || end_mm >= level_mm + raster.layer_mm) continue;
       if (glm::distance(glm::dvec2(hand.at_mm()), at) > 2.0 * raster.step_mm) hand.goOver(at, maps.clear_mm());
-      hand.go({at, end_mm}, kUp, kFinish_mm_per_s, true);
+      hand.go({at, end_mm}, kUp, mm_per_s, true);
     }
     is_forth = !is_forth;
   }
+}
+
+/// Layers from the bite down to the ideal.
+void rough(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
+  const double low_mm = maps.low_mm() + raster.stock_mm - raster.layer_mm;
+  for (double level_mm = maps.crown.top_mm - raster.layer_mm; level_mm > low_mm; level_mm -= raster.layer_mm)
+    mill(hand, maps, raster, level_mm, kCut_mm_per_s);
+  hand.lift(maps.clear_mm());
+}
+
+/// Once over all that roughing left, at the ideal: one layer as high as the crown.
+void finish(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
+  mill(hand, maps, raster, maps.low_mm() - kClear_mm, kFinish_mm_per_s);
   hand.lift(maps.clear_mm());
 }
 
@@ -230,7 +221,7 @@ HandScript preparationScript(const PreparationMeasure& measure, std::span<const 
   rough(hand, maps, {.line_mm = 0.7, .step_mm = 0.2, .layer_mm = 0.8, .stock_mm = kStock_mm});
   hand.take(tray[1].head, kFinishingBur);
   hand.lift(maps.clear_mm());
-  finish(hand, maps, {.line_mm = 0.3, .step_mm = 0.2, .layer_mm = 0.0, .stock_mm = 0.0});
+  finish(hand, maps, {.line_mm = 0.3, .step_mm = 0.2, .layer_mm = maps.clear_mm() + kClear_mm, .stock_mm = 0.0});
   finishWalls(hand, measure, maps);
   return hand.done();
 }

@@ -115,10 +115,10 @@ PreparedIdeal::PreparedIdeal(const Crown& crown, const IdealRule& rule, const st
     throw UsageError(fmt::format("{} {}: {}", option, rule.name, why));
   };
   if (top_mm < kLeastCrown_mm)
-    refuse(
-        fmt::format("the tooth reaches {:.1f} mm over its cervical line, {:g} mm are needed: choose another tooth, or "
-                    "turn the volume",
-                    std::max(top_mm, 0.0), kLeastCrown_mm));
+    refuse(fmt::format(
+        "the middle of its biting surface lies {:.1f} mm over the cervical line, {:g} mm are needed: choose "
+        "another tooth, or turn the volume",
+        std::max(top_mm, 0.0), kLeastCrown_mm));
   const double at_mm = rule.kind == IdealKind::crown ? rule.margin_height_mm : 0.5 * top_mm;
   const double step_mm = crown.solid.grid().spacing_mm;
   const StumpWalls outline(crown, crown.solid, at_mm - step_mm, at_mm + step_mm);
