@@ -36,15 +36,15 @@ DistanceField::DistanceField(const assets::VolumeGrid& grid, std::span<const std
       band_mm_(static_cast<float>(band_mm)),
       distance_mm_(grid.voxelCount(), band_mm_) {
   assert(solid.size() == grid.voxelCount());
-  std::vector<std::uint8_t> is_fixed(solid.size(), 0);
-  startAtCrossings(solid, is_fixed);
-  for (int n = 0; n < 8 && !stop.stop_requested(); ++n) sweep(is_fixed, solid, 1 - 2 * assets::cornerOffset(n));
+  std::vector<Voxel> state(solid.size(), Voxel::settled);
+  startAtCrossings(solid, state);
+  for (int n = 0; n < 8 && !stop.stop_requested(); ++n) sweep(state, solid, 1 - 2 * assets::cornerOffset(n));
   for (std::size_t v = 0; v < solid.size(); ++v)
     if (isSolid(solid[v])) distance_mm_[v] = -distance_mm_[v];
 }
 
 /// Where a neighbour lies on the other side, the plane through the crossings of one half along the axes.
-void DistanceField::startAtCrossings(std::span<const std::uint8_t> solid, std::vector<std::uint8_t>& is_fixed) {
+void DistanceField::startAtCrossings(std::span<const std::uint8_t> solid, std::vector<Voxel>& state) {
   constexpr float kHalf = 127.5F;
   const std::array<std::size_t, 3> stride = {1, assets::indexIn(grid_.size, {0, 1, 0}),
                                              assets::indexIn(grid_.size, {0, 0, 1})};
@@ -64,34 +64,56 @@ void DistanceField::startAtCrossings(std::span<const std::uint8_t> solid, std::v
     }
     if (inverse_squares == 0.0F) return;
     distance_mm_[v] = static_cast<float>(grid_.spacing_mm) / std::sqrt(inverse_squares);
-    is_fixed[v] = 1;
+    state[v] = Voxel::fixed;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t step = stride[static_cast<std::size_t>(axis)];
+      if (ijk[axis] > 0 && state[v - step] == Voxel::settled) state[v - step] = Voxel::open;
+      if (ijk[axis] + 1 < grid_.size[axis] && state[v + step] == Voxel::settled) state[v + step] = Voxel::open;
+    }
   });
 }
 
-/// One pass in a diagonal direction; a value spreads on its own side of the surface alone.
-void DistanceField::sweep(const std::vector<std::uint8_t>& is_fixed, std::span<const std::uint8_t> solid,
-                          glm::ivec3 direction) {
+/// One pass in a diagonal direction; a value spreads on its own side of the surface alone. Only where a neighbour has
+/// changed since: what it finds is what a pass over all finds (locking, Bak et al., SIAM J. Sci. Comput. 32, 2010).
+void DistanceField::sweep(std::vector<Voxel>& state, std::span<const std::uint8_t> solid, glm::ivec3 direction) {
   const float edge_mm = static_cast<float>(grid_.spacing_mm);
   const std::array<std::size_t, 3> stride = {1, assets::indexIn(grid_.size, {0, 1, 0}),
                                              assets::indexIn(grid_.size, {0, 0, 1})};
-  assets::forVoxels(grid_, [&](glm::ivec3 forward, std::size_t) {
-    glm::ivec3 ijk = forward;
-    for (int axis = 0; axis < 3; ++axis)
-      if (direction[axis] < 0) ijk[axis] = grid_.size[axis] - 1 - ijk[axis];
-    const std::size_t v = grid_.index(ijk);
-    if (is_fixed[v] != 0) return;
+  const auto update = [&](glm::ivec3 ijk, std::size_t v) {
+    state[v] = Voxel::settled;
     const bool inside = isSolid(solid[v]);
-    std::array<float, 3> nearest{};
+    std::array<float, 3> nearest_mm{};
+    std::array<std::size_t, 6> beside{};
+    std::size_t besides = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      float& least = nearest[static_cast<std::size_t>(axis)] = band_mm_;
+      float& least_mm = nearest_mm[static_cast<std::size_t>(axis)] = band_mm_;
       const std::size_t step = stride[static_cast<std::size_t>(axis)];
-      if (ijk[axis] > 0 && isSolid(solid[v - step]) == inside) least = distance_mm_[v - step];
-      if (ijk[axis] + 1 < grid_.size[axis] && isSolid(solid[v + step]) == inside)
-        least = std::min(least, distance_mm_[v + step]);
+      const auto look = [&](std::size_t there) {
+        if (isSolid(solid[there]) != inside) return;
+        least_mm = std::min(least_mm, distance_mm_[there]);
+        beside[besides++] = there;
+      };
+      if (ijk[axis] > 0) look(v - step);
+      if (ijk[axis] + 1 < grid_.size[axis]) look(v + step);
     }
-    if (std::min({nearest[0], nearest[1], nearest[2]}) >= band_mm_) return;
-    distance_mm_[v] = std::min(distance_mm_[v], distanceFrom(nearest, edge_mm));
-  });
+    if (std::min({nearest_mm[0], nearest_mm[1], nearest_mm[2]}) >= band_mm_) return;
+    const float mm = distanceFrom(nearest_mm, edge_mm);
+    if (mm >= distance_mm_[v]) return;
+    distance_mm_[v] = mm;
+    for (std::size_t n = 0; n < besides; ++n)
+      if (state[beside[n]] == Voxel::settled) state[beside[n]] = Voxel::open;
+  };
+  for (int down = 0; down < grid_.size.z; ++down)
+    for (int across = 0; across < grid_.size.y; ++across) {
+      const int k = direction.z > 0 ? down : grid_.size.z - 1 - down;
+      const int j = direction.y > 0 ? across : grid_.size.y - 1 - across;
+      const std::size_t row = grid_.index({0, j, k});
+      for (int along = 0; along < grid_.size.x; ++along) {
+        const int i = direction.x > 0 ? along : grid_.size.x - 1 - along;
+        const std::size_t v = row + static_cast<std::size_t>(i);
+        if (state[v] == Voxel::open) update({i, j, k}, v);
+      }
+    }
 }
 
 DistanceField::Sample DistanceField::at(glm::vec3 index) const {

@@ -1,8 +1,8 @@
 // Signed distance to the surface of a solid, from the solid fraction of its voxels: positive outside, exact along the
 // axes where the surface crosses them, then spread by fast sweeping of |grad d| = 1 (Zhao, Math. Comp. 74, 2005) up to
-// a band. Frame and mm of the grid. Immutable; any thread; 70 ns and 4 bytes a voxel to make. A pure function of the
-// bytes. Within a third of a voxel of the truth at a smooth surface. For contact and for searching
-// a way out, not for measures.
+// a band. Frame and mm of the grid. Immutable; any thread; 30 to 60 ns and 4 bytes a voxel to make. A pure function of
+// the bytes. Within a third of a voxel of the truth at a smooth surface. For contact and for searching a way out, not
+// for measures.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,10 @@ class DistanceField {
   }
 
  private:
-  void startAtCrossings(std::span<const std::uint8_t> solid, std::vector<std::uint8_t>& is_fixed);
-  void sweep(const std::vector<std::uint8_t>& is_fixed, std::span<const std::uint8_t> solid, glm::ivec3 direction);
+  /// Fixed: beside the surface. Open: a neighbour has changed since it was settled.
+  enum class Voxel : std::uint8_t { settled, open, fixed };
+  void startAtCrossings(std::span<const std::uint8_t> solid, std::vector<Voxel>& state);
+  void sweep(std::vector<Voxel>& state, std::span<const std::uint8_t> solid, glm::ivec3 direction);
 
   assets::VolumeGrid grid_;
   glm::vec3 last_;  ///< index
