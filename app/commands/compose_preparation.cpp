@@ -1,9 +1,13 @@
 #include "app/commands/compose_preparation.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "app/case/treated_tooth.h"
+#include "app/options/tool_text.h"
 #include "app/procedure/preparation/given_ideal.h"
+#include "app/procedure/preparation/groove_script.h"
 #include "app/procedure/preparation/preparation_script.h"
 #include "app/procedure/root_canal/dense_tooth.h"
 #include "app/text/usage_error.h"
@@ -40,7 +44,12 @@ void planPreparation(RehearsalPlan& plan) {
   }
   std::vector<haptics::Tool> tray = plan.other_tools;
   tray.insert(tray.begin(), plan.command.tool);
-  plan.hand_script = preparationScript({std::move(crown), rule, "--ideal"}, tray);
+  const std::vector<std::string> own = scriptedBurs(rule);
+  const bool is_own = tray.size() >= own.size() &&
+                      std::ranges::equal(
+                          own, std::span(tray).first(own.size()), {},
+                          [](const std::string& bur) { return toolFrom(bur, "").head; }, &haptics::Tool::head);
+  plan.hand_script = is_own ? preparationScript({std::move(crown), rule, "--ideal"}, tray) : grooveScript(crown, tray);
 }
 
 std::vector<std::uint8_t> cutReady(assets::Patient& patient) {

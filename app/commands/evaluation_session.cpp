@@ -72,8 +72,7 @@ class EvaluationSession {
 
   int run() {
     RehearseOptions warm = warmUpOptions(options_.rehearsal, study_);
-    if (!study_.case_name.empty()) options_.rehearsal.case_name = study_.case_name;
-    if (!study_.tools().empty()) options_.rehearsal.tools = study_.tools();
+    takeCase(options_.rehearsal, study_);
     std::optional<RehearsalPlan> plan = composeRehearsal(options_.rehearsal);
     if (!plan) return 0;
     debrief_ = debriefPlanOf(options_.rehearsal, *plan);

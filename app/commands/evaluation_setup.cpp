@@ -27,6 +27,35 @@ RehearseOptions warmUpOptions(const RehearseOptions& main, const StudyTemplate& 
   return warm;
 }
 
+void takeCase(RehearseOptions& options, const StudyTemplate& study) {
+  const OperationTemplate& operation = study.operation;
+  if (!study.case_name.empty()) options.case_name = study.case_name;
+  if (!study.tools().empty()) options.tools = study.tools();
+  if (!operation.task.empty()) options.task = operation.task;
+  if (operation.tooth) options.tooth = operation.tooth;
+  if (!operation.ideal.empty()) options.ideal = operation.ideal;
+  if (!operation.caries.empty()) options.caries = operation.caries;
+  if (!operation.preset.empty()) options.preset = operation.preset;
+}
+
+namespace {
+
+/// What the template names is no choice of the command line.
+void refuseSecondOperation(const EvaluateOptions& options, const OperationTemplate& named) {
+  static const RehearseOptions kUntouched;
+  const RehearseOptions& given = options.rehearsal;
+  const auto refuse = [&](const char* option, const std::string& value) {
+    throw UsageError(std::string(option) + ": " + options.study_template + " names " + value + ", leave it out");
+  };
+  if (!named.task.empty() && given.task != kUntouched.task) refuse("--task", named.task);
+  if (named.tooth && given.tooth) refuse("--tooth", std::to_string(*named.tooth));
+  if (!named.ideal.empty() && !given.ideal.empty()) refuse("--ideal", named.ideal);
+  if (!named.caries.empty() && !given.caries.empty()) refuse("--caries", named.caries);
+  if (!named.preset.empty() && !given.preset.empty()) refuse("--preset", named.preset);
+}
+
+}  // namespace
+
 void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study) {
   const RehearseOptions& rehearsal = options.rehearsal;
   static const RehearseOptions kUntouched;
@@ -39,6 +68,7 @@ void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study
   if (!study.case_name.empty() && (!rehearsal.patient.empty() || !rehearsal.case_name.empty()))
     throw UsageError("evaluate: " + options.study_template + " names the case " + study.case_name +
                      ", leave PATIENT and --case out");
+  refuseSecondOperation(options, study.operation);
   if (!study.tools().empty() && rehearsal.tools != kUntouched.tools)
     throw UsageError("--tool: " + options.study_template + " names the tasks' tools, leave it out");
   std::vector<std::string> groups;

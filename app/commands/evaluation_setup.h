@@ -12,6 +12,9 @@ namespace app {
 /// Throws UsageError.
 void refuseUnlessFits(const EvaluateOptions& options, const StudyTemplate& study);
 
+/// What the template says of case, operation and tools.
+void takeCase(RehearseOptions& options, const StudyTemplate& study);
+
 /// A block at the same place with the same hand; nothing of it is recorded.
 RehearseOptions warmUpOptions(const RehearseOptions& main, const StudyTemplate& study);
 

@@ -88,9 +88,6 @@ void refuseUnlessForPreparation(const RehearseOptions& options) {
                        joined(idealRules(), [](const IdealRule& rule) { return std::string(rule.name); }) +
                        ", or a FILE.nrrd or FILE.stl of the prepared tooth");
   }
-  static const RehearseOptions kAsked;
-  if (options.plan.device == "scripted" && options.tools != kAsked.tools)
-    throw UsageError("--tool: a scripted hand prepares a tooth with burs of its own, leave it out");
   if (options.plan.device == "scripted" && !options.continued.empty())
     throw UsageError("--device scripted: its hand begins with an untouched tooth, leave --continue out");
   if (options.cavity != "ready") return;

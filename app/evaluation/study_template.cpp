@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <exception>
 #include <set>
+#include <utility>
 
 #include "app/case/case.h"
 #include "app/evaluation/task_measures.h"
+#include "app/options/feel_preset.h"
 #include "app/options/tool_text.h"
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
@@ -99,6 +101,26 @@ void readCase(assets::TomlReader& keys, StudyTemplate& made) {
     keys.refuse("", "case", "there is no such case, give one of " + joined(known));
 }
 
+void readOperation(assets::TomlReader& keys, StudyTemplate& made) {
+  if (!keys.has("operation")) return;
+  constexpr const char* kTable = "operation";
+  OperationTemplate& operation = made.operation;
+  constexpr std::array<std::string_view, 3> kTasks{"", "root-canal", "preparation"};
+  if (keys.has(kTable, "task")) operation.task = kTasks[1 + keys.choice(kTable, "task", {kTasks[1], kTasks[2]})];
+  if (keys.has(kTable, "tooth")) operation.tooth = static_cast<int>(keys.integer(kTable, "tooth", 11, 48));
+  if (operation.task.empty() && operation.tooth)
+    keys.refuse(kTable, "tooth", "is for task root-canal or preparation, name it");
+  for (const auto& [key, kept] : {std::pair{"ideal", &operation.ideal}, std::pair{"caries", &operation.caries}}) {
+    if (!keys.has(kTable, key)) continue;
+    if (operation.task != kTasks[2]) keys.refuse(kTable, key, "is for task preparation, name it");
+    *kept = wordsFrom(keys, kTable, key);
+  }
+  if (!keys.has(kTable, "preset")) return;
+  operation.preset = keys.text(kTable, "preset");
+  if (const auto known = feelPresets(); std::ranges::find(known, operation.preset) == known.end())
+    keys.refuse(kTable, "preset", "there is no such feel, give " + joined(known));
+}
+
 void readWarmUp(assets::TomlReader& keys, StudyTemplate& made) {
   if (!keys.has("warm_up")) return;
   made.warm_up_block = keys.text("warm_up", "block", "block-plate");
@@ -142,6 +164,7 @@ StudyTemplate studyTemplateFrom(std::string_view text, const std::string& where)
   made.seed = static_cast<std::uint64_t>(keys.integer("", "seed", 0, 1'000'000'000, 1));
   made.retention_days = static_cast<int>(keys.integer("", "retention_days", 1, 36'500, made.retention_days));
   made.silence_s = keys.number("", "silence_s", {5.0, 600.0, "s"}, made.silence_s);
+  readOperation(keys, made);
   readWarmUp(keys, made);
   if (keys.has("may_change")) {
     made.law_may_change = keys.boolean("may_change", "law", false);

@@ -43,9 +43,18 @@ struct AskedQuestionnaire {
 
 enum class OrderKind : std::uint8_t { as_written, latin_square, shuffled };
 
+/// What is done to one tooth, as `molar rehearse` takes it; empty: as the command line says.
+struct OperationTemplate {
+  std::string task;           ///< "root-canal", "preparation"
+  std::optional<int> tooth;   ///< FDI
+  std::string ideal, caries;  ///< of a preparation
+  std::string preset;         ///< a whole feel by one name (app/options/feel_preset)
+};
+
 struct StudyTemplate {
   std::string title, language;
-  std::string case_name;     ///< one of app/case's; empty: as the command line says
+  std::string case_name;  ///< one of app/case's; empty: as the command line says
+  OperationTemplate operation;
   std::string consent_file;  ///< beside the template
   OrderKind order = OrderKind::as_written;
   std::uint64_t seed = 1;  ///< of the order

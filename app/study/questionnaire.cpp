@@ -20,6 +20,7 @@ constexpr auto kShippedQuestionnaires = std::to_array<ShippedQuestionnaire>({
 });
 
 constexpr std::size_t kMostItems = 60, kMostScaleWords = 11, kLongestId = 16, kLongestWords = 300;
+constexpr int kMostPublished = 30, kMostPublishedSteps = 10;
 
 std::string wordsFrom(assets::TomlReader& keys, const std::string& table, const std::string& key) {
   std::string words = keys.text(table, key);
@@ -47,6 +48,20 @@ void readScale(assets::TomlReader& keys, Questionnaire& made) {
     keys.refuse("", "scale", "give the words of both ends, or of all " + std::to_string(steps) + " steps");
 }
 
+/// What `count` people of another study answered.
+std::optional<PublishedSummary> publishedFrom(assets::TomlReader& keys, const std::string& table, std::size_t count,
+                                              const Questionnaire& of) {
+  PublishedSummary published{count, {}, {}};
+  const auto read = [&](const std::string& key, const assets::NumberRange& range) -> std::optional<double> {
+    if (!keys.has(table, key)) return {};
+    if (count == 0) keys.refuse(table, key, "say of how many answers: published_count above the items");
+    return keys.number(table, key, range);
+  };
+  published.mean = read("published_mean", {static_cast<double>(of.low), static_cast<double>(of.high), ""});
+  published.deviation = read("published_deviation", {0.0, static_cast<double>(of.high - of.low), ""});
+  return published.mean || published.deviation ? std::optional(published) : std::nullopt;
+}
+
 /// Every item with every one after it: the column "mental-effort".
 void addComparisons(Questionnaire& made) {
   const std::vector<QuestionItem> scales = made.items;
@@ -67,6 +82,13 @@ Questionnaire questionnaireFrom(assets::TomlReader keys) {
   made.source = wordsFrom(keys, "", "source");
   made.scoring = static_cast<Scoring>(keys.choice("", "scoring", {"categories", "sus", "mean", "words", "weighted"}));
   if (!made.isOfWords()) readScale(keys, made);
+  std::size_t published_count = 0;
+  if (keys.has("", "published_count")) {
+    if (made.isOfWords() || made.high - made.low > kMostPublishedSteps)
+      keys.refuse("", "published_count", "is for scales of up to eleven steps");
+    published_count = static_cast<std::size_t>(keys.integer("", "published_count", 2, kMostPublished));
+    made.published_note = keys.text("", "published_note", "");
+  }
   const std::size_t count = keys.tables("item", 1, kMostItems);
   std::set<std::string> known{"participant", "group", "session"};
   for (std::size_t n = 1; n <= count; ++n) {
@@ -79,6 +101,7 @@ Questionnaire questionnaireFrom(assets::TomlReader keys) {
     if (made.scoring == Scoring::weighted) item.name = wordsFrom(keys, table, "name");
     if (made.scoring == Scoring::categories && item.category.empty())
       keys.refuse(table, "category", "an item that is scored by category needs one");
+    item.published = publishedFrom(keys, table, published_count, made);
     made.items.push_back(std::move(item));
   }
   if (made.scoring == Scoring::sus && (count != 10 || made.low != 1 || made.high != 5))

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/study/published_summary.h"
+
 namespace app {
 
 struct QuestionItem {
@@ -14,6 +16,7 @@ struct QuestionItem {
   std::string says;
   std::string name;                  ///< short, "Effort"; empty: none
   std::vector<std::string> choices;  ///< of a comparison: 1 for the first, 2 for the second; empty: on the scale
+  std::optional<PublishedSummary> published = {};  ///< by the study that the questionnaire is of; none: not printed
 };
 
 enum class Scoring {
@@ -30,6 +33,7 @@ struct Questionnaire {
   std::vector<std::string> scale;  ///< of each step, or of both ends; empty for words
   Scoring scoring = Scoring::categories;
   std::vector<QuestionItem> items;
+  std::string published_note;  ///< on what is published beside its items; empty: nothing
 
   /// What an item may be answered with.
   int lowOf(const QuestionItem& item) const { return item.choices.empty() ? low : 1; }

@@ -15,6 +15,14 @@ ordered_json jsonOf(const std::optional<ValueRange>& range) {
   return range ? ordered_json{range->low, range->high} : ordered_json(nullptr);
 }
 
+ordered_json publishedJson(const AnswerRow& row) {
+  if (!row.published) return nullptr;
+  return {{"n", row.published->count},
+          {"mean", jsonOf(row.published->mean)},
+          {"sd", jsonOf(row.published->deviation)},
+          {"possible", row.can_be_answered}};
+}
+
 ordered_json jsonOf(const std::vector<AnswerRow>& rows) {
   ordered_json list = ordered_json::array();
   for (const AnswerRow& row : rows)
@@ -32,7 +40,8 @@ ordered_json jsonOf(const std::vector<AnswerRow>& rows) {
                     {"max", jsonOf(row.summary.high)},
                     {"mean_95", jsonOf(row.mean_interval)},
                     {"median_95", jsonOf(row.median_interval)},
-                    {"values", row.hasDeviation() ? ordered_json(nullptr) : ordered_json(row.values)}});
+                    {"values", row.hasDeviation() ? ordered_json(nullptr) : ordered_json(row.values)},
+                    {"published", publishedJson(row)}});
   return list;
 }
 
@@ -74,6 +83,11 @@ class LongTable {
       add(names, "max", row.summary.high);
       addRange(names, "mean_95", row.mean_interval);
       addRange(names, "median_95", row.median_interval);
+      if (!row.published) continue;
+      add(names, "published_n", static_cast<double>(row.published->count));
+      add(names, "published_mean", row.published->mean);
+      add(names, "published_sd", row.published->deviation);
+      add(names, "published_possible", row.can_be_answered ? 1.0 : 0.0);
     }
   }
   void addRange(const std::vector<std::string>& names, const std::string& measure,

@@ -56,23 +56,54 @@ std::vector<std::string> summaryCells(const AnswerRow& row) {
           row.missing == 0 ? "" : std::to_string(row.missing)};
 }
 
+constexpr std::string_view kImpossible = "\u2020";
+
+/// N, mean and deviation of another study, as it printed them; a dagger where no answers can have them.
+std::string publishedText(const AnswerRow& row) {
+  if (!row.published) return "";
+  const PublishedSummary& published = *row.published;
+  return fmt::format("{}: {}\u00a0±\u00a0{}{}", published.count, fixedOr(published.mean, 2),
+                     fixedOr(published.deviation, 2), row.can_be_answered ? "" : kImpossible);
+}
+
 const std::vector<std::string> kSummaryHeads{"N",   "Mean", "Standard deviation", "Median",
                                              "Min", "Max",  "95 % of the mean",   "Missing"};
 
+/// Where something is published it stands in grey beside count, mean and deviation.
 std::string answerTable(const std::vector<const AnswerRow*>& shown, bool has_groups) {
-  std::vector<std::string> heads{"Item"};
-  if (has_groups) heads.emplace_back("Group");
-  heads.insert(heads.end(), kSummaryHeads.begin(), kSummaryHeads.end());
-  Rows rows;
+  constexpr std::size_t kPublishedAfter = 3;
+  const bool has_published =
+      std::ranges::any_of(shown, [](const AnswerRow* row) { return row->published.has_value(); });
+  std::vector<std::string> heads = kSummaryHeads;
+  if (has_published) heads.insert(heads.begin() + kPublishedAfter, "Published");
+  heads.insert(heads.begin(), "Item");
+  if (has_groups) heads.insert(heads.begin() + 1, "Group");
+  Rows rows_markup;
   std::string above;
   for (const AnswerRow* row : shown) {
-    std::vector<std::string> cells{row->says == above ? "" : row->says};
+    std::vector<std::string> cells = summaryCells(*row);
+    for (std::string& cell : cells) cell = escaped(cell);
+    if (has_published)
+      cells.insert(cells.begin() + kPublishedAfter,
+                   row->published ? "<span class=\"quiet\">" + escaped(publishedText(*row)) + "</span>" : "");
+    cells.insert(cells.begin(), row->says == above ? "" : escaped(row->says));
     above = row->says;
-    if (has_groups) cells.push_back(groupText(*row));
-    for (std::string& cell : summaryCells(*row)) cells.push_back(std::move(cell));
-    rows.push_back(std::move(cells));
+    if (has_groups) cells.insert(cells.begin() + 1, escaped(groupText(*row)));
+    rows_markup.push_back(std::move(cells));
   }
-  return tableMarkup(heads, rows);
+  return tableOfMarkup(heads, rows_markup);
+}
+
+/// What the grey columns are, and why some of them cannot be.
+std::string publishedWords(const StudyResult& result) {
+  const auto published = [](const AnswerRow& row) { return row.published.has_value(); };
+  const auto first = std::ranges::find_if(result.items, published);
+  if (first == result.items.end()) return "";
+  std::string words = fmt::format("Published, in grey: N, mean ± standard deviation of {}.", result.source);
+  if (std::ranges::any_of(result.items, [](const AnswerRow& row) { return !row.can_be_answered; }))
+    words += fmt::format(" {} No {} whole answers on this scale have this mean and deviation, rounded to two digits.",
+                         kImpossible, first->published->count);
+  return result.published_note.empty() ? words : words + " " + result.published_note;
 }
 
 std::string answersSections(const StudyResult& result) {
@@ -94,6 +125,8 @@ std::string answersSections(const StudyResult& result) {
     content +=
         "<h3>" + escaped(category.empty() ? result.title : category) + "</h3>\n" + answerTable(shown, has_groups);
   }
+  if (const std::string words = publishedWords(result); !words.empty())
+    content += "<p class=\"quiet\">" + escaped(words) + "</p>\n";
   return content;
 }
 

@@ -42,8 +42,10 @@ class AnswerTables {
     for (std::size_t n = 0; n < questionnaire_.items.size(); ++n) {
       const QuestionItem& item = questionnaire_.items[n];
       if (!item.choices.empty()) continue;
-      add({item.id, item.says, item.category, "", "", {}, 0, {}, {}, {}}, result_.items,
-          [n](const AnswerSheet& sheet) { return sheet.values[n]; });
+      AnswerRow row{item.id, item.says, item.category, "", "", {}, 0, {}, {}, {}};
+      row.published = item.published;
+      row.can_be_answered = !row.published || canBeAnswered(*row.published, questionnaire_.low, questionnaire_.high);
+      add(row, result_.items, [n](const AnswerSheet& sheet) { return sheet.values[n]; });
     }
     if (questionnaire_.scoring == Scoring::weighted) addWeights();
     for (const std::string& category : questionnaire_.categories())
@@ -91,6 +93,7 @@ class AnswerTables {
 
   AnswerRow rowOf(AnswerRow row, const std::string& group, const std::string& session, const ValueOf& value_of) const {
     row.group = group.empty() ? "all" : group;
+    if (!group.empty()) row.published.reset();
     row.session = session;
     for (const AnswerSheet& sheet : sheets_) {
       if ((!group.empty() && sheet.group != group) || sheet.session != session) continue;
@@ -268,6 +271,7 @@ StudyResult studyResult(const StudyInput& given) {
   result.participants = std::max(participants.size(), input.participants);
   if (input.questionnaire) {
     result.title = input.questionnaire->title, result.source = input.questionnaire->source;
+    result.published_note = input.questionnaire->published_note;
     AnswerTables(*input.questionnaire, input.answers, result).fill();
   }
   result.tasks = taskRows(input.tasks);

@@ -24,6 +24,8 @@ struct AnswerRow {
   std::size_t missing = 0;
   std::optional<ValueRange> mean_interval, median_interval;  ///< at 95 %
   std::vector<double> values;                                ///< sorted
+  std::optional<PublishedSummary> published = {};            ///< of everybody, by the study the questionnaire is of
+  bool can_be_answered = true;                               ///< false: no whole answers have what is published
 
   bool hasDeviation() const { return values.size() >= kFewestForDeviation; }
 };
@@ -81,7 +83,7 @@ struct SeverityAgreement {
 };
 
 struct StudyResult {
-  std::string title, source;
+  std::string title, source, published_note;
   std::size_t participants = 0;
   std::vector<std::string> groups, sessions;
   std::vector<AnswerRow> items, categories, scores;

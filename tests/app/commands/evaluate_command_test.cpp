@@ -63,6 +63,27 @@ TEST_F(EvaluateCommand, GoesFromConsentToTheStudysTables) {
   EXPECT_EQ(read("study/P01-1/template.toml"), read("study/P02-1/template.toml"));
 }
 
+// A tooth is cut with the burs and the feel that the template names.
+TEST_F(EvaluateCommand, ThePublishedStudyIsRunAgain) {
+  const std::string study_template = kExample + "gajananan.toml", script = kExample + "gajananan_script.jsonl";
+  const ProgramOutput said = molar(session("P01", study_template, script));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto lines = log("P01-1");
+  const auto stops = ofType(lines, "task.stop");
+  ASSERT_EQ(stops.size(), 4u);
+  for (const auto& stop : stops) EXPECT_EQ(stop["data"]["result"], "success") << stop;
+  EXPECT_EQ(ofType(lines, "verified").at(0)["data"]["rules_deviate"], 0);
+  const auto measured = nlohmann::json::parse(molar("metrics " + at("study/P01-1/session.molar") + " --json").out);
+  EXPECT_GT(measured["preparation"]["enamel_mm3"].get<double>(), 3.0);
+  EXPECT_LT(measured["preparation"]["P7_neighbour_mm3"].get<double>(), 0.01);
+  const auto study = nlohmann::json::parse(molar("study " + at("study") + " --questionnaire gajananan --json -").out);
+  EXPECT_EQ(study["items"].size(), 20u);
+  EXPECT_EQ(study["items"][0]["published"]["mean"], 4.8);
+  const ProgramOutput twice = molar(session("P02", study_template, script) + " --preset density-weighted");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_NE(twice.err.find("names density-weighted, leave it out"), std::string::npos) << twice.err;
+}
+
 TEST_F(EvaluateCommand, TheSameSessionTwiceIsTheSameLog) {
   ASSERT_EQ(molar(session("P03")).status, 0);
   const std::string first = read("study/P03-1/events.jsonl"), tasks = read("study/P03-1/tasks.csv");

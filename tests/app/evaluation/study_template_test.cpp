@@ -73,9 +73,22 @@ TEST(StudyTemplate, ReadsEveryKey) {
   EXPECT_TRUE(study.questionnairesFor("student").empty());
 }
 
-TEST(StudyTemplate, TheShippedExampleIsGood) {
-  const std::string file = std::string(MOLAR_SOURCES) + "/app/evaluation/example.toml";
-  EXPECT_EQ(refusalOf(assets::readSmallFile(file)), "accepted");
+TEST(StudyTemplate, TheShippedOnesAreGood) {
+  for (const char* const name : {"example.toml", "gajananan.toml"})
+    EXPECT_EQ(refusalOf(assets::readSmallFile(std::string(MOLAR_SOURCES) + "/app/evaluation/" + name)), "accepted")
+        << name;
+}
+
+TEST(StudyTemplate, NamesWhatIsDoneToOneTooth) {
+  const StudyTemplate study =
+      studyTemplateFrom(assets::readSmallFile(std::string(MOLAR_SOURCES) + "/app/evaluation/gajananan.toml"), "g.toml");
+  EXPECT_EQ(study.operation.task, "preparation");
+  EXPECT_EQ(study.operation.tooth, 46);
+  EXPECT_EQ(study.operation.ideal, "class-1");
+  EXPECT_EQ(study.operation.preset, "density-weighted");
+  EXPECT_EQ(study.tools(),
+            (std::vector<std::string>{"sphere:0.6", "cylinder:0.6,1.4", "capsule:0.5,0.6", "cone:0.6,1.6"}));
+  EXPECT_TRUE(studyTemplateFrom(kGood, "t.toml").operation.task.empty());
 }
 
 TEST(StudyTemplate, BrokenOnesAreRefusedWithFileLineAndKey) {
@@ -123,6 +136,13 @@ TEST(StudyTemplate, BrokenOnesAreRefusedWithFileLineAndKey) {
       {with("seed = 3", "seed ="), "line 6:", "TOML"},
       {with("[[prompt]]", "[prompt]"), "", "prompt"},
       {kGood.substr(0, kGood.find("[[task]]")), "", "task"},
+      {with("[may_change]", "[operation]\ntask = \"extracting\"\n[may_change]"), "line 11:", "task"},
+      {with("[may_change]", "[operation]\ntooth = 46\n[may_change]"), "line 11:", "tooth"},
+      {with("[may_change]", "[operation]\ntask = \"preparation\"\ntooth = 99\n[may_change]"), "line 12:", "tooth"},
+      {with("[may_change]", "[operation]\ntask = \"root-canal\"\nideal = \"class-1\"\n[may_change]"),
+       "line 12:", "ideal"},
+      {with("[may_change]", "[operation]\npreset = \"usual\"\n[may_change]"), "line 11:", "preset"},
+      {with("[may_change]", "[operation]\ntask = \"preparation\"\nside = \"left\"\n[may_change]"), "line 12:", "side"},
   };
   EXPECT_GE(broken.size(), 30u);
   for (const Broken& one : broken) {

@@ -85,6 +85,8 @@ TEST(Questionnaire, AWrongFileIsRefusedWithItsLine) {
   };
   const std::string item = "[[item]]\nid = \"A\"\ncategory = \"C\"\nsays = \"Good\"\n";
   EXPECT_EQ(refusal(head + "scoring = \"categories\"\n" + item), "accepted");
+  EXPECT_EQ(refusal(head + "scoring = \"categories\"\npublished_count = 10\n" + item + "published_mean = 4.5\n"),
+            "accepted");
   for (const std::string& text : {
            head + "scoring = \"sum\"\n" + item,
            head + "scoring = \"weighted\"\n" + item,
@@ -95,6 +97,10 @@ TEST(Questionnaire, AWrongFileIsRefusedWithItsLine) {
            head + "scoring = \"categories\"\n[[item]]\nid = \"A B\"\ncategory = \"C\"\nsays = \"Good\"\n",
            head + "scoring = \"categories\"\ncolour = 1\n" + item,
            head + "scoring = \"categories\"\n",
+           head + "scoring = \"categories\"\n" + item + "published_mean = 4\n",
+           head + "scoring = \"categories\"\npublished_count = 10\n" + item + "published_mean = 8\n",
+           head + "scoring = \"categories\"\npublished_count = 10\n" + item + "published_deviation = -1\n",
+           head + "scoring = \"categories\"\npublished_count = 1000\n" + item,
            "id = \"x\"\ntitle = \"X\"\nsource = \"own\"\nlow = 5\nhigh = 3\nscale = [\"a\", \"b\"]\nscoring = "
            "\"mean\"\n" +
                item,

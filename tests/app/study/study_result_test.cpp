@@ -60,7 +60,7 @@ TEST(StudyResult, GivesThePublishedTableOfTenDentists) {
   };
   const std::vector<Published> table{{"VT1", "4.80", "1.32"}, {"VT2", "5.20", "0.92"}, {"VI1", "5.30", "0.82"},
                                      {"VI2", "5.20", "0.63"}, {"VI3", "5.10", "0.88"}, {"VI4", "5.10", "0.74"},
-                                     {"HI1", "4.80", "1.14"}, {"HI2", "4.70", "1.06"}, {"U1", "5.60", "0.52"},
+                                     {"HI1", "4.80", "1.14"}, {"HI3", "4.70", "1.06"}, {"U3", "5.60", "0.52"},
                                      {"E1", "4.40", "1.07"},  {"E2", "4.60", "0.84"},  {"E3", "4.90", "0.99"}};
   std::vector<std::vector<int>> answers;
   std::string csv = "participant";
@@ -78,13 +78,48 @@ TEST(StudyResult, GivesThePublishedTableOfTenDentists) {
   for (const Published& one : table) {
     const AnswerRow& row = rowNamed(result.items, one.item);
     EXPECT_EQ(row.summary.count, 10u);
-    const std::string cells =
-        "<td>" + row.says + "</td><td>10</td><td>" + one.mean + "</td><td>" + one.deviation + "</td>";
+    // Ours, and in grey what was printed.
+    const std::string cells = "<td>" + row.says + "</td><td>10</td><td>" + one.mean + "</td><td>" + one.deviation +
+                              "</td><td><span class=\"quiet\">10: " + one.mean + "\u00a0±\u00a0" + one.deviation +
+                              "</span></td>";
     EXPECT_NE(page.find(cells), std::string::npos) << cells;
   }
+  EXPECT_NE(page.find("10: 4.40\u00a0±\u00a01.32†"), std::string::npos);
+  EXPECT_NE(page.find("† No 10 whole answers on this scale"), std::string::npos);
+  EXPECT_NE(page.find("repeat those of the tooth model"), std::string::npos);
+  const auto json = nlohmann::json::parse(studyJson(result))["items"];
+  std::vector<std::string> impossible;
+  for (const auto& item : json)
+    if (!item["published"]["possible"]) impossible.push_back(item["id"]);
+  EXPECT_EQ(impossible, (std::vector<std::string>{"HT1", "HT2", "HT3", "U1", "U2"}));
   // What no ten whole answers can have.
   EXPECT_TRUE(tenAnswers(4.8, 0.84).empty());
   EXPECT_EQ(rowNamed(result.items, "VT3").summary.count, 0u) << "a column that is not there";
+}
+
+// Every list of answers, counted out.
+TEST(PublishedSummary, IsPossibleWhereSomeAnswersHaveIt) {
+  for (int mean_hundredths = 100; mean_hundredths <= 400; mean_hundredths += 5)
+    for (int deviation_hundredths = 0; deviation_hundredths <= 180; deviation_hundredths += 3) {
+      const double mean = mean_hundredths / 100.0, deviation = deviation_hundredths / 100.0;
+      bool is_found = false;
+      for (int code = 0; code < 4 * 4 * 4 * 4 * 4 && !is_found; ++code) {
+        double sum = 0.0, squares = 0.0;
+        for (int n = 0, left = code; n < 5; ++n, left /= 4)
+          sum += 1 + left % 4, squares += (1 + left % 4) * (1 + left % 4);
+        is_found = std::abs(sum / 5.0 - mean) < 0.005 + 1e-9 &&
+                   std::abs(std::sqrt((squares - sum * sum / 5.0) / 4.0) - deviation) < 0.005 + 1e-9;
+      }
+      EXPECT_EQ(canBeAnswered({5, mean, deviation}, 1, 4), is_found) << mean << " " << deviation;
+    }
+}
+
+TEST(PublishedSummary, WhatWasNotLegibleIsNotAskedFor) {
+  EXPECT_TRUE(canBeAnswered({10, {}, 0.84}, 1, 7));
+  EXPECT_FALSE(canBeAnswered({10, 4.8, 0.84}, 1, 7));
+  EXPECT_TRUE(canBeAnswered({10, 4.8, {}}, 1, 7));
+  EXPECT_FALSE(canBeAnswered({10, 4.85, {}}, 1, 7));
+  EXPECT_FALSE(canBeAnswered({10, {}, 0.72}, 1, 7)) << "of no ten answers at all";
 }
 
 TEST(StudyResult, MissingAnswersLowerTheNumberOfTheirItem) {

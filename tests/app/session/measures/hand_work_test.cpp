@@ -105,19 +105,27 @@ TEST(HandWork, IdsAreUniqueAndWhatIsMissingSaysWhy) {
   EXPECT_GT(ids.size(), 20U);
 }
 
+// On a jaw's voxels, and on a fine field's, which are taken together.
 TEST(HandWork, OutOfABallOfBoneIsAwayFromItsCentre) {
-  const assets::VolumeGrid grid{.size = glm::ivec3(60), .spacing_mm = 0.3, .origin_P_mm = glm::dvec3(-8.85)};
-  std::vector<std::uint8_t> solid(grid.voxelCount());
-  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    const double depth_mm = 5.0 - glm::length(grid.origin_P_mm + grid.spacing_mm * glm::dvec3(ijk));
-    solid[v] = static_cast<std::uint8_t>(255.0 * std::clamp(0.5 + depth_mm / 0.3, 0.0, 1.0));
-  });
-  const OriginalSurface surface(grid, solid);
-  for (const glm::dvec3 direction : {glm::dvec3(1, 0, 0), glm::dvec3(0.6, 0.8, 0), glm::dvec3(0.48, -0.6, 0.64)})
-    for (const double r_mm : {3.5, 5.0, 6.5})
-      EXPECT_GT(glm::dot(surface.normalAt(r_mm * direction), direction), 0.98) << r_mm;
-  EXPECT_EQ(surface.normalAt({50.0, 0.0, 0.0}), glm::dvec3(0.0));
-  EXPECT_EQ(surface.normalAt(glm::dvec3(std::nan(""))), glm::dvec3(0.0));
+  for (const double spacing_mm : {0.3, 0.09}) {
+    const int count = static_cast<int>(18.0 / spacing_mm);
+    const double first_mm = -0.5 * (count - 1) * spacing_mm;
+    const assets::VolumeGrid grid{
+        .size = glm::ivec3(count), .spacing_mm = spacing_mm, .origin_P_mm = glm::dvec3(first_mm)};
+    std::vector<std::uint8_t> solid(grid.voxelCount());
+    assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+      const double depth_mm = 5.0 - glm::length(grid.origin_P_mm + grid.spacing_mm * glm::dvec3(ijk));
+      solid[v] = static_cast<std::uint8_t>(255.0 * std::clamp(0.5 + depth_mm / spacing_mm, 0.0, 1.0));
+    });
+    const OriginalSurface surface(grid, solid);
+    for (const glm::dvec3 direction : {glm::dvec3(1, 0, 0), glm::dvec3(0.6, 0.8, 0), glm::dvec3(0.48, -0.6, 0.64)})
+      for (const double r_mm : {3.5, 5.0, 6.5}) {
+        EXPECT_GT(glm::dot(surface.normalAt(r_mm * direction), direction), 0.98) << r_mm << " " << spacing_mm;
+        EXPECT_NEAR(surface.distance_mm(r_mm * direction), r_mm - 5.0, 0.1) << spacing_mm;
+      }
+    EXPECT_EQ(surface.normalAt({50.0, 0.0, 0.0}), glm::dvec3(0.0));
+    EXPECT_EQ(surface.normalAt(glm::dvec3(std::nan(""))), glm::dvec3(0.0));
+  }
 }
 
 }  // namespace
