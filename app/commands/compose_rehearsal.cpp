@@ -347,6 +347,8 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.access = "open";  // its cavity is as it was left
       refuseUnlessForRootCanal(options);
     }
+    if (options.cavity == "ready")
+      throw UsageError("--cavity ready: --continue takes the tooth as it was left, leave it out");
     if (const auto& prepared = former->setup.prepared) {
       options.task = "preparation";
       options.tooth = prepared->fdi;
@@ -457,13 +459,17 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);
-  if (former) plan.scanned_solid = former->applyTo(plan.patient);
+  if (former) {
+    plan.scanned_solid = former->applyTo(plan.patient);
+    plan.laid = former->laid;
+  }
   if (!options.drawn.empty()) refuseUnlessDrawnHere(options, plan.patient.ct);
   if (!former && !block && !are_tools_named && !isShown(options) && plan.patient.site) completeTray(plan);
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) describeSetup(plan, options, jaw, former);
-  if (plan.recording && plan.patient.prepared) plan.recording->whole = plan.scanned_solid;
+  // Of a single tooth all that was done to it counts.
+  if (plan.recording && (plan.patient.prepared || plan.patient.canals)) plan.recording->whole = plan.scanned_solid;
   plan.paper_mm = 0.001 * options.paper_um;
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   placeInRoom(plan, position, chosen, device, X_PF);

@@ -35,7 +35,7 @@ std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, con
   TreatmentOfSession of{*start.setup.canals, {}};
   if (const std::vector<SessionCommand> commands = session.commands(); !commands.empty())
     of.wear = commands.back().command.wear.law;
-  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
+  const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
   const DenseSolid after(start.grid, solid_after);
   of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth));
   return of;

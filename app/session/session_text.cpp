@@ -356,6 +356,7 @@ std::string aboutText(const SessionStart& start) {
                 {"started_utc", start.started_utc}};
   if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty())
     about["soft_tissue_grid"] = gridJson(start.soft_tissue->grid);
+  if (start.laid != nullptr) about["laid_before_age_s"] = start.laid->age_s;
   return dumped(about);
 }
 
@@ -380,6 +381,12 @@ SessionAbout aboutFromText(std::string_view text) {
   if (!about.start.setup.proposed.any() && about.start.patient_title.ends_with(assets::kNotConfirmedTitle))
     about.start.setup.proposed = {true, true};
   about.start.started_utc = valueOf(object, "started_utc", std::string());
+  if (const auto ages = object.find("laid_before_age_s"); ages != object.end() && ages->is_array())
+    for (const json& age : *ages) {
+      const double age_s = age.is_number() ? age.get<double>() : -1.0;
+      if (!(age_s >= 0.0 && age_s < 1e9)) throw damagedSession("it has no valid age of its filling");
+      about.laid_before_age_s.push_back(age_s);
+    }
   return about;
 }
 

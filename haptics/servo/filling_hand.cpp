@@ -24,7 +24,7 @@ assets::Tissue materialOf(HandInstrument kind) {
     case HandInstrument::glass_ionomer:
       return assets::Tissue::glass_ionomer_soft;
     case HandInstrument::amalgam:
-      return assets::Tissue::amalgam;
+      return assets::Tissue::amalgam_soft;
     case HandInstrument::wax:
       return assets::Tissue::wax;
     case HandInstrument::gutta_percha:
@@ -36,12 +36,23 @@ assets::Tissue materialOf(HandInstrument kind) {
 
 }  // namespace
 
+FillingHand::FillingHand(const Filling* filling) {
+  if (filling == nullptr) return;
+  const Filling::Begun& begun = filling->begun();
+  increment_ = begun.increment;
+  material_ = begun.material;
+  ended_ = material_ == assets::Tissue::unlabelled;
+  age_s_ = begun.age_s;
+}
+
 FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool& tool,
                               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, bool pedal,
                               const ErosionSettings& erosion, double dt_s, std::uint64_t tick) noexcept {
   FillingWork done;
   Filling* const filling = bodies.filling();
   if (filling == nullptr) return done;
+  for (unsigned n = 1; n <= increment_; ++n) age_s_[n] += dt_s;
+  hardening_.step(*filling, age_s_);
   const HandInstrument kind = tool.hand_instrument;
   done.works = pedal && fills(kind);
   // A press is a stroke.
@@ -57,14 +68,20 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
     const LaidBall ball{bodies.jaw().field(), *filling, {X_PT.translation_mm}, radius_mm, tick, &strokes};
     if (isApplicator(kind)) {
       const assets::Tissue material = materialOf(kind);
-      ended_ = ended_ || material != material_;
+      // What has set is not gone on with, nor is what is about to.
+      const Setting setting = settingOf(static_cast<std::uint8_t>(material));
+      const bool is_old = setting.by_itself_s > 0.0 && age_s_[increment_] > kMixed_share * setting.by_itself_s;
+      ended_ = ended_ || material != material_ || is_old;
       const unsigned increment = std::min(increment_ + (ended_ ? 1U : 0U), Filling::kMostIncrements);
       due_steps_ += kLaying_mm3_per_s * dt_s / step_mm3;
       const auto most = static_cast<std::int64_t>(due_steps_);
       const std::int64_t laid = layBall(ball, material, increment, most);
       // What finds no room is not owed.
       due_steps_ -= static_cast<double>(most);
-      if (laid > 0) increment_ = increment, material_ = material, ended_ = false;
+      if (laid > 0) {
+        if (ended_) age_s_[increment] = 0.0;
+        increment_ = increment, material_ = material, ended_ = false;
+      }
     } else if (kind == HandInstrument::plugger) {
       const std::int64_t moved = packBall(ball, kPacking_per_s * dt_s);
       done.packed_mm3 = static_cast<double>(moved) * step_mm3;
@@ -84,7 +101,8 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
   done.changed_mm3 = filling->volume_mm3() - before_mm3;
   done.increment = static_cast<std::uint8_t>(increment_);
   done.total_mm3 = filling->volume_mm3();
-  done.cured_mm3 = filling->volume_mm3(assets::Tissue::composite) + filling->volume_mm3(assets::Tissue::glass_ionomer);
+  for (const assets::Tissue set : {assets::Tissue::composite, assets::Tissue::glass_ionomer, assets::Tissue::amalgam})
+    done.cured_mm3 += filling->volume_mm3(set);
   done.is_full = filling->blocksLeft() == 0;
   return done;
 }
