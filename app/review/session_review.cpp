@@ -48,8 +48,9 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
                                                       : "a practice block has none";
   review.is_against_plan = static_cast<bool>(about.from_plan_mm);
   const SiteView site = siteViewOf(start, again.patient, again.left.solid);
-  review.pictures =
-      bonePictures({start.grid, start.label, start.solid, again.left.solid}, site, about.from_plan_mm, {480, 420});
+  const auto& laid = again.left.laid;
+  review.pictures = bonePictures({start.grid, start.label, start.solid, again.left.solid, laid ? &*laid : nullptr},
+                                 site, about.from_plan_mm, {480, 420});
   return review;
 }
 

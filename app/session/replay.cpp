@@ -1,5 +1,6 @@
 #include "app/session/replay.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -193,6 +194,22 @@ BoneLeft boneLeft(SessionReader& session, const StoredStart& start) {
   left.remarks.push_back(replayedText(start));
   if (state.divergence) left.remarks.push_back(divergenceText(state));
   return left;
+}
+
+std::vector<std::uint8_t> withLaid(std::vector<std::uint8_t> solid,
+                                   const std::optional<haptics::Filling::Volumes>& laid) {
+  if (!laid) return solid;
+  for (std::size_t v = 0; v < solid.size(); ++v)
+    solid[v] = static_cast<std::uint8_t>(std::min(255, solid[v] + laid->laid[v]));
+  return solid;
+}
+
+std::vector<std::uint8_t> labelsWithLaid(const BoneAtTime& bone) {
+  std::vector<std::uint8_t> label = bone.start.label;
+  if (!bone.laid) return label;
+  for (std::size_t v = 0; v < label.size(); ++v)
+    if (bone.laid->laid[v] > 0 && bone.laid->laid[v] >= bone.solid[v]) label[v] = bone.laid->tissue[v];
+  return label;
 }
 
 BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {

@@ -88,6 +88,12 @@ struct BoneAtTime {
   std::vector<std::string> remarks;  ///< for people: that it was replayed, and how exact that is
 };
 
+/// The solid with what was laid into it.
+std::vector<std::uint8_t> withLaid(std::vector<std::uint8_t> solid,
+                                   const std::optional<haptics::Filling::Volumes>& laid);
+/// The tissue of each voxel; of a filling where it is the larger part.
+std::vector<std::uint8_t> labelsWithLaid(const BoneAtTime& bone);
+
 /// The final bone if `t_s` is none or past the end: as recorded, else by a replay. Throws SessionError if the session
 /// is damaged, or its log is missing and needed.
 BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s);
