@@ -10,6 +10,7 @@
 #include "app/session/replay.h"
 #include "app/session/session_moments.h"
 #include "app/session/session_reader.h"
+#include "assets/scan/image_file.h"
 #include "tests/app/commands/program.h"
 
 namespace app {
@@ -171,6 +172,20 @@ TEST_F(FillingCommand, AFilledSessionIsGoneOnWith) {
     moments.goTo(t_s);
     EXPECT_EQ(moments.bodies().digest(), replayTo(session, t_s).bodies.digest()) << t_s;
   }
+  // In volumes: as solid as the tooth, and of its material.
+  ASSERT_EQ(molar("replay " + at("next.molar") + " --volume " + at("v.nrrd") + " --labels " + at("l.nrrd")).status, 0);
+  ASSERT_EQ(molar("replay " + at("far.molar") + " --volume " + at("before.nrrd")).status, 0);
+  const assets::ByteImage solid = assets::readSolid(at("v.nrrd")), label = assets::readLabels(at("l.nrrd")),
+                          before = assets::readSolid(at("before.nrrd"));
+  const auto laid = session.finalFilling(start);
+  double steps = 0.0;
+  for (std::size_t v = 0; v < solid.values.size(); ++v) {
+    steps += solid.values[v] - before.values[v];
+    if (laid->laid[v] == 0 || laid->laid[v] > 200) {
+      ASSERT_EQ(label.values[v], laid->laid[v] == 0 ? start.label[v] : laid->tissue[v]);
+    }
+  }
+  EXPECT_NEAR(steps / 255.0 * start.grid.voxelVolume_mm3(), last.filling.total_mm3, 1e-6);
   const ProgramOutput bites = molar("replay " + at("next.molar") + " --bites");
   EXPECT_EQ(bites.status, 0) << bites.err;
   EXPECT_EQ(molar("report " + at("next.molar") + " --out " + at("next.html")).status, 0);
