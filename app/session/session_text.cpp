@@ -83,16 +83,22 @@ void forEachNumber(auto& tool, auto&& visit) {
 }
 
 json fileJson(const haptics::CanalFile& file) {
-  const auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
-  return {{"size", size},         {"length_mm", length_mm},
-          {"bent_deg", bent_deg}, {"nickel_titanium", nickel_titanium},
-          {"bent_mm", bent_mm},   {"bent_towards_deg", bent_towards_deg},
-          {"stop_mm", stop_mm}};
+  const auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm, cone_taper, sealer_mm3] =
+      file;
+  return {{"size", size},
+          {"length_mm", length_mm},
+          {"bent_deg", bent_deg},
+          {"nickel_titanium", nickel_titanium},
+          {"bent_mm", bent_mm},
+          {"bent_towards_deg", bent_towards_deg},
+          {"stop_mm", stop_mm},
+          {"cone_taper", cone_taper},
+          {"sealer_mm3", sealer_mm3}};
 }
 
 haptics::CanalFile fileFrom(const json& object) {
   haptics::CanalFile file;
-  auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
+  auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm, cone_taper, sealer_mm3] = file;
   const int hundredths = valueOf(object, "size", 0);
   if (hundredths < 0) throw damagedSession("it has no valid tray");
   size = static_cast<std::uint64_t>(hundredths);
@@ -102,6 +108,8 @@ haptics::CanalFile fileFrom(const json& object) {
   bent_mm = valueOf(object, "bent_mm", bent_mm);
   bent_towards_deg = valueOf(object, "bent_towards_deg", bent_towards_deg);
   stop_mm = valueOf(object, "stop_mm", stop_mm);
+  cone_taper = valueOf(object, "cone_taper", cone_taper);
+  sealer_mm3 = valueOf(object, "sealer_mm3", sealer_mm3);
   return file;
 }
 
@@ -272,7 +280,7 @@ SessionSetup setupFrom(const json& object) {
         throw damagedSession("it has no valid tray");
       tool.elevator = static_cast<haptics::ElevatorKind>(elevator);
       const int by_hand = valueOf(one, "hand_instrument", 0);
-      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::curing_lamp))
+      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::root_plugger))
         throw damagedSession("it has no valid tray");
       tool.hand_instrument = static_cast<haptics::HandInstrument>(by_hand);
       const int profile = valueOf(one, "profile", 0);

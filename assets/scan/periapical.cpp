@@ -89,7 +89,8 @@ void addPlane(const Slab& slab, int plane, const std::vector<Ray>& rays, std::ve
 float attenuationOf(std::uint8_t solid, std::uint8_t label) {
   const std::uint8_t tissue = label < kTissueCount ? label : std::uint8_t{0};
   const int full = kAttenuation[tissue];
-  const bool is_soft = tissue != 0 && !isHard(tissue);
+  // Tissue fills what lies between hard parts, a filling is where it was laid.
+  const bool is_soft = tissue != 0 && !isHard(tissue) && tissue < kScanTissueCount;
   return static_cast<float>(is_soft ? full : (full * solid + 127) / 255);
 }
 

@@ -45,6 +45,14 @@ FillingHand::FillingHand(const Filling* filling) {
   age_s_ = begun.age_s;
 }
 
+void FillingHand::lay(const LaidCone& cone) noexcept {
+  increment_ = std::min(increment_ + 1U, Filling::kMostIncrements);
+  material_ = assets::Tissue::gutta_percha;
+  ended_ = true;
+  age_s_[increment_] = 0.0;
+  cone_.begin(cone, increment_);
+}
+
 FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool& tool,
                               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, bool pedal,
                               const ErosionSettings& erosion, double dt_s, std::uint64_t tick) noexcept {
@@ -54,7 +62,8 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
   for (unsigned n = 1; n <= increment_; ++n) age_s_[n] += dt_s;
   hardening_.step(*filling, age_s_);
   const HandInstrument kind = tool.hand_instrument;
-  done.works = pedal && fills(kind);
+  const bool lays_cone = cone_.isRunning();
+  done.works = lays_cone || (pedal && fills(kind));
   // A press is a stroke.
   if (done.works != std::exchange(worked_, done.works)) strokes.endStroke();
   const double step_mm3 = filling->grid().voxelVolume_mm3() / 255.0;
@@ -62,6 +71,8 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
   if (!done.works) {
     due_steps_ = 0.0;
     light_.rest();
+  } else if (lays_cone) {
+    cone_.step(bodies.jaw().field(), *filling, &strokes);
   } else {
     // An instrument is as thick as it is made, whatever a command says.
     const double radius_mm = kTipRadii_mm[static_cast<std::size_t>(kind)];
@@ -82,8 +93,12 @@ FillingWork FillingHand::work(Bodies& bodies, StrokeHistory& strokes, const Tool
         if (ended_) age_s_[increment] = 0.0;
         increment_ = increment, material_ = material, ended_ = false;
       }
-    } else if (kind == HandInstrument::plugger) {
-      const std::int64_t moved = packBall(ball, kPacking_per_s * dt_s);
+    } else if (kind == HandInstrument::plugger || kind == HandInstrument::root_plugger) {
+      // A hot one moves what is ahead, and a part of what is in its way aside.
+      const bool ahead = kind == HandInstrument::root_plugger && tick % kAsideOneIn != 0;
+      const glm::dvec3 way_P = X_PT.rotation * glm::dvec3(0.0, 0.0, -1.0);
+      const double share = kPacking_per_s * dt_s;
+      const std::int64_t moved = ahead ? packAhead(ball, way_P, share) : packBall(ball, share);
       done.packed_mm3 = static_cast<double>(moved) * step_mm3;
       const bool sets = filling->volume_mm3(assets::Tissue::composite_soft) > 0.0 ||
                         filling->volume_mm3(assets::Tissue::glass_ionomer_soft) > 0.0;
