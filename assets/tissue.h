@@ -35,8 +35,9 @@ enum class Tissue : std::uint8_t {
   amalgam = 16,
   wax = 17,
   gutta_percha = 18,
+  amalgam_soft = 19,  ///< not set yet
 };
-inline constexpr int kTissueCount = 19;
+inline constexpr int kTissueCount = 20;
 inline constexpr int kScanTissueCount = 12;  ///< labels that a volume may have
 
 struct TissueProperties {
@@ -66,9 +67,10 @@ inline constexpr std::array<TissueProperties, kTissueCount> kTissues = {{
     {"composite", "composite", 1900.0, 1.25, 0.88, false, false},
     {"glass_ionomer_soft", "uncured glass ionomer", 1700.0, 100.0, 0.12, false, false},
     {"glass_ionomer", "glass ionomer", 1700.0, 1.25, 0.88, false, false},
-    {"amalgam", "amalgam", 3000.0, 30.0, 0.4, false, false},
+    {"amalgam", "amalgam", 3000.0, 1.0, 1.2, false, false},
     {"wax", "wax", 100.0, 60.0, 0.2, false, false},
     {"gutta_percha", "gutta-percha", 2500.0, 60.0, 0.2, false, false},
+    {"amalgam_soft", "plastic amalgam", 3000.0, 30.0, 0.4, false, false},
 }};
 
 constexpr const TissueProperties& properties(std::uint8_t label) { return kTissues[label < kTissueCount ? label : 0]; }

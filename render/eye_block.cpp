@@ -69,7 +69,9 @@ EyeBlock eyeBlock(const Frame& frame, const EyeView& view) {
           .field_cover = {frame.field.water, frame.field.blood, frame.field.dust, frame.field.spray},
           .begin_P = glm::vec4(0.0f),
           .glass = {glassBefore(frame, view.eye_W) ? 1.0f : 0.0f,
-                    frame.second_glass ? static_cast<float>(frame.second_glass->fog) : 0.0f, 0.0f, 0.0f}};
+                    frame.second_glass ? static_cast<float>(frame.second_glass->fog) : 0.0f, 0.0f, 0.0f},
+          .curing_P = frame.curing ? packed(frame.curing->tip_P.mm, frame.curing->reach_mm) : glm::vec4(0.0f),
+          .curing_axis_P = frame.curing ? packed(frame.curing->axis_P, frame.curing->radius_mm) : glm::vec4(0.0f)};
 }
 
 std::optional<EyeBlock> reflectedEyeBlock(const Frame& frame, const EyeView& view) {

@@ -14,9 +14,9 @@ namespace render {
 struct EyeBlock {
   glm::mat4 clip_from_P;
   glm::vec4 eye_P, lower_left_P, right_edge_P, up_edge_P, lamp_P, lamp_axis_P, up_P, window_eye_P, window_site_P,
-      field_P, field_cover, begin_P, glass;
+      field_P, field_cover, begin_P, glass, curing_P, curing_axis_P;
 };
-static_assert(sizeof(EyeBlock) == 64 + 13 * 16);
+static_assert(sizeof(EyeBlock) == 64 + 15 * 16);
 
 EyeBlock eyeBlock(const Frame& frame, const EyeView& view);
 

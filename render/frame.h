@@ -120,6 +120,14 @@ struct MirrorGlass {
   double fog = 0.0;  ///< 0..1, of breath and spray, drawn as a grey veil
 };
 
+/// Light of a curing lamp: from its tip along an axis, no wider than its rod; blue, on whatever it reaches, without
+/// shadows.
+struct CuringSpot {
+  calibration::Point<calibration::Patient> tip_P;
+  glm::dvec3 axis_P{0.0, 0.0, -1.0};  ///< unit, away from the lamp
+  double radius_mm = 4.0, reach_mm = 8.0;
+};
+
 enum class Antialias { none, edges };
 
 /// Quality settings that a slower machine can reduce. The drawn surface moves only for `step_voxels` above one half.
@@ -155,6 +163,7 @@ struct Frame {
   std::optional<GuideArrow> arrow;
   std::optional<Magnified> magnified;
   glm::dvec3 slices_beside_bur_P_mm{0.0};  ///< where the CT slices cross, from the bur
+  std::optional<CuringSpot> curing;        ///< none: it is off
   bool tool_visible = true;
   bool tool_shades = true;    ///< as a bur does; forceps, elevators and hand instruments have no parts for it
   bool has_handpiece = true;  ///< behind the bur; it shades, too

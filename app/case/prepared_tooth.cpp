@@ -9,6 +9,7 @@
 
 #include "app/case/caries_lesion.h"
 #include "app/case/closed_gum.h"
+#include "app/case/left_out_teeth.h"
 #include "app/case/treated_tooth.h"
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
@@ -192,6 +193,10 @@ assets::Patient preparedTooth(const assets::Patient& whole, const std::optional<
   patient.gingiva = gum ? *std::move(gum) : whole.gingiva;
   patient.has_modelled_gum = whole.has_modelled_gum;
   patient.face = whole.face;
+  assets::MeshPart others = leftOutTeeth(whole.ct, [fdi](int other) {
+    return other != fdi && !isBeside(fdi, other) && assets::isUpper(other) == assets::isUpper(fdi);
+  });
+  if (!others.triangles.empty()) patient.face.parts.push_back(std::move(others));
   patient.has_built_in_face = whole.has_built_in_face;
   patient.X_PF = whole.X_PF;
   return patient;

@@ -4,11 +4,13 @@
 #include <cstdlib>
 #include <thread>
 
+#include "app/case/fitting_cone.h"
 #include "app/case/patient_placement.h"
 #include "app/commands/compose_preparation.h"
 #include "app/commands/rehearsal_refusals.h"
 #include "app/commands/rehearsed_case.h"
 #include "app/controls/prediction_question.h"
+#include "app/controls/tool_ring.h"
 #include "app/device/falcon_scale_file.h"
 #include "app/device/pose_source_table.h"
 #include "app/options/command_settings.h"
@@ -58,6 +60,12 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
   if (options.position && !hasNoPatientPose(rig))
     throw UsageError("--position " + *options.position + ": the rig states the pose of the head (X_WP), leave it out");
   return rig;
+}
+
+/// Of the canals, below where files are read.
+double orificeDepth_mm(const assets::ToothCanals& tooth) {
+  const assets::ToothCanal& first = tooth.canals.front();
+  return glm::dot(first.reference_P_mm - first.orifice_P_mm(), tooth.frame.axes_P[2]);
 }
 
 /// The device is opened first, as a rig belongs to one device and only the device knows its serial number.
@@ -347,6 +355,8 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.access = "open";  // its cavity is as it was left
       refuseUnlessForRootCanal(options);
     }
+    if (options.cavity == "ready")
+      throw UsageError("--cavity ready: --continue takes the tooth as it was left, leave it out");
     if (const auto& prepared = former->setup.prepared) {
       options.task = "preparation";
       options.tooth = prepared->fdi;
@@ -376,6 +386,17 @@ void completeTray(RehearsalPlan& plan) {
   for (const haptics::HandInstrument kind :
        {haptics::HandInstrument::suction, haptics::HandInstrument::curette, haptics::HandInstrument::bone_file})
     plan.other_tools.push_back(haptics::handInstrumentTool(kind));
+}
+
+/// Whoever named no tools finds a cone that fits for each canal, as far as the ring has room, and a hot plugger.
+void completeRootTray(RehearsalPlan& plan) {
+  std::vector<haptics::Tool>& tray = plan.other_tools;
+  const auto has_room = [&] { return tray.size() + 2 < kMostInRing; };
+  for (const assets::ToothCanal& canal : plan.patient.canals->canals) {
+    const haptics::Tool cone = toolFrom(orderOf(fittingCone(canal)), {});
+    if (has_room() && std::ranges::find(tray, cone) == tray.end()) tray.push_back(cone);
+  }
+  tray.push_back(haptics::handInstrumentTool(haptics::HandInstrument::root_plugger));
 }
 
 /// What a recording has to know to be gone on from.
@@ -451,19 +472,24 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (plan.patient.canals) refuseTooWide(plan);
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
-                                   plan.patient.canals->frame.axes_P[2]};
+                                   plan.patient.canals->frame.axes_P[2], orificeDepth_mm(*plan.patient.canals)};
   if (plan.patient.prepared) planPreparation(plan);
   if (options.cavity == "ready" && plan.patient.prepared) plan.scanned_solid = cutReady(plan.patient);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);
   if (options.flap == "closed") closeFlap(plan);
-  if (former) plan.scanned_solid = former->applyTo(plan.patient);
+  if (former) {
+    plan.scanned_solid = former->applyTo(plan.patient);
+    plan.laid = former->laid;
+  }
   if (!options.drawn.empty()) refuseUnlessDrawnHere(options, plan.patient.ct);
   if (!former && !block && !are_tools_named && !isShown(options) && plan.patient.site) completeTray(plan);
+  if (!former && !are_tools_named && plan.patient.canals) completeRootTray(plan);
   if (!plan.recording && !options.no_record)
     plan.recording = defaultRecording(plan.patient.site ? plan.patient.site->fdi : 0);
   if (plan.recording) describeSetup(plan, options, jaw, former);
-  if (plan.recording && plan.patient.prepared) plan.recording->whole = plan.scanned_solid;
+  // Of a single tooth all that was done to it counts.
+  if (plan.recording && (plan.patient.prepared || plan.patient.canals)) plan.recording->whole = plan.scanned_solid;
   plan.paper_mm = 0.001 * options.paper_um;
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   placeInRoom(plan, position, chosen, device, X_PF);

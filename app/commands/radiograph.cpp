@@ -82,7 +82,8 @@ render::Image filmOfTreated(const RadiographOptions& options, const BoneAtTime& 
                                  setup.canals->fdi));
   std::optional<assets::CtVolume> jaw;
   if (setup.built_in) jaw = builtInPatient(*setup.built_in).ct;
-  auto film = treatmentFilm(bone.start, bone.solid, bone.fragments, jaw ? &*jaw : nullptr, options.shift_deg);
+  auto film = treatmentFilm(bone.start, {bone.solid, bone.fragments, bone.laid ? &*bone.laid : nullptr},
+                            jaw ? &*jaw : nullptr, options.shift_deg);
   if (!film) throw noSuchTooth(options.session, options.fdi);
   return std::move(*film);
 }

@@ -75,9 +75,10 @@ void refuseTooWide(const RehearsalPlan& plan) {
   for (const haptics::Tool& tool : plan.other_tools)
     if (tool.isFile() && 0.01 * static_cast<double>(tool.file.size) > widest_mm)
       throw UsageError(
-          fmt::format("--tool k-file:{},{:g}: its tip is wider than the widest orifice of tooth {}, {:.2f} mm, choose "
+          fmt::format("--tool {}:{},{:g}: its tip is wider than the widest orifice of tooth {}, {:.2f} mm, choose "
                       "a smaller one",
-                      tool.file.size, tool.file.length_mm, tooth.fdi, widest_mm));
+                      tool.file.isCone() ? "gp-cone" : "k-file", tool.file.size,
+                      tool.file.isCone() ? 100.0 * tool.file.cone_taper : tool.file.length_mm, tooth.fdi, widest_mm));
 }
 
 void refuseUnlessForPreparation(const RehearseOptions& options) {

@@ -31,7 +31,7 @@ namespace app {
 namespace {
 
 struct ReplayOptions {
-  std::string session, out, sound;
+  std::string session, out, labels, sound;
   std::optional<double> to_s;
   bool verify = false, digest = false, json = false, bites = false, force = false;
 };
@@ -43,14 +43,30 @@ int verifySession(const std::string& path) {
   return report.verified() ? 0 : 1;
 }
 
-/// The bone as it was at a moment, as a volume.
+/// What was there at a moment, as volumes: how solid it is, with what was laid into a tooth, and of what.
 int bringBack(const ReplayOptions& options) {
-  calibration::OutputFile out = assets::nrrdOutput(options.out, options.force);
+  // Neither is moved: made where it stays.
+  const auto claimed = [&](const std::string& path) {
+    return path.empty() ? nullptr
+                        : std::unique_ptr<calibration::OutputFile>(
+                              new calibration::OutputFile(assets::nrrdOutput(path, options.force)));
+  };
+  const auto out = claimed(options.out), labels = claimed(options.labels);
   const BoneAtTime bone = boneAtTime(options.session, options.to_s);
   for (const std::string& remark : bone.remarks) printMessage(remark);
-  assets::writeSolid(bone.start.grid, bone.solid, out);
-  std::printf("bone after %.3f s written\n", bone.t_s);
+  if (out) assets::writeSolid(bone.start.grid, withLaid(bone.solid, bone.laid), *out);
+  if (labels) assets::writeSolid(bone.start.grid, labelsWithLaid(bone), *labels);
+  std::printf("bone%s after %.3f s written\n", bone.laid ? " and filling" : "", bone.t_s);
   return 0;
+}
+
+/// "12 composite_soft, 13 composite, …".
+std::string laidLabels() {
+  std::string words;
+  for (int label = assets::kScanTissueCount; label < assets::kTissueCount; ++label)
+    words +=
+        fmt::format("{}{} {}", words.empty() ? "" : ", ", label, assets::kTissues[static_cast<std::size_t>(label)].key);
+  return words;
 }
 
 ReplayedState stateAt(const ReplayOptions& options) {
@@ -105,8 +121,15 @@ void addReplay(CommandLine& molar) {
   Option check = command.flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
   Option to = command.option("--to", options->to_s, "Stop at this time, s");
   to.from(0.0, 1e9);
-  Option out = command.option("--volume", options->out, "Write the bone as it then was, .nrrd");
+  Option out = command.option("--volume", options->out,
+                              "Write how solid each voxel then was, .nrrd, 0 to 255; what was laid into a tooth is "
+                              "solid as the tooth is (--to before it: the tooth alone)");
   out.excludes(check);
+  Option labels = command.option("--labels", options->labels,
+                                 "Write the tissue of each voxel as it then was, .nrrd: the scan's, and of a filling, "
+                                 "where it is the larger part, its own: " +
+                                     laidLabels());
+  labels.excludes(check);
   command.option("--out", options->out, "Former name of --volume").hidden().excludes(check);
   Option digest =
       command.flag("--digest", options->digest, "Print the digest of jaw, pieces and poses as they then were");
@@ -115,13 +138,15 @@ void addReplay(CommandLine& molar) {
       .needs(to)
       .excludes(check)
       .excludes(out)
+      .excludes(labels)
       .excludes(digest);
   Option sound = command.option("--sound-file", options->sound, "Write what was heard, .flac, in step with the ticks");
-  sound.excludes(check).excludes(out).excludes(to).excludes(digest);
+  sound.excludes(check).excludes(out).excludes(labels).excludes(to).excludes(digest);
   command
       .flag("--bites", options->bites, "Of a preparation: bite on the paper again at the times recorded, and compare")
       .excludes(check)
       .excludes(out)
+      .excludes(labels)
       .excludes(to)
       .excludes(digest)
       .excludes(sound);
@@ -131,11 +156,12 @@ void addReplay(CommandLine& molar) {
     if (options->bites) return biteAgain(options->session);
     if (!options->sound.empty()) return writeSound(*options);
     if (options->json) return printMoment(*options);
-    if (options->to_s && options->out.empty() && !options->digest)
-      throw UsageError("--to: of what, give --volume FILE.nrrd, --digest or --json");
-    if (options->out.empty() && !options->digest) return verifySession(options->session);
+    const bool writes = !options->out.empty() || !options->labels.empty();
+    if (options->to_s && !writes && !options->digest)
+      throw UsageError("--to: of what, give --volume FILE.nrrd, --labels FILE.nrrd, --digest or --json");
+    if (!writes && !options->digest) return verifySession(options->session);
     if (options->digest) printDigest(*options);
-    return options->out.empty() ? 0 : bringBack(*options);
+    return writes ? bringBack(*options) : 0;
   });
 }
 

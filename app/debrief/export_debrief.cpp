@@ -43,9 +43,9 @@ int exportDebrief(const DebriefPlan& plan, const DebriefExport& wanted) {
     clip.emplace(wanted.clip, wanted.overwrite, pictureNames(kMostClipPictures));
   }
 
+  std::optional<render::OffscreenContext> context;  // outlives what is drawn with it
   DebriefScene scene(plan);
   for (const auto& run : scene.runs()) run->bookmarks();  // a broken file is told before a long run
-  std::optional<render::OffscreenContext> context;
   render::RenderOptions options;
   options.backend = rendererWithoutWindow(plan.backend, context, printMessage);
   options.samples = 2;

@@ -16,9 +16,9 @@ namespace app {
 void followDebriefUnseen(const DebriefPlan& plan, DebriefGuide& guide) {
   using UnseenClock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kIdle{12};
+  std::optional<render::OffscreenContext> context;  // outlives what is drawn with it
   DebriefPlayer player(plan);
   player.scene().runs().front()->bookmarks();
-  std::optional<render::OffscreenContext> context;
   render::RenderOptions options;
   options.backend = rendererWithoutWindow(plan.backend, context, printMessage);
   player.open(options, options.backend == render::Backend::cpu || render::currentGraphicsCard().is_software);

@@ -33,7 +33,8 @@ constexpr std::array<std::string_view, haptics::kHandInstrumentKeys.size()> kHan
     "applicator, gutta-percha",
     "plugger",
     "carver",
-    "curing lamp"};
+    "curing lamp",
+    "root-canal plugger, hot"};
 constexpr double kSameSize = 0.02;  ///< tenths of a millimetre
 
 }  // namespace
@@ -48,6 +49,9 @@ std::string burName(const haptics::BurShape& head) {
 }
 
 std::string toolName(const haptics::Tool& tool) {
+  if (const auto cone = tool.file.cone())
+    return fmt::format("gutta-percha cone {}, {:.0f} %{}", cone->size, 100.0 * cone->taper,
+                       tool.file.sealer_mm3 > 0.0 ? "" : ", dry");
   if (const auto file = tool.file.made())
     return fmt::format("K-file {} {}, {:g} mm{}{}", file->size, file->colour(), file->length_mm,
                        tool.file.nickel_titanium ? ", NiTi" : "",

@@ -37,9 +37,13 @@ struct Form {
   bool isOrdered() const { return measures.front().factor != 1.0; }
 };
 
-constexpr std::string_view kElevator = "elevator", kFile = "k-file", kIso = "iso";
+constexpr std::string_view kElevator = "elevator", kFile = "k-file", kCone = "gp-cone", kIso = "iso";
 constexpr const char* kIsoPattern = "iso:SHAPE/TENTHS";
 constexpr const char* kFilePattern = "k-file:SIZE,LENGTH with ,niti or ,bent:DEGREES behind it";
+
+constexpr const char* kConePattern = "gp-cone:SIZE,TAPER with ,HELD in mm or ,dry behind it";
+/// Sealer that a coated cone brings. Our default.
+constexpr double kSealer_mm3 = 2.0, kHeld_mm = 21.0;
 
 const Measure kRadius{"radius", 0.1, 20.0}, kDiameter{"diameter", 0.2, 40.0, 0.5};
 
@@ -167,9 +171,39 @@ haptics::Tool canalFileFrom(const std::string& text) {
   return haptics::fileTool(file);
 }
 
+/// "gp-cone:25,2", "gp-cone:30,4,22", "gp-cone:15,2,dry": the taper in percent, held so far from its tip.
+haptics::Tool coneFrom(const std::string& text) {
+  const std::string_view whole = text;
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError("--tool " + text + ": " + why + ", give " + kConePattern);
+  };
+  haptics::CanalFile cone{.length_mm = kHeld_mm, .sealer_mm3 = kSealer_mm3};
+  std::size_t place = 0;
+  for (const std::string_view part : split(whole.substr(std::min(whole.size(), kCone.size() + 1)))) {
+    const auto number = parseNumber<double>(part);
+    if (part == "dry")
+      cone.sealer_mm3 = 0.0;
+    else if (place == 0 && number && *number > 0.0)
+      cone.size = static_cast<std::uint64_t>(*number);
+    else if (place == 1 && number)
+      cone.cone_taper = 0.01 * *number;
+    else if (place == 2 && number)
+      cone.length_mm = *number;
+    else
+      refuse("'" + std::string(part) + "' is not understood");
+    ++place;
+  }
+  if (!cone.cone())
+    refuse(fmt::format("no such cone is made: sizes {} to {} by {}, tapers {} %, held {:g} to {:g} mm from the tip",
+                       assets::kThinnestCone, assets::kThickestCone, assets::kConeStep,
+                       joined(assets::kConeTapers, [](double taper) { return fmt::format("{:.0f}", 100.0 * taper); }),
+                       assets::kShortestCone_mm, assets::kLongestCone_mm));
+  return haptics::fileTool(cone);
+}
+
 }  // namespace
 
-std::string fileForm() { return std::string(kFilePattern); }
+std::string fileForm() { return std::string(kFilePattern) + ", or " + kConePattern; }
 
 std::string headForms() {
   std::vector<std::string> patterns;
@@ -217,6 +251,7 @@ haptics::Tool toolFrom(const std::string& text, const std::string& shaft) {
   if (key == "forceps") throw UsageError("--tool " + text + ": forceps have no size, write forceps alone");
   if (key == kElevator) return elevatorFrom(text);
   if (key == kFile) return canalFileFrom(text);
+  if (key == kCone) return coneFrom(text);
   if (key != kIso && std::ranges::none_of(forms(), [&](const Form& form) { return form.key == key; }))
     throw UsageError("--tool " + text + ": no such tool, give " + headForms() + " in mm, or forceps, or " +
                      elevatorForms() + ", or " + handInstrumentForms() + ", or " + fileForm());

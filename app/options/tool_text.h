@@ -33,7 +33,7 @@ std::string elevatorForms();
 
 /// "scalpel:15, periosteal, curette, bone-file or suction"
 std::string handInstrumentForms();
-/// "k-file:SIZE,LENGTH …"
+/// "k-file:SIZE,LENGTH …, or gp-cone:SIZE,TAPER …"
 std::string fileForm();
 
 /// `forceps`, an elevator, a hand instrument, or a head with this shaft; empty: what is usual for it.

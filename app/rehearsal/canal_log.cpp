@@ -34,13 +34,14 @@ double CanalLog::depth_mm(const haptics::Tick& tick, const assets::ToothCanal& c
 
 std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, const haptics::Tool& tool) {
   std::vector<std::string> told;
+  is_cone_ = tool.file.isCone();
   const auto beyond = [&](std::size_t canal) { return use_.tip(canal).error().most_over_mm > 0.0; };
   for (const haptics::Tick& tick : ticks) {
     const int broken = use_.broken(), bent = use_.bent();
     const bool was_full = use_.isFull();
     const auto place = canalTip(use_.tooth(), tick.file.tip_P_mm);
     const bool was_beyond = place && beyond(place->canal);
-    use_.add(tick, static_cast<int>(tool.file.size));
+    use_.add(tick, tool.file.isCone() ? 0 : static_cast<int>(tool.file.size));
     if (fragments_.follow(tick, tool.file)) {
       use_.setFragments(fragments_.lying());
       fragments_changed_ = true;
@@ -53,6 +54,17 @@ std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, 
     if (use_.bent() > bent)
       told.push_back(
           fmt::format("the file keeps a bend {:.0f} mm from its tip: take a new one", tick.file.strain_from_tip_mm));
+    if (tick.filling.works && (is_cone_ || cone_mm3_ > 0.0)) {
+      cone_mm3_ += tick.filling.changed_mm3;
+    } else if (const double laid_mm3 = std::exchange(cone_mm3_, 0.0); laid_mm3 > 0.0) {
+      told.push_back(fmt::format("a cone stays, seared off at the orifice: {:.2f} mm³ with its sealer", laid_mm3));
+    }
+    const bool is_long = is_cone_ && tick.file.stay == haptics::FileStay::wall && place &&
+                         place->along_mm > use_.tooth().canals[place->canal].length_mm();
+    if (is_long && !is_cone_long_)
+      told.push_back(
+          fmt::format("the cone has passed the foramen of the {} canal", use_.tooth().canals[place->canal].name));
+    is_cone_long_ = is_long;
     if (place && !was_beyond && beyond(place->canal))
       told.push_back(
           fmt::format("the file has passed the foramen of the {} canal", use_.tooth().canals[place->canal].name));
@@ -62,7 +74,8 @@ std::vector<std::string> CanalLog::follow(std::span<const haptics::Tick> ticks, 
 
 std::string CanalLog::line(const haptics::Tick& tick) const {
   using haptics::FileStay;
-  if (tick.file.stay == FileStay::through) return "in the tooth without force: draw it out";
+  if (tick.file.stay == FileStay::through)
+    return is_cone_ ? "the cone stays: draw the pliers out" : "in the tooth without force: draw it out";
   const auto place = canalTip(use_.tooth(), tick.file.tip_P_mm);
   if (!place) return tick.file.stay == FileStay::wall ? "on the tooth" : "free";
   const assets::ToothCanal& canal = use_.tooth().canals[place->canal];

@@ -46,6 +46,9 @@ class CanalLog {
   haptics::WearLaw wear_;
   FragmentTrail fragments_;
   bool fragments_changed_ = false;
+  bool is_cone_ = false;       ///< in the hand
+  bool is_cone_long_ = false;  ///< beyond the foramen: told when it begins
+  double cone_mm3_ = 0.0;      ///< laid so far of one that was let go of
 };
 
 }  // namespace app

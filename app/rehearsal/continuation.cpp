@@ -25,17 +25,23 @@ Continuation continuationOf(const std::string& path) {
   Continuation next;
   next.path = path;
   BoneAtTime bone = boneAtTime(path, {});
-  if (SessionReader(path).finalFilling(bone.start))
-    throw UsageError("--continue " + path + ": its tooth was filled, which cannot be gone on with; begin anew");
   next.remarks = std::move(bone.remarks);
   next.grid = bone.start.grid;
   next.solid = std::move(bone.solid);
+  next.laid = std::move(bone.laid);
+  // Of one that goes on itself and was recorded before it was stored the case alone knows.
+  if (!bone.start.whole.empty())
+    next.whole = std::move(bone.start.whole);
+  else if (!bone.start.setup.former)
+    next.whole = std::move(bone.start.solid);
   next.label = std::move(bone.start.label);
   next.setup = std::move(bone.start.setup);
   next.setup.fragments = std::move(bone.fragments);
   const double before_s = next.setup.former ? next.setup.former->duration_s : 0.0;
-  next.setup.former = FormerSession{std::filesystem::path(path).filename().string(), before_s + bone.t_s,
-                                    haptics::Bodies(next.grid, next.solid, next.label, bone.start.is_tooth).digest()};
+  haptics::Bodies left(next.grid, next.solid, next.label, bone.start.is_tooth);
+  if (next.laid && left.filling() != nullptr) left.filling()->begin(*next.laid);
+  next.setup.former =
+      FormerSession{std::filesystem::path(path).filename().string(), before_s + bone.t_s, left.digest()};
   if (const std::vector<SessionCommand> commands = SessionReader(path).commands(); !commands.empty())
     next.command = commands.back().command;
   next.drawn = drawnPlanOf(path);
@@ -56,7 +62,8 @@ std::vector<std::uint8_t> Continuation::applyTo(assets::Patient& patient) const 
                      (setup.built_in ? "or of another version of the built-in one"
                                      : "name its folder: molar rehearse PATIENT --continue " + path));
   patient.fragments = setup.fragments;
-  return std::exchange(patient.ct.solid, solid);
+  std::vector<std::uint8_t> before = std::exchange(patient.ct.solid, solid);
+  return whole.empty() ? before : whole;
 }
 
 }  // namespace app

@@ -20,7 +20,9 @@ struct Continuation {
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid;  ///< the bone at its end, in the order of the grid
   std::vector<std::uint8_t> label;
-  std::vector<std::string> remarks;  ///< for people
+  std::vector<std::uint8_t> whole;                ///< before the first session; empty: not known, as the case gives it
+  std::optional<haptics::Filling::Volumes> laid;  ///< into a tooth, of any task; none: nothing is
+  std::vector<std::string> remarks;               ///< for people
 
   /// Gives the patient the bone and returns the one before. Throws UsageError if it is not the patient of the session.
   std::vector<std::uint8_t> applyTo(assets::Patient& patient) const;

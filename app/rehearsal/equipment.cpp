@@ -27,7 +27,8 @@ void Equipment::connect(const RehearsalPlan& plan, const haptics::Command& in_fo
                                              .buttons = {},
                                              .pedal = pedal_ ? &*pedal_ : nullptr},
                        in_force, plan.recording, plan.ticking, true,
-                       plan.shows_whole_operation ? assets::SoftTissueField{} : plan.soft_tissue);
+                       plan.shows_whole_operation ? assets::SoftTissueField{} : plan.soft_tissue,
+                       plan.laid ? &*plan.laid : nullptr);
 }
 
 void Equipment::start() {

@@ -5,11 +5,22 @@
 
 #include "app/options/picture_option.h"
 #include "calibration/geometry/units.h"
+#include "haptics/bone/cure.h"
 
 namespace app {
 namespace {
 
 constexpr double kDrawnBurRevolutions_per_s = 7.0;  ///< as drawn; a real bur is too fast to display
+
+/// As the servo has it shine (bone/cure).
+std::optional<render::CuringSpot> curingLight(const haptics::Tick& tick, const haptics::Tool& tool) {
+  if (!tick.filling.works || tool.hand_instrument != haptics::HandInstrument::curing_lamp) return {};
+  const glm::dvec3 axis_P = tick.heldRotation() * glm::dvec3(0.0, 0.0, -1.0);
+  const auto kind = static_cast<std::size_t>(tool.hand_instrument);
+  const double tip_mm = haptics::kHandInstrumentSizes[kind].tip_radius_mm;
+  return render::CuringSpot{
+      {tick.proxy_P.mm + tip_mm * axis_P}, axis_P, haptics::kLampRadius_mm, haptics::kLampReach_mm};
+}
 
 }  // namespace
 
@@ -33,6 +44,7 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   frame.shaft_radius_mm = command.tool.shaft.radius_mm;
   frame.bur_form = static_cast<assets::BurForm>(head.kind);
   frame.bur_profile = head.profile;
+  frame.curing = curingLight(tick, command.tool);
   frame.tool_visible = tick.dt_s > 0.0;
   if (!frame.tool_visible) return frame;
   if (!haptics::has(tick.faults, haptics::Fault::bad_pose)) frame.X_PT.rotation = tick.heldRotation();

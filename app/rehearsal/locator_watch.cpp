@@ -12,9 +12,9 @@ LocatorWatch::LocatorWatch(const assets::ToothCanals& tooth, const assets::CtVol
       locator_(tooth, scan, mode, seed),
       settings_(mode == ApexLocator::Mode::exact ? "exact" : fmt::format("real, seed {}", seed)) {}
 
-bool LocatorWatch::follow(const haptics::Tick& tick, bool is_dry) {
+bool LocatorWatch::follow(const haptics::Tick& tick, bool is_dry, bool is_metal) {
   std::optional<LocatorTold> now;
-  if (tick.file.stay != haptics::FileStay::none)
+  if (is_metal && tick.file.stay != haptics::FileStay::none)
     if (const auto reading = locator_.at(tick.file.tip_P_mm, tick.t_s, is_dry)) {
       const bool is_hole = reading->place == LocatorReading::Place::perforation || !reading->canal;
       now = LocatorTold{0.1 * std::round(10.0 * reading->left_mm), reading->isApex(),

@@ -19,8 +19,8 @@ class LocatorWatch {
 
   /// For the recording, first.
   const std::string& settings() const { return settings_; }
-  /// True: the display has changed.
-  bool follow(const haptics::Tick& tick, bool is_dry);
+  /// True: the display has changed. `is_metal`: what is in the canal; gutta-percha does not conduct.
+  bool follow(const haptics::Tick& tick, bool is_dry, bool is_metal = true);
   /// None: no file is in a canal.
   const std::optional<LocatorTold>& told() const { return told_; }
 

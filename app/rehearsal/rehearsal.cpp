@@ -144,6 +144,7 @@ class Rehearsal {
       printMessage("recording to " + *temporary + " until it is closed, then replacing " + plan_.recording->path);
     double first_frame_s = 0.0;
     if (pace_.isRealTime()) {
+      if (plan_.laid) view_.uploadBone(frame_);
       view_.setHeadUp(head_up_.content(headUpValues(), pace_.now()));
       view_.showLive(frame_);
       first_frame_s = secondsSince(plan_.begun);

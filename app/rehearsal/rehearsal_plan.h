@@ -43,15 +43,17 @@ struct ProcedureSteps {
 struct RehearsalPlan {
   assets::Patient patient;
   std::vector<std::uint8_t> scanned_solid;  ///< of a continued rehearsal; empty: the patient's solid is as scanned
-  bool flap_closed = false;                 ///< the patient's gum is whole, incision and flap are done by hand
-  std::optional<assets::PlannedCut> cut;    ///< followed by scripted input, shown as layer "plan"
-  bool shows_whole_operation = false;       ///< a scripted hand does, up to the stitches; no soft tissue is met
-  assets::SoftTissueField soft_tissue;      ///< what the instrument can touch; empty: none
-  assets::RiskStructures risks;             ///< what the bur is to keep off; empty: nothing is told
-  std::string instruction;                  ///< of a practice block, one line; empty: none
-  bool is_assessed = false;                 ///< nothing helps, all is recorded (session/assessment_event)
-  bool shows_clearance = true;              ///< in the picture; it is recorded in any case
-  bool sounds_clearance = false;            ///< told by tones
+  /// Into the tooth, of a continued rehearsal; none: nothing is.
+  std::optional<haptics::Filling::Volumes> laid;
+  bool flap_closed = false;               ///< the patient's gum is whole, incision and flap are done by hand
+  std::optional<assets::PlannedCut> cut;  ///< followed by scripted input, shown as layer "plan"
+  bool shows_whole_operation = false;     ///< a scripted hand does, up to the stitches; no soft tissue is met
+  assets::SoftTissueField soft_tissue;    ///< what the instrument can touch; empty: none
+  assets::RiskStructures risks;           ///< what the bur is to keep off; empty: nothing is told
+  std::string instruction;                ///< of a practice block, one line; empty: none
+  bool is_assessed = false;               ///< nothing helps, all is recorded (session/assessment_event)
+  bool shows_clearance = true;            ///< in the picture; it is recorded in any case
+  bool sounds_clearance = false;          ///< told by tones
   calibration::Rig rig;
   std::optional<glm::dvec3> down_P;  ///< unit, along gravity; none: down in the picture
   bool view_can_turn = false;  ///< a desk without a measured rig, and the hand is not a device at a place of its own

@@ -66,7 +66,7 @@ void SingleToothSite::follow(std::span<const haptics::Tick> ticks, const haptics
 }
 
 void SingleToothSite::followHand(const haptics::Tick& newest, const haptics::Command& command, render::Frame& picture) {
-  if (locator_ && locator_->follow(newest, !command.irrigating))
+  if (locator_ && locator_->follow(newest, !command.irrigating, !command.tool.file.isCone()))
     links_.event_log.note(kLocatorEvent, locatorText(locator_->told()));
   const RehearsalPlan& plan = links_.plan;
   if (plan.patient.canals) showFileSight(*plan.patient.canals, newest, command.tool, plan.first_frame.mode, picture);

@@ -14,7 +14,7 @@ std::vector<BiteAgain> bitesAgain(const std::string& path) {
   refuseDamaged(session, path);
   const StoredStart start = session.start();
   if (!start.setup.prepared) throw UsageError("--bites: " + path + " is no preparation of a tooth, leave it out");
-  if (start.setup.former)
+  if (start.setup.former && start.whole.empty())
     throw UsageError("--bites: " + path + " continues another session, whose first tooth it does not hold, name that");
   const BittenTooth tooth(
       Crown(ToothBlocks(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label)),

@@ -1,5 +1,6 @@
 #include "app/review/bone_pictures.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -71,6 +72,28 @@ void tintAgainstPlan(render::Image& image, const render::DistanceImage& distance
     }
 }
 
+/// What was laid, in its colours, as the rehearsal shows it (view/brick_upload).
+void showLaid(const BoneStates& bone, render::FrameRenderer& renderer) {
+  const haptics::Filling::Volumes& laid = *bone.laid;
+  assets::forVoxels(glm::ivec3(0), bone.grid.bricks(), [&](glm::ivec3 brick) {
+    std::array<std::uint8_t, 512> solid{}, tissue{};
+    bool has_filling = false;
+    std::size_t n = 0;
+    const glm::ivec3 low = brick * assets::kBrickVoxels;
+    assets::forVoxels(low, low + assets::kBrickVoxels, [&](glm::ivec3 ijk) {
+      const std::size_t at = n++;
+      if (!bone.grid.contains(ijk)) return;
+      const std::size_t v = bone.grid.index(ijk);
+      has_filling = has_filling || laid.laid[v] != 0;
+      if (laid.laid[v] != 0 && laid.laid[v] >= bone.after[v]) tissue[at] = laid.tissue[v];
+      solid[at] = static_cast<std::uint8_t>(std::min(255, bone.after[v] + laid.laid[v]));
+    });
+    if (!has_filling) return;
+    renderer.updateTissue(brick, tissue);
+    renderer.updateBrick(brick, solid);
+  });
+}
+
 }  // namespace
 
 std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& site, const FromPlan& from_plan_mm,
@@ -89,6 +112,7 @@ std::vector<BonePicture> bonePictures(const BoneStates& bone, const SiteView& si
   how.backend = render::Backend::cpu;
   how.samples = 2;
   render::FrameRenderer renderer(bone.grid, bone.after, bone.label, how);
+  if (bone.laid != nullptr) showLaid(bone, renderer);
   std::vector<BonePicture> pictures;
   for (const From& from : views) {
     render::Frame frame;

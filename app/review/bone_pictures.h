@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "assets/volume_grid.h"
+#include "haptics/bone/filling.h"
 #include "render/image.h"
 
 namespace app {
@@ -23,8 +24,9 @@ struct SiteView {
 
 struct BoneStates {
   const assets::VolumeGrid& grid;
-  std::span<const std::uint8_t> label;          ///< may be empty
-  std::span<const std::uint8_t> before, after;  ///< solid, in the order of the grid
+  std::span<const std::uint8_t> label;              ///< may be empty
+  std::span<const std::uint8_t> before, after;      ///< solid, in the order of the grid
+  const haptics::Filling::Volumes* laid = nullptr;  ///< into it, drawn as what it is; null: nothing is
 };
 
 struct BonePicture {

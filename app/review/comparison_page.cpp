@@ -88,8 +88,8 @@ ComparisonPictures comparisonPictures(const ComparedEnds& ends) {
   const std::optional<assets::Patient> patient = patientOfSession(start, "");
   const SiteView site = siteViewOf(start, patient ? &*patient : nullptr, ends.left_a.solid);
   const auto pictures = [&](const BoneLeft& of, const BoneLeft& other) {
-    return bonePictures({start.grid, start.label, start.solid, of.solid}, site, fromRemoval(start, other.solid),
-                        {480, 420});
+    return bonePictures({start.grid, start.label, start.solid, of.solid, of.laid ? &*of.laid : nullptr}, site,
+                        fromRemoval(start, other.solid), {480, 420});
   };
   return {pictures(ends.left_a, ends.left_b), pictures(ends.left_b, ends.left_a)};
 }

@@ -132,7 +132,7 @@ std::string fillingOf(const FillingOutcomes& of) {
       rows.insert(rows.begin() + 1,
                   {std::string(assets::kTissues[tissue].name), fixedText(of.laid_of_mm3[tissue], 2) + " mm³", ""});
   std::string sizes;
-  for (const FillingVoid& one : of.voids)
+  for (const EnclosedAir& one : of.voids)
     sizes += (sizes.empty() ? ": " : ", ") + fixedText(one.volume_mm3, 2) + " mm³";
   rows.push_back(
       {fmt::format("F3 voids of {:g} mm³ and more", kLeastVoid_mm3), std::to_string(of.voids.size()) + sizes, "none"});

@@ -113,7 +113,7 @@ OrderedJson fillingJson(const FillingOutcomes& of) {
                           {"depth_mm", one.depth_mm},
                           {"cured_share", one.cured_share},
                           {"too_deep", one.isTooDeep()}});
-  for (const FillingVoid& one : of.voids)
+  for (const EnclosedAir& one : of.voids)
     voids.push_back(
         {{"mm3", one.volume_mm3}, {"middle_P_mm", {one.middle_P_mm.x, one.middle_P_mm.y, one.middle_P_mm.z}}});
   return {{"F1_laid_mm3", of.laid_mm3},
@@ -143,7 +143,7 @@ std::string fillingTable(const FillingOutcomes& of) {
         "increment {}: {:.2f} mm3, {:.2f} mm deep{}\n", one.number, one.laid_mm3, one.depth_mm,
         one.isTooDeep() ? fmt::format(", an error: over {:g} mm before curing", kDeepestIncrement_mm) : std::string());
   text += fmt::format("voids of {:g} mm3 and more: {}", kLeastVoid_mm3, of.voids.size());
-  for (const FillingVoid& one : of.voids) text += fmt::format(", {:.3f} mm3", one.volume_mm3);
+  for (const EnclosedAir& one : of.voids) text += fmt::format(", {:.3f} mm3", one.volume_mm3);
   return text + fmt::format(
                     "\noverhang {:.2f} mm3, {:.2f} mm at most; contour {:.2f} mm off the intact tooth (root mean "
                     "square), {:.2f} mm too high and {:.2f} mm too low at most\n",

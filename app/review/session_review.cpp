@@ -33,11 +33,12 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
   review.has_canal = !about.risks.of(assets::RiskStructure::canal).isEmpty();
   review.moments = again.draw(toldMoments(review.metrics, review.course));
   review.remarks = again.remarks;
+  const auto& laid = again.left.laid;
   if (const auto treated = treatmentOfSession(session, start, again.left.solid)) {
     const std::optional<assets::CtVolume> jaw = jawOf(start, again.patient_folder);
     const auto metal = fragmentsIn(start.setup, session.events());
-    review.treatment.emplace(
-        TreatmentReview{*treated, treatmentFilms(start, again.left.solid, metal, jaw ? &*jaw : nullptr)});
+    review.treatment.emplace(TreatmentReview{
+        *treated, treatmentFilms(start, {again.left.solid, metal, laid ? &*laid : nullptr}, jaw ? &*jaw : nullptr)});
   }
 
   review.preparation = preparationOfSession(session, start, again.left.solid);
@@ -48,8 +49,8 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
                                                       : "a practice block has none";
   review.is_against_plan = static_cast<bool>(about.from_plan_mm);
   const SiteView site = siteViewOf(start, again.patient, again.left.solid);
-  review.pictures =
-      bonePictures({start.grid, start.label, start.solid, again.left.solid}, site, about.from_plan_mm, {480, 420});
+  review.pictures = bonePictures({start.grid, start.label, start.solid, again.left.solid, laid ? &*laid : nullptr},
+                                 site, about.from_plan_mm, {480, 420});
   return review;
 }
 

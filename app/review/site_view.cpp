@@ -30,6 +30,12 @@ SiteView siteOf(const assets::Patient& patient) {
   return {patient.site->centre_P_mm + 3.0 * axes.up_P, axes.distal_P, axes.buccal_P, axes.up_P};
 }
 
+/// Over the neck of a single tooth.
+SiteView siteOfTooth(const assets::ToothFrame& frame) {
+  constexpr double kCrownMiddle_mm = 4.0;
+  return {frame.inP({0.0, 0.0, kCrownMiddle_mm}), -frame.axes_P[0], frame.axes_P[1], frame.axes_P[2]};
+}
+
 /// Of a practice block: over its face.
 SiteView siteOfBlock() {
   return {glm::dvec3(0.0), assets::fromBlock({1.0, 0.0, 0.0}), -assets::fromBlock({0.0, 1.0, 0.0}),
@@ -40,6 +46,7 @@ SiteView siteOfBlock() {
 
 SiteView siteViewOf(const StoredStart& start, const assets::Patient* patient, std::span<const std::uint8_t> after) {
   if (!start.setup.practice.empty()) return siteOfBlock();
+  if (start.setup.prepared) return siteOfTooth(start.setup.prepared->frame);
   return patient != nullptr && patient->site ? siteOf(*patient) : siteFromBone(start, after);
 }
 

@@ -17,8 +17,9 @@ struct Halved {
   std::vector<std::uint8_t> solid, label;
 };
 
-Halved halved(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-              std::span<const std::uint8_t> label) {
+Halved halved(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label,
+              const haptics::Filling::Volumes* filling) {
+  const bool is_filled = filling != nullptr && !filling->laid.empty();
   Halved half{grid, {}, {}};
   constexpr int kBlock = assets::ToothSampler::kEdge;
   half.grid.size = grid.size / (2 * kBlock) * kBlock;
@@ -30,11 +31,12 @@ Halved halved(const assets::VolumeGrid& grid, std::span<const std::uint8_t> soli
     assets::forVoxels(2 * ijk, 2 * ijk + 2, [&](glm::ivec3 of) {
       const std::size_t at = grid.index(of);
       sum += solid[at];
-      if (solid[at] <= most) return;
-      most = solid[at];
-      half.label[v] = label[at];
+      if (solid[at] > most) most = solid[at], half.label[v] = label[at];
+      if (!is_filled || filling->laid[at] == 0) return;
+      sum += filling->laid[at];
+      if (filling->laid[at] >= most) most = filling->laid[at], half.label[v] = filling->tissue[at];
     });
-    half.solid[v] = static_cast<std::uint8_t>((sum + 4) / 8);
+    half.solid[v] = static_cast<std::uint8_t>(std::min(255, (sum + 4) / 8));
   });
   return half;
 }
@@ -64,33 +66,31 @@ render::Image exposed(const Halved& tooth, std::span<const assets::MetalFragment
 
 }  // namespace
 
-TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
-                              std::span<const assets::MetalFragment> fragments, const assets::CtVolume* jaw) {
+TreatmentFilms treatmentFilms(const StoredStart& start, const FilmedTooth& after, const assets::CtVolume* jaw) {
   const int fdi = start.setup.canals->fdi;
-  const Halved before = halved(start.grid, start.solid, start.label);
-  const Halved after = halved(start.grid, solid_after, start.label);
-  const assets::CtVolume alone = aloneIn(before, fdi);
+  const Halved was = halved(start.grid, start.solid, start.label, nullptr);
+  const Halved is = halved(start.grid, after.solid, start.label, after.filling);
+  const assets::CtVolume alone = aloneIn(was, fdi);
   TreatmentFilms films;
   films.in_jaw = isIn(jaw, fdi);
   const assets::CtVolume* const around = films.in_jaw ? jaw : nullptr;
   for (const double shift_deg : kTubeShifts_deg) {
     const auto view = assets::periapicalViewOf(films.in_jaw ? *jaw : alone, fdi, shift_deg);
     if (!view) break;
-    films.pairs.push_back({shift_deg, exposed(before, start.setup.fragments, around, fdi, *view, shift_deg),
-                           exposed(after, fragments, around, fdi, *view, shift_deg)});
+    films.pairs.push_back({shift_deg, exposed(was, start.setup.fragments, around, fdi, *view, shift_deg),
+                           exposed(is, after.fragments, around, fdi, *view, shift_deg)});
   }
   return films;
 }
 
-std::optional<render::Image> treatmentFilm(const StoredStart& start, std::span<const std::uint8_t> solid,
-                                           std::span<const assets::MetalFragment> fragments,
+std::optional<render::Image> treatmentFilm(const StoredStart& start, const FilmedTooth& tooth,
                                            const assets::CtVolume* jaw, double shift_deg) {
   const int fdi = start.setup.canals->fdi;
-  const Halved tooth = halved(start.grid, solid, start.label);
+  const Halved half = halved(start.grid, tooth.solid, start.label, tooth.filling);
   const assets::CtVolume* const around = isIn(jaw, fdi) ? jaw : nullptr;
-  const auto view = assets::periapicalViewOf(around != nullptr ? *around : aloneIn(tooth, fdi), fdi, shift_deg);
+  const auto view = assets::periapicalViewOf(around != nullptr ? *around : aloneIn(half, fdi), fdi, shift_deg);
   if (!view) return {};
-  return exposed(tooth, fragments, around, fdi, *view, shift_deg);
+  return exposed(half, tooth.fragments, around, fdi, *view, shift_deg);
 }
 
 }  // namespace app

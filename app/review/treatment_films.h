@@ -11,6 +11,7 @@
 
 #include "app/session/session_start.h"
 #include "assets/ct_volume.h"
+#include "haptics/bone/filling.h"
 #include "render/image.h"
 
 namespace app {
@@ -27,14 +28,19 @@ struct TreatmentFilms {
   bool in_jaw = false;
 };
 
-/// `start`: of a session with canals; `fragments`: of files, in it at the end; `jaw`: the scan that its tooth is of,
-/// null or without that tooth: not known.
-TreatmentFilms treatmentFilms(const StoredStart& start, std::span<const std::uint8_t> solid_after,
-                              std::span<const assets::MetalFragment> fragments, const assets::CtVolume* jaw);
+/// A treated tooth as it is at some time.
+struct FilmedTooth {
+  std::span<const std::uint8_t> solid;
+  std::span<const assets::MetalFragment> fragments;    ///< of files, in it
+  const haptics::Filling::Volumes* filling = nullptr;  ///< null or empty: none
+};
 
-/// One film of the tooth with `solid`; none: it shows no such tooth.
-std::optional<render::Image> treatmentFilm(const StoredStart& start, std::span<const std::uint8_t> solid,
-                                           std::span<const assets::MetalFragment> fragments,
+/// `start`: of a session with canals; `after`: at its end; `jaw`: the scan that its tooth is of, null or without that
+/// tooth: not known.
+TreatmentFilms treatmentFilms(const StoredStart& start, const FilmedTooth& after, const assets::CtVolume* jaw);
+
+/// One film; none: it shows no such tooth.
+std::optional<render::Image> treatmentFilm(const StoredStart& start, const FilmedTooth& tooth,
                                            const assets::CtVolume* jaw, double shift_deg);
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #include "app/review/treatment_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -134,14 +135,40 @@ std::string canals(const Treatment& all) {
          "rotary and hand files: 35 % and more (Peters 2001).</p>\n";
 }
 
+/// Empty: nothing was laid.
+std::string rootFillings(const Treatment& all) {
+  Rows rows;
+  for (const TreatedCanal& canal : all.canals) {
+    if (!canal.filling) {
+      rows.push_back({canal.name, "not filled", "", "", ""});
+      continue;
+    }
+    const RootFilling& of = *canal.filling;
+    const std::string length = lengthWord(of);
+    rows.push_back({canal.name, signedText(of.end_mm, 1) + " mm" + (length == "right" ? "" : ": " + length),
+                    fmt::format("{} % of {} mm³", fixedText(100.0 * of.share(), 0), fixedText(of.canal_mm3, 2)),
+                    fmt::format("{}, largest {} mm³", of.voids.size(), fixedText(of.largest_void_mm3, 3)),
+                    fixedText(of.extruded_mm3, 2) + " mm³"});
+  }
+  if (std::ranges::none_of(all.canals, [](const TreatedCanal& canal) { return canal.filling.has_value(); })) return "";
+  return tableMarkup({"Canal", "end, from the working length", "filled to the orifice",
+                      fmt::format("voids of {:g} mm³ and more", kLeastVoid_mm3), "beyond the foramen"},
+                     rows) +
+         fmt::format(
+             "<p class=\"quiet\">Right within {:g} mm of the working length. Filled: gutta-percha and sealer alike, "
+             "of the canal as it is prepared.</p>\n",
+             kRightLength_mm);
+}
+
 std::string shapes(const TreatmentOfSession& of) {
   std::string content;
   for (std::size_t n = 0; n < of.treatment.canals.size(); ++n) {
     const TreatedCanal& canal = of.treatment.canals[n];
     content += "<h3>" + escaped(fmt::format("{} canal", canal.name)) + "</h3>\n";
-    content += figureMarkup(sectionsFigure(canal),
-                            "Sections, seen towards the apex, the furcation to the right: above the root, below the "
-                            "canal four times as large. Blue, dashed: as it was; orange: as it is.");
+    content +=
+        figureMarkup(sectionsFigure(canal),
+                     "Sections, seen towards the apex, the furcation to the right: above the root, below the "
+                     "canal four times as large. Blue, dashed: as it was; orange: as it is; rose: what was laid.");
     content +=
         figureMarkup(axisFigure(of.tooth, n, canal.outcomes),
                      escaped(fmt::format("The canal and its axis, to scale. Blue, dashed: as it was, {}; orange: "
@@ -192,6 +219,7 @@ void addTreatment(HtmlPage& page, const TreatmentReview& review, bool is_confirm
   page.section("Tooth and canals", marked(canalsOf(review.of.tooth)));
   page.section("Access cavity", marked(access(all)));
   page.section("Canals", marked(canals(all)));
+  if (const std::string filled = rootFillings(all); !filled.empty()) page.section("Root filling", marked(filled));
   page.section("Shape of each canal", shapes(review.of));
   page.section("Radiographs", films(review.films));
   page.section("Files", files(all, review.of.wear));

@@ -8,6 +8,8 @@
 namespace app {
 namespace {
 
+int fileSize(const haptics::CanalFile& file) { return file.isCone() ? 0 : static_cast<int>(file.size); }
+
 FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
   session.rewind();
   FileUse files(tooth);
@@ -19,7 +21,7 @@ FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
     if (block.ticks.empty()) break;
     for (const haptics::Tick& tick : block.ticks) {
       for (; next < commands.size() && commands[next].first_tick <= tick.index; ++next)
-        size = static_cast<int>(commands[next].command.tool.file.size);
+        size = fileSize(commands[next].command.tool.file);
       files.add(tick, size);
     }
   }
@@ -35,9 +37,12 @@ std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, con
   TreatmentOfSession of{*start.setup.canals, {}};
   if (const std::vector<SessionCommand> commands = session.commands(); !commands.empty())
     of.wear = commands.back().command.wear.law;
-  const ToothBlocks before(DenseTooth(start.grid, start.solid, start.label));
+  const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
   const DenseSolid after(start.grid, solid_after);
-  of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth));
+  const std::optional<haptics::Filling::Volumes> filling = session.finalFilling(start);
+  std::optional<DenseSolid> laid;
+  if (filling) laid.emplace(start.grid, filling->laid);
+  of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth), laid ? &*laid : nullptr);
   return of;
 }
 

@@ -28,6 +28,19 @@ nlohmann::ordered_json lengthOrNull(const TreatedCanal& canal, double LengthErro
   return canal.length ? nlohmann::ordered_json((*canal.length).*value) : nlohmann::ordered_json();
 }
 
+nlohmann::ordered_json fillingJson(const RootFilling& of) {
+  nlohmann::ordered_json voids = nlohmann::ordered_json::array();
+  for (const EnclosedAir& one : of.voids) voids.push_back(one.volume_mm3);
+  return {{"end_mm", of.end_mm},
+          {"length", lengthWord(of)},
+          {"filled_share", of.share()},
+          {"canal_mm3", of.canal_mm3},
+          {"filled_mm3", of.filled_mm3},
+          {"voids_mm3", voids},
+          {"largest_void_mm3", of.largest_void_mm3},
+          {"extruded_mm3", of.extruded_mm3}};
+}
+
 nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
   const CanalOutcomes& of = canal.outcomes;
   nlohmann::ordered_json sections = nlohmann::ordered_json::array();
@@ -50,7 +63,8 @@ nlohmann::ordered_json canalJson(const TreatedCanal& canal) {
           {"E9_taper", numberOrNull(of.taper)},
           {"foramen_moved_mm", of.foramen_moved_mm},
           {"straight_line_deg", degrees(canal.straight_line.least_angle_rad)},
-          {"straight_line_blocked_mm3", canal.straight_line.blocked_mm3}};
+          {"straight_line_blocked_mm3", canal.straight_line.blocked_mm3},
+          {"filling", canal.filling ? fillingJson(*canal.filling) : nlohmann::ordered_json()}};
 }
 
 }  // namespace
@@ -120,6 +134,10 @@ std::string treatmentTable(const TreatmentOfSession& of) {
                     one.least_wall_mm, canal.length ? canal.length->deepest_mm : 0.0,
                     transportation_mm(one.sections.front()), degrees(canal.straight_line.least_angle_rad));
   }
+  for (const TreatedCanal& canal : all.canals)
+    if (canal.filling)
+      text += fmt::format("{}: {}; largest void {:.3f} mm3\n", canal.name, fillingWords(*canal.filling),
+                          canal.filling->largest_void_mm3);
   text +=
       "length: of the deepest file, from the working length; moved: at 1 mm from the foramen, towards the "
       "furcation\n";

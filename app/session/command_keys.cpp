@@ -70,11 +70,13 @@ void visitTool(auto& tool, Visit&& visit) {
   visit("tool.shaft.radius_mm", shaft_radius_mm), visit("tool.shaft.length_mm", shaft_length_mm);
   visit("tool.handpiece", handpiece), visit("tool.grips", grips);
   visit("tool.elevator", elevator), visit("tool.hand_instrument", hand_instrument);
-  auto& [size, file_length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
+  auto& [size, file_length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm, cone_taper, sealer_mm3] =
+      file;
   visit("tool.file.size", size), visit("tool.file.length_mm", file_length_mm);
   visit("tool.file.nickel_titanium", nickel_titanium), visit("tool.file.bent_deg", bent_deg);
   visit("tool.file.bent_mm", bent_mm), visit("tool.file.bent_towards_deg", bent_towards_deg);
   visit("tool.file.stop_mm", stop_mm);
+  visit("tool.file.cone_taper", cone_taper), visit("tool.file.sealer_mm3", sealer_mm3);
 }
 
 /// The plan follows from the bodies.
@@ -238,10 +240,11 @@ void forEachKey(auto& command, Visit&& visit) {
   visitErosion(erosion, visit);
   visitSpindle(spindle, visit);
   visitWear(wear, visit);
-  auto& [stop_at_mm, stop_out] = file_reference;
+  auto& [stop_at_mm, stop_out, orifice_mm] = file_reference;
   visit("file_reference.point_P_mm.x", stop_at_mm.x), visit("file_reference.point_P_mm.y", stop_at_mm.y);
   visit("file_reference.point_P_mm.z", stop_at_mm.z), visit("file_reference.out_P.x", stop_out.x);
   visit("file_reference.out_P.y", stop_out.y), visit("file_reference.out_P.z", stop_out.z);
+  visit("file_reference.orifice_mm", orifice_mm);
   visitSafety(safety, visit);
   visit("rearm", rearm);
 }

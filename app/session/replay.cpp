@@ -1,5 +1,6 @@
 #include "app/session/replay.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "app/session/fragments_event.h"
+#include "app/session/increment_trail.h"
 #include "app/session/rerun.h"
 #include "app/session/session_error.h"
 #include "app/text/version.h"
@@ -171,15 +173,22 @@ ReplayedState replayTo(SessionReader& session, double t_s) {
   return {std::move(start), std::move(bodies), last, command, divergence, again_mm3 - recorded_mm3};
 }
 
+std::optional<haptics::Filling::Volumes> laidIn(const haptics::Bodies& bodies) {
+  const haptics::Filling* const filling = bodies.filling();
+  return filling != nullptr && !filling->isEmpty() ? std::optional(filling->volumes()) : std::nullopt;
+}
+
 BoneLeft boneLeft(SessionReader& session, const StoredStart& start) {
   BoneLeft left;
   if (auto recorded = session.finalBone(start)) {
     left.solid = std::move(recorded->solid);
+    left.laid = session.finalFilling(start);
     return left;
   }
   const ReplayedState state = replayTo(session, std::numeric_limits<double>::infinity());
   session.rewind();
   left.solid = state.bodies.solidInMouth();
+  left.laid = laidIn(state.bodies);
   left.removed_mm3 = removedByKey(state.bodies.removedByTissue_mm3());
   left.divergence = state.divergence;
   left.remarks.push_back(replayedText(start));
@@ -187,19 +196,40 @@ BoneLeft boneLeft(SessionReader& session, const StoredStart& start) {
   return left;
 }
 
+std::vector<std::uint8_t> withLaid(std::vector<std::uint8_t> solid,
+                                   const std::optional<haptics::Filling::Volumes>& laid) {
+  if (!laid) return solid;
+  for (std::size_t v = 0; v < solid.size(); ++v)
+    solid[v] = static_cast<std::uint8_t>(std::min(255, solid[v] + laid->laid[v]));
+  return solid;
+}
+
+std::vector<std::uint8_t> labelsWithLaid(const BoneAtTime& bone) {
+  std::vector<std::uint8_t> label = bone.start.label;
+  if (!bone.laid) return label;
+  for (std::size_t v = 0; v < label.size(); ++v)
+    if (bone.laid->laid[v] > 0 && bone.laid->laid[v] >= bone.solid[v]) label[v] = bone.laid->tissue[v];
+  return label;
+}
+
 BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   SessionReader session(path);
   refuseDamaged(session, path);
   BoneAtTime bone;
   double end_s = 0.0;
-  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
+  bone.start = session.start();
+  IncrementTrail increments(bone.start.laid ? bone.start.laid->age_s : std::vector<double>());
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
+    for (const haptics::Tick& tick : block.ticks) increments.follow(tick);
     end_s = block.ticks.back().t_s + block.ticks.back().dt_s;
+  }
   if (!t_s || *t_s >= end_s) {
     if (const auto log = session.missingLog()) throw missingLogError(path, *log);
-    bone.start = session.start();
     bone.t_s = end_s;
     BoneLeft left = boneLeft(session, bone.start);
     bone.solid = std::move(left.solid);
+    bone.laid = std::move(left.laid);
+    if (bone.laid) bone.laid->age_s = increments.ages_s(end_s);
     bone.fragments = fragmentsIn(bone.start.setup, session.events());
     bone.remarks = std::move(left.remarks);
     return bone;
@@ -207,6 +237,7 @@ BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   ReplayedState state = replayTo(session, *t_s);
   if (state.divergence) bone.remarks.push_back(divergenceText(state));
   bone.solid = state.bodies.solidInMouth();
+  bone.laid = laidIn(state.bodies);
   bone.t_s = state.tick.t_s + state.tick.dt_s;
   bone.fragments = fragmentsIn(state.start.setup, session.events(), state.tick.index);
   bone.start = std::move(state.start);

@@ -65,11 +65,15 @@ ReplayedState replayTo(SessionReader& session, double t_s);
 
 /// The bone that a session left in the mouth.
 struct BoneLeft {
-  std::vector<std::uint8_t> solid;             ///< in the order of the grid
-  std::optional<RemovedByTissue> removed_mm3;  ///< by the replay; none: the bone is as recorded, without one
-  std::optional<ReplayDifference> divergence;  ///< why the replay ended with another bone than the recording
-  std::vector<std::string> remarks;            ///< for people: that it was replayed, and how exact that is
+  std::vector<std::uint8_t> solid;                ///< in the order of the grid
+  std::optional<haptics::Filling::Volumes> laid;  ///< into a tooth, without ages; none: nothing is
+  std::optional<RemovedByTissue> removed_mm3;     ///< by the replay; none: the bone is as recorded, without one
+  std::optional<ReplayDifference> divergence;     ///< why the replay ended with another bone than the recording
+  std::vector<std::string> remarks;               ///< for people: that it was replayed, and how exact that is
 };
+
+/// What lies in a tooth; none: nothing does.
+std::optional<haptics::Filling::Volumes> laidIn(const haptics::Bodies& bodies);
 
 /// As recorded, else by a replay. `start` is that of this session, which must be undamaged and is rewound.
 BoneLeft boneLeft(SessionReader& session, const StoredStart& start);
@@ -77,11 +81,18 @@ BoneLeft boneLeft(SessionReader& session, const StoredStart& start);
 /// The bone at a time.
 struct BoneAtTime {
   StoredStart start;
-  std::vector<std::uint8_t> solid;               ///< in the order of the grid
-  std::vector<assets::MetalFragment> fragments;  ///< of files that broke, in it
+  std::vector<std::uint8_t> solid;                ///< in the order of the grid
+  std::optional<haptics::Filling::Volumes> laid;  ///< into a tooth; ages are those of the end; none: nothing is
+  std::vector<assets::MetalFragment> fragments;   ///< of files that broke, in it
   double t_s = 0.0;
   std::vector<std::string> remarks;  ///< for people: that it was replayed, and how exact that is
 };
+
+/// The solid with what was laid into it.
+std::vector<std::uint8_t> withLaid(std::vector<std::uint8_t> solid,
+                                   const std::optional<haptics::Filling::Volumes>& laid);
+/// The tissue of each voxel; of a filling where it is the larger part.
+std::vector<std::uint8_t> labelsWithLaid(const BoneAtTime& bone);
 
 /// The final bone if `t_s` is none or past the end: as recorded, else by a replay. Throws SessionError if the session
 /// is damaged, or its log is missing and needed.

@@ -28,8 +28,15 @@ inline constexpr std::string_view kSolid = "solid", kLabel = "label", kRemoved =
 inline constexpr std::string_view kIsTooth = "tooth";
 /// Optional: the solid before what was cut already at the start.
 inline constexpr std::string_view kWhole = "whole";
-/// Optional, at the end: what was laid into a tooth, its tissue, its increment.
-inline constexpr std::string_view kLaid = "laid", kLaidTissue = "laid_tissue", kLaidIncrement = "laid_increment";
+/// Optional, at the end: what was laid into a tooth, its tissue, its increment, its light (low, then high bytes of
+/// units of haptics::Filling::kLightUnit_s; not stored: none has any).
+struct LaidNames {
+  std::string_view laid, tissue, increment, light;
+};
+inline constexpr LaidNames kLaid{"laid", "laid_tissue", "laid_increment", "laid_light"};
+/// The same at the start, where something was laid before.
+inline constexpr LaidNames kLaidBefore{"laid_before", "laid_before_tissue", "laid_before_increment",
+                                       "laid_before_light"};
 /// Optional: FDI number of the tooth of each voxel.
 inline constexpr std::string_view kTeeth = "teeth";
 /// Optional: what is to be left of a prepared tooth, as a file gave it, on its own grid (key prepared of `about`).

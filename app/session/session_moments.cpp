@@ -237,9 +237,11 @@ BoneLeft SessionMoments::boneLeft() {
   BoneLeft left;
   if (auto recorded = session_.finalBone(start_)) {
     left.solid = std::move(recorded->solid);
+    left.laid = session_.finalFilling(start_);
     return left;
   }
   left.solid = bodies_.solidInMouth();
+  left.laid = laidIn(bodies_);
   left.removed_mm3 = removedByKey(bodies_.removedByTissue_mm3());
   if (recorded_digest_ != bodies_.digest()) left.divergence = difference_;
   return left;

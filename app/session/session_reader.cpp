@@ -218,6 +218,21 @@ struct SessionReader::Impl {
       soft.distance[v] = static_cast<std::int16_t>(static_cast<std::uint16_t>(bytes[v] | bytes[v + voxels] << 8));
   }
 
+  /// Without ages; none: nothing is laid.
+  std::optional<haptics::Filling::Volumes> laid(const session_format::LaidNames& names, std::size_t voxels) {
+    haptics::Filling::Volumes at{
+        volume(names.laid, voxels), volume(names.tissue, voxels), volume(names.increment, voxels), {}, {}};
+    if (at.laid.empty()) return std::nullopt;
+    if (at.tissue.empty() || at.increment.empty()) throw damagedSession("a part of its filling is missing");
+    for (std::uint8_t& tissue : at.tissue) tissue = label[tissue];
+    const std::vector<std::uint8_t> bytes = volume(names.light, 2 * voxels);
+    if (bytes.empty()) return at;
+    at.light.resize(voxels);
+    for (std::size_t v = 0; v < voxels; ++v)
+      at.light[v] = static_cast<std::uint16_t>(bytes[v] | bytes[v + voxels] << 8);
+    return at;
+  }
+
   StoredStart start() {
     StoredStart start = about();
     if (isPacked()) {
@@ -233,6 +248,8 @@ struct SessionReader::Impl {
       start.teeth = volume(session_format::kTeeth, voxels);
       readIdeal(start.setup);
       readSoftTissue(start.soft_tissue);
+      start.laid = laid(session_format::kLaidBefore, voxels);
+      if (start.laid) start.laid->age_s = aboutWithLabels().laid_before_age_s;
     }
     for (std::uint8_t& value : start.label) value = label[value];
     return start;
@@ -383,14 +400,7 @@ std::optional<SessionReader::FinalBone> SessionReader::finalBone(const StoredSta
 std::optional<haptics::Filling::Volumes> SessionReader::finalFilling(const StoredStart& start) {
   return impl_->reading([&]() -> std::optional<haptics::Filling::Volumes> {
     if (impl_->isPacked()) return std::nullopt;
-    const std::size_t voxels = start.grid.voxelCount();
-    haptics::Filling::Volumes at{impl_->volume(session_format::kLaid, voxels),
-                                 impl_->volume(session_format::kLaidTissue, voxels),
-                                 impl_->volume(session_format::kLaidIncrement, voxels)};
-    if (at.laid.empty()) return std::nullopt;
-    if (at.tissue.empty() || at.increment.empty()) throw damagedSession("a part of its filling is missing");
-    for (std::uint8_t& tissue : at.tissue) tissue = impl_->label[tissue];
-    return at;
+    return impl_->laid(session_format::kLaid, start.grid.voxelCount());
   });
 }
 

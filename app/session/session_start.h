@@ -37,6 +37,8 @@ struct SessionStart {
   /// The same: the solid before what is cut already when it begins; empty: nothing is.
   std::span<const std::uint8_t> whole = {};
   std::span<const std::uint8_t> teeth = {};  ///< the same, numbers of the teeth; empty: not numbered
+  /// Borrowed, in the order of `grid`: what is laid into it already; null: nothing is.
+  const haptics::Filling::Volumes* laid = nullptr;
 };
 
 /// The start as stored, with its voxels; labels are those of this program.
@@ -45,9 +47,11 @@ struct StoredStart {
   double dt_s = 0.0;
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
-  std::vector<std::uint8_t> whole;                ///< before what was cut already; empty: nothing was, or not stored
-  std::vector<std::uint8_t> is_tooth;             ///< empty: one body, or recorded before it was stored
-  std::vector<std::uint8_t> teeth;                ///< FDI numbers; empty: none, or recorded before they were stored
+  std::vector<std::uint8_t> whole;     ///< before what was cut already; empty: nothing was, or not stored
+  std::vector<std::uint8_t> is_tooth;  ///< empty: one body, or recorded before it was stored
+  std::vector<std::uint8_t> teeth;     ///< FDI numbers; empty: none, or recorded before they were stored
+  /// What was laid into it already; none: nothing was.
+  std::optional<haptics::Filling::Volumes> laid;
   assets::SoftTissueField soft_tissue;            ///< empty: none, or recorded before it was stored
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was stored
   ServoBuild servo;
@@ -59,6 +63,7 @@ struct StoredStart {
 inline haptics::Bodies bodiesAtStart(const StoredStart& start) {
   haptics::Bodies bodies(start.grid, start.solid, start.label, start.is_tooth);
   bodies.leave(start.setup.fragments);
+  if (start.laid && bodies.filling() != nullptr) bodies.filling()->begin(*start.laid);
   return bodies;
 }
 

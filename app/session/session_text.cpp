@@ -83,16 +83,22 @@ void forEachNumber(auto& tool, auto&& visit) {
 }
 
 json fileJson(const haptics::CanalFile& file) {
-  const auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
-  return {{"size", size},         {"length_mm", length_mm},
-          {"bent_deg", bent_deg}, {"nickel_titanium", nickel_titanium},
-          {"bent_mm", bent_mm},   {"bent_towards_deg", bent_towards_deg},
-          {"stop_mm", stop_mm}};
+  const auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm, cone_taper, sealer_mm3] =
+      file;
+  return {{"size", size},
+          {"length_mm", length_mm},
+          {"bent_deg", bent_deg},
+          {"nickel_titanium", nickel_titanium},
+          {"bent_mm", bent_mm},
+          {"bent_towards_deg", bent_towards_deg},
+          {"stop_mm", stop_mm},
+          {"cone_taper", cone_taper},
+          {"sealer_mm3", sealer_mm3}};
 }
 
 haptics::CanalFile fileFrom(const json& object) {
   haptics::CanalFile file;
-  auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm] = file;
+  auto& [size, length_mm, nickel_titanium, bent_deg, bent_mm, bent_towards_deg, stop_mm, cone_taper, sealer_mm3] = file;
   const int hundredths = valueOf(object, "size", 0);
   if (hundredths < 0) throw damagedSession("it has no valid tray");
   size = static_cast<std::uint64_t>(hundredths);
@@ -102,6 +108,8 @@ haptics::CanalFile fileFrom(const json& object) {
   bent_mm = valueOf(object, "bent_mm", bent_mm);
   bent_towards_deg = valueOf(object, "bent_towards_deg", bent_towards_deg);
   stop_mm = valueOf(object, "stop_mm", stop_mm);
+  cone_taper = valueOf(object, "cone_taper", cone_taper);
+  sealer_mm3 = valueOf(object, "sealer_mm3", sealer_mm3);
   return file;
 }
 
@@ -272,7 +280,7 @@ SessionSetup setupFrom(const json& object) {
         throw damagedSession("it has no valid tray");
       tool.elevator = static_cast<haptics::ElevatorKind>(elevator);
       const int by_hand = valueOf(one, "hand_instrument", 0);
-      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::curing_lamp))
+      if (by_hand < 0 || by_hand > static_cast<int>(haptics::HandInstrument::root_plugger))
         throw damagedSession("it has no valid tray");
       tool.hand_instrument = static_cast<haptics::HandInstrument>(by_hand);
       const int profile = valueOf(one, "profile", 0);
@@ -356,6 +364,7 @@ std::string aboutText(const SessionStart& start) {
                 {"started_utc", start.started_utc}};
   if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty())
     about["soft_tissue_grid"] = gridJson(start.soft_tissue->grid);
+  if (start.laid != nullptr) about["laid_before_age_s"] = start.laid->age_s;
   return dumped(about);
 }
 
@@ -380,6 +389,12 @@ SessionAbout aboutFromText(std::string_view text) {
   if (!about.start.setup.proposed.any() && about.start.patient_title.ends_with(assets::kNotConfirmedTitle))
     about.start.setup.proposed = {true, true};
   about.start.started_utc = valueOf(object, "started_utc", std::string());
+  if (const auto ages = object.find("laid_before_age_s"); ages != object.end() && ages->is_array())
+    for (const json& age : *ages) {
+      const double age_s = age.is_number() ? age.get<double>() : -1.0;
+      if (!(age_s >= 0.0 && age_s < 1e9)) throw damagedSession("it has no valid age of its filling");
+      about.laid_before_age_s.push_back(age_s);
+    }
   return about;
 }
 

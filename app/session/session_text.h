@@ -34,6 +34,7 @@ void refuseInvalidGrid(const assets::VolumeGrid& grid);
 struct SessionAbout {
   StoredStart start;  ///< without voxels
   LabelTable label{};
+  std::vector<double> laid_before_age_s;  ///< by increment
 };
 
 std::string aboutText(const SessionStart& start);

@@ -165,6 +165,7 @@ struct SessionWriter::Impl {
       });
     }
     if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty()) appendSoftTissue(*start.soft_tissue);
+    if (start.laid != nullptr) appendLaid(*start.laid, session_format::kLaidBefore);
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
   }
 
@@ -183,16 +184,23 @@ struct SessionWriter::Impl {
     });
   }
 
-  void appendFilling(const haptics::Filling& filling) {
-    const haptics::Filling::Volumes at = filling.volumes();
+  void appendLaid(const haptics::Filling::Volumes& at, const session_format::LaidNames& names) {
     const auto append_bytes = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
       appendVolume(name, bytes.size(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(first), part.size(), part.begin());
       });
     };
-    append_bytes(session_format::kLaid, at.laid);
-    append_bytes(session_format::kLaidTissue, at.tissue);
-    append_bytes(session_format::kLaidIncrement, at.increment);
+    append_bytes(names.laid, at.laid);
+    append_bytes(names.tissue, at.tissue);
+    append_bytes(names.increment, at.increment);
+    const std::size_t voxels = at.light.size();
+    if (voxels == 0) return;
+    appendVolume(names.light, 2 * voxels, [&](std::size_t first, std::span<std::uint8_t> part) {
+      for (std::size_t n = 0; n < part.size(); ++n) {
+        const std::size_t v = first + n;
+        part[n] = static_cast<std::uint8_t>(v < voxels ? at.light[v] : at.light[v - voxels] >> 8);
+      }
+    });
   }
 
   /// Runs `work`; if it throws, runs `restore` and reports a database error as one line on this file.
@@ -299,7 +307,7 @@ void SessionWriter::seal(std::uint64_t lost, const haptics::Bodies* bodies) {
     if (bodies != nullptr) {
       impl_->appendRemoved(*bodies);
       if (const haptics::Filling* const filling = bodies->filling(); filling != nullptr && !filling->isEmpty())
-        impl_->appendFilling(*filling);
+        impl_->appendLaid(filling->volumes(), session_format::kLaid);
       end.bone_digest = bodies->digest();
     }
     impl_->append("seal", {sealText(end)});

@@ -19,16 +19,17 @@ std::vector<std::uint8_t> voxelsOfTooth(const assets::Patient& patient) {
   return assets::voxelsOfTooth(patient.ct, patient.operatedTooth());
 }
 
-haptics::Bodies bodiesOf(const assets::Patient& patient) {
+haptics::Bodies bodiesOf(const assets::Patient& patient, const haptics::Filling::Volumes* laid) {
   haptics::Bodies bodies(patient.ct.grid, patient.ct.solid, patient.ct.label, voxelsOfTooth(patient));
   bodies.leave(patient.fragments);
+  if (laid != nullptr && bodies.filling() != nullptr) bodies.filling()->begin(*laid);
   return bodies;
 }
 
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
                                      double rate_Hz, const haptics::Command& command, haptics::TickLog& log,
                                      Ticking ticking, const assets::SoftTissueField& soft_tissue,
-                                     std::string& refusal) {
+                                     const haptics::Filling::Volumes* laid, std::string& refusal) {
   if (!recording) return nullptr;
   SessionStart start;
   start.patient_title = patient.shownTitle();
@@ -38,6 +39,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.solid = patient.ct.solid;
   start.label = patient.ct.label;
   start.whole = recording->whole;
+  start.laid = laid;
   const std::vector<std::uint8_t> is_tooth = voxelsOfTooth(patient);
   start.is_tooth = is_tooth;
   start.soft_tissue = &soft_tissue;
@@ -76,17 +78,17 @@ haptics::LoopSettings withSecondLog(haptics::LoopSettings settings, std::optiona
 Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
                          const haptics::LoopSettings& settings, const haptics::Command& command,
                          const std::optional<Recording>& recording, Ticking ticking, bool keeps_ticks,
-                         assets::SoftTissueField soft_tissue)
+                         assets::SoftTissueField soft_tissue, const haptics::Filling::Volumes* laid)
     : device_(std::move(device)),
-      bodies_(bodiesOf(patient)),
+      bodies_(bodiesOf(patient, laid)),
       soft_tissue_(std::move(soft_tissue)),
       servo_(bodies_, &soft_tissue_),
       rate_Hz_(settings.rate_Hz),
       command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
       commands_(command_),
       log_(roomAt(rate_Hz_)),
-      recorder_(
-          recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking, soft_tissue_, recording_refusal_)),
+      recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking, soft_tissue_, laid,
+                           recording_refusal_)),
       pedal_(settings.pedal),
       loop_(servo_, servedAs(*device_, ticking), commands_, log_, newest_,
             withSecondLog(settings, kept_ticks_, keeps_ticks)) {}

@@ -33,12 +33,12 @@ struct Recording {
 
 class Workstation {
  public:
-  /// `keeps_ticks`: for takeTicks(). `soft_tissue`: what the instrument can touch; empty: none. Throws SessionError or
-  /// haptics::DeviceError.
+  /// `keeps_ticks`: for takeTicks(). `soft_tissue`: what the instrument can touch; empty: none. `laid`: into the tooth
+  /// before, borrowed by the constructor; null: nothing was. Throws SessionError or haptics::DeviceError.
   Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
               const haptics::LoopSettings& settings, const haptics::Command& command,
               const std::optional<Recording>& recording, Ticking ticking = Ticking::realtime, bool keeps_ticks = false,
-              assets::SoftTissueField soft_tissue = {});
+              assets::SoftTissueField soft_tissue = {}, const haptics::Filling::Volumes* laid = nullptr);
 
   ~Workstation() { loop_.stop(); }
 

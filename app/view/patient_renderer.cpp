@@ -33,8 +33,8 @@ static_assert(static_cast<int>(assets::ElevatorForm::cryer_right) + 1 ==
 assets::HandInstrumentForm formOf(haptics::HandInstrument kind) {
   return static_cast<assets::HandInstrumentForm>(static_cast<int>(kind) - 1);
 }
-static_assert(static_cast<int>(assets::HandInstrumentForm::curing_lamp) + 1 ==
-              static_cast<int>(haptics::HandInstrument::curing_lamp));
+static_assert(static_cast<int>(assets::HandInstrumentForm::root_plugger) + 1 ==
+              static_cast<int>(haptics::HandInstrument::root_plugger));
 
 /// A little wider than what they grip (haptics::forcepsTool).
 constexpr double kOpenBeaks_mm = 8.0;
@@ -65,6 +65,8 @@ void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) 
   if (const auto file = tool.file.made())
     return renderer.setInstrument(
         assets::canalFile({.file = *file, .node_T_mm = {}, .torque_share = {}, .stop_mm = tool.file.stop_mm}));
+  if (const auto cone = tool.file.cone())
+    return renderer.setInstrument(assets::canalCone({.cone = *cone, .node_T_mm = {}, .is_held = true}));
   if (tool.isElevator()) return renderer.setInstrument(assets::elevator(formOf(tool.elevator)));
   if (tool.isHandInstrument()) return renderer.setInstrument(assets::handInstrument(formOf(tool.hand_instrument)));
   renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
@@ -73,7 +75,10 @@ void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) 
 void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, const haptics::FileWork& work,
               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) {
   const auto made = file.made();
-  if (!made) return;
+  const auto cone = file.cone();
+  if (!made && !cone) return;
+  if (cone && work.stay == haptics::FileStay::none)
+    return renderer.setInstrument(assets::canalCone({.cone = *cone, .node_T_mm = {}, .is_held = true}));
   if (work.stay == haptics::FileStay::none)
     return renderer.setInstrument(
         assets::canalFile({.file = *made, .node_T_mm = {}, .torque_share = {}, .stop_mm = file.stop_mm}));
@@ -82,6 +87,10 @@ void showFile(render::FrameRenderer& renderer, const haptics::CanalFile& file, c
   std::ranges::transform(work.node_P_mm, node_T_mm.begin(), [&](const glm::vec3& node_P) {
     return glm::vec3((X_TP * calibration::Point<calibration::Patient>{glm::dvec3(node_P)}).mm);
   });
+  // Open pliers, until the hand is out for the next one.
+  if (cone)
+    return renderer.setInstrument(
+        assets::canalCone({.cone = *cone, .node_T_mm = node_T_mm, .is_held = work.stay != haptics::FileStay::through}));
   // The handle turns with the hand; what the tip lags behind is seen along the flutes.
   renderer.setInstrument(assets::canalFile({.file = *made,
                                             .node_T_mm = node_T_mm,

@@ -65,11 +65,12 @@ bool showSameScene(const render::Frame& a, const render::Frame& b) {
   // A new member does not compile until it is compared; quality and display are not the scene's; field,
   // glass and marks have their own comparison.
   [[maybe_unused]] const auto& [rig, display, at_px, swapped, mode, layers, quality, X_PT, X_PT_at_hand, radius, form,
-                                length, profile, shaft, angle, gap, ruler, arrow, magnified, slices, tool, shades,
-                                handpiece, X_PO, second, glass, pieces, window, site, field, marks, beads, obstacles,
-                                flap, gum, flap_serial, gum_serial, paint, paint_serial] = a;
+                                length, profile, shaft, angle, gap, ruler, arrow, magnified, slices, curing, tool,
+                                shades, handpiece, X_PO, second, glass, pieces, window, site, field, marks, beads,
+                                obstacles, flap, gum, flap_serial, gum_serial, paint, paint_serial] = a;
   if (a.mode != b.mode || a.tool_visible != b.tool_visible || a.second_visible != b.second_visible ||
-      a.tool_shades != b.tool_shades || a.has_handpiece != b.has_handpiece)
+      a.curing.has_value() != b.curing.has_value() || a.tool_shades != b.tool_shades ||
+      a.has_handpiece != b.has_handpiece)
     return false;
   if (a.bur_form != b.bur_form || a.bur_radius_mm != b.bur_radius_mm || a.bur_length_mm != b.bur_length_mm ||
       a.bur_profile != b.bur_profile || a.shaft_radius_mm != b.shaft_radius_mm || a.bur_angle_rad != b.bur_angle_rad)

@@ -30,6 +30,8 @@ glm::vec4 colourOf(std::string_view name) {
 }
 
 constexpr glm::vec3 kSteel{0.55f, 0.56f, 0.58f}, kAmber{0.90f, 0.42f, 0.02f}, kRed{0.80f, 0.02f, 0.01f};
+/// As laid (render/volume/tissue_appearance).
+constexpr glm::vec4 kGuttaPercha{0.85f, 0.36f, 0.30f, 1.0f};
 constexpr float kAmberFrom = 0.4f;
 
 /// Of the wire where it bears that share of what breaks it.
@@ -61,16 +63,18 @@ struct Way {
   double fromTip_mm(double share) const { return whole_mm - share * left_mm; }
 };
 
-Way wayOf(const DrawnFile& drawn) {
-  Way way{{}, drawn.whole_mm > 0.0 ? drawn.whole_mm : drawn.file.length_mm, 0.0};
-  for (const glm::vec3& node : drawn.node_T_mm) way.node_mm.emplace_back(node);
-  if (way.node_mm.size() < 2) way.node_mm = {dvec3(0.0), dvec3(0.0, 0.0, -drawn.file.length_mm)};
+Way wayOf(std::span<const glm::vec3> node_T_mm, double whole_mm, double made_mm) {
+  Way way{{}, whole_mm > 0.0 ? whole_mm : made_mm, 0.0};
+  for (const glm::vec3& node : node_T_mm) way.node_mm.emplace_back(node);
+  if (way.node_mm.size() < 2) way.node_mm = {dvec3(0.0), dvec3(0.0, 0.0, -made_mm)};
   for (std::size_t n = 1; n < way.node_mm.size(); ++n) way.left_mm += glm::distance(way.node_mm[n], way.node_mm[n - 1]);
   // A broken file has its last nodes in one place.
   while (way.node_mm.size() > 2 && glm::distance(way.node_mm.back(), way.node_mm[way.node_mm.size() - 2]) < 1e-6)
     way.node_mm.pop_back();
   return way;
 }
+
+Way wayOf(const DrawnFile& drawn) { return wayOf(drawn.node_T_mm, drawn.whole_mm, drawn.file.length_mm); }
 
 /// The twisted wire: its corners run round it once a lead.
 Ring section(const DrawnFile& drawn, const Way& way, double share, dvec3& side) {
@@ -126,6 +130,21 @@ MeshPart rod(double from_z_mm, double to_z_mm, std::span<const std::pair<double,
   return part;
 }
 
+/// Round and smooth, its tip blunt.
+MeshPart coneOf(const DrawnCone& drawn) {
+  const Way way = wayOf(drawn.node_T_mm, 0.0, drawn.cone.length_mm);
+  std::vector<Ring> rings;
+  for (std::size_t n = 0; n <= kRings; ++n) {
+    const double share = static_cast<double>(n) / kRings, from_tip_mm = way.fromTip_mm(share);
+    const double room = std::clamp((from_tip_mm + 0.02) / (0.3 * drawn.cone.diameter_mm(0.0)), 0.4, 1.0);
+    rings.push_back(circle(way.at(share), way.along(share), 0.5 * room * drawn.cone.diameter_mm(from_tip_mm), 16));
+  }
+  MeshPart cone = closedSweep(rings);
+  cone.name = "Cone";
+  cone.material = {kGuttaPercha, 0.5f, 0.0f};
+  return cone;
+}
+
 }  // namespace
 
 MeshModel fragmentWires(std::span<const MetalFragment> fragments) {
@@ -135,6 +154,16 @@ MeshModel fragmentWires(std::span<const MetalFragment> fragments) {
     const KFile file{one.size, one.length_mm(), one.nickel_titanium ? KFileMetal::nickel_titanium : KFileMetal::steel};
     model.parts.push_back(wireOf({.file = file, .node_T_mm = node_mm, .torque_share = {}}));
   }
+  return model;
+}
+
+MeshModel canalCone(const DrawnCone& drawn) {
+  constexpr std::pair<double, double> kBeaks[] = {{0.0, 0.6}, {0.02, 0.9}, {0.3, 1.0}, {0.6, 1.6}, {1.0, 2.4}};
+  MeshPart pliers = rod(-0.5, 14.0, kBeaks, "Pliers");
+  pliers.material = {glm::vec4(kSteel, 1.0f), 0.35f, 1.0f};
+  MeshModel model;
+  if (drawn.is_held) model.parts.push_back(coneOf(drawn));
+  model.parts.push_back(std::move(pliers));
   return model;
 }
 

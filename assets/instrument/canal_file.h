@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "assets/instrument/gutta_percha_cone.h"
 #include "assets/instrument/k_file.h"
 #include "assets/mesh.h"
 #include "assets/metal_fragment.h"
@@ -23,6 +24,15 @@ struct DrawnFile {
 };
 
 MeshModel canalFile(const DrawnFile& drawn);
+
+struct DrawnCone {
+  GuttaPerchaCone cone;
+  std::span<const glm::vec3> node_T_mm;  ///< as of a DrawnFile
+  bool is_held = true;                   ///< else the pliers alone
+};
+
+/// A cone of gutta-percha in pliers: parts "Cone" and "Pliers".
+MeshModel canalCone(const DrawnCone& drawn);
 
 /// What broken files have left, in frame P: parts "Wire", twisted and grey as the files were.
 MeshModel fragmentWires(std::span<const MetalFragment> fragments);

@@ -107,6 +107,11 @@ constexpr Knot kPluggerTip[] = {
     {-0.40, {0.0, 0.0}, {0.66, 0.66}, 0, 0, 0, 1}, {0.00, {0.0, 0.0}, {0.70, 0.70}, 0, 0, 0, 2},
     {2.00, {0.0, 0.0}, {0.60, 0.60}, 0, 0, 0, 2},  {9.00, {0.0, 0.0}, {0.55, 0.55}, 0, 0, 0, 3},
     {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
+// Slim enough for the upper part of a canal.
+constexpr Knot kRootPluggerTip[] = {
+    {-0.25, {0.0, 0.0}, {0.12, 0.12}, 0, 0, 0, 1}, {-0.20, {0.0, 0.0}, {0.22, 0.22}, 0, 0, 0, 1},
+    {0.00, {0.0, 0.0}, {0.25, 0.25}, 0, 0, 0, 2},  {6.00, {0.0, 0.0}, {0.24, 0.24}, 0, 0, 0, 3},
+    {14.0, {0.0, 0.0}, {0.45, 0.45}, 0, 0, 0, 3},  {18.0, {0.0, 0.0}, {0.90, 0.90}, 0, 0, 0, 1}};
 // A small blade with one edge.
 constexpr Knot kCarverTip[] = {
     {-0.40, {0.0, 0.0}, {0.05, 0.10}, 0.2, 0.8, 0, 1}, {-0.20, {0.0, 0.0}, {0.14, 0.32}, 0.2, 0.8, 0, 2},
@@ -217,6 +222,8 @@ MeshModel handInstrument(HandInstrumentForm form) {
       return applicator(kConeTip, {0.85f, 0.36f, 0.30f});
     case HandInstrumentForm::plugger:
       return withHandle(part(kPluggerTip, "Blade", kSteel));
+    case HandInstrumentForm::root_plugger:
+      return withHandle(part(kRootPluggerTip, "Blade", kSteel));
     case HandInstrumentForm::carver:
       return withHandle(part(kCarverTip, "Blade", kBladeSteel));
     case HandInstrumentForm::curing_lamp:

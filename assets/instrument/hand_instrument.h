@@ -23,6 +23,7 @@ enum class HandInstrumentForm {
   plugger,
   carver,
   curing_lamp,
+  root_plugger,
 };
 
 MeshModel handInstrument(HandInstrumentForm form);

@@ -21,8 +21,8 @@ constexpr double kMostLean_rad = 0.6;
 /// In 1/100 of cortical bone: enamel 2.1, dentine 1.4, pulp and other soft tissue 0.3; spongy bone is mostly marrow,
 /// caries has lost mineral, makers load fillings.
 constexpr int kBone = 100;
-constexpr std::array<int, kTissueCount> kAttenuation{kBone, kBone, 50,  140, 210, 140, 30,  30, 30, 30,
-                                                     60,    110,   230, 230, 190, 190, 800, 10, 400};
+constexpr std::array<int, kTissueCount> kAttenuation{kBone, kBone, 50,  140, 210, 140, 30,  30, 30,  30,
+                                                     60,    110,   230, 230, 190, 190, 800, 10, 400, 800};
 
 /// Attenuation of the voxels that the beam crosses, planes across it one after the other, with a border of air.
 struct Slab {
@@ -89,7 +89,8 @@ void addPlane(const Slab& slab, int plane, const std::vector<Ray>& rays, std::ve
 float attenuationOf(std::uint8_t solid, std::uint8_t label) {
   const std::uint8_t tissue = label < kTissueCount ? label : std::uint8_t{0};
   const int full = kAttenuation[tissue];
-  const bool is_soft = tissue != 0 && !isHard(tissue);
+  // Tissue fills what lies between hard parts, a filling is where it was laid.
+  const bool is_soft = tissue != 0 && !isHard(tissue) && tissue < kScanTissueCount;
   return static_cast<float>(is_soft ? full : (full * solid + 127) / 255);
 }
 

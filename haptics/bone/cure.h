@@ -1,8 +1,8 @@
 // A curing lamp over a filling: light goes from its tip along -z of T, no wider than the tip and a little, and reaches
 // kCuredDepth_mm into what is solid, tooth or filling; a voxel sets once it has had its material's time. Blocks take
 // turns: kBlocksPerTick a tick, each with the time since its last turn, so that the work of a tick is bounded. Frame P.
-// The thread that owns the filling; under 60 us a tick; no allocation, no throw. 10 to 20 s, 2 mm: reference/sisters
-// 5.4.
+// The thread that owns the filling; under 60 us a tick; no allocation, no throw. Times: bone/filling; 2 mm:
+// reference/sisters 5.4.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,6 @@
 namespace haptics {
 
 inline constexpr double kCuredDepth_mm = 2.0, kLampReach_mm = 8.0, kLampRadius_mm = 4.0;
-/// What a material becomes, and after how much light; itself where light does nothing.
-struct Setting {
-  assets::Tissue into;
-  double light_s = 0.0;
-};
-constexpr Setting settingOf(std::uint8_t label) {
-  if (label == static_cast<std::uint8_t>(assets::Tissue::composite_soft)) return {assets::Tissue::composite, 10.0};
-  if (label == static_cast<std::uint8_t>(assets::Tissue::glass_ionomer_soft))
-    return {assets::Tissue::glass_ionomer, 20.0};
-  return {static_cast<assets::Tissue>(label), 0.0};
-}
 
 /// Part of the servo's state.
 class CuringLight {

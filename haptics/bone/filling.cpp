@@ -36,6 +36,34 @@ Filling::Filling(const assets::VolumeGrid& grid)
   written_.assign((blocks() + 63) / 64, 0);
 }
 
+void Filling::begin(const Volumes& volumes) {
+  const auto least = [](unsigned value, unsigned most) { return std::min(value, most); };
+  bool is_open = true;
+  const glm::ivec3 blocks_ijk = field().blocks;
+  assets::forVoxels(glm::ivec3(0), blocks_ijk, [&](glm::ivec3 block) {
+    BlockState state;
+    const glm::ivec3 first = block * kBlockEdge;
+    assets::forVoxels(first, glm::min(first + kBlockEdge, grid_.size), [&](glm::ivec3 ijk) {
+      const std::size_t v = grid_.index(ijk), n = SolidField::within(ijk);
+      if (volumes.laid[v] == 0) return;
+      state.solid[n] = volumes.laid[v], state.reach[n] = volumes.tissue[v];
+      const unsigned increment = least(volumes.increment[v], kMostIncrements);
+      const unsigned light = volumes.light.empty() ? 0U : least(volumes.light[v], kMostLight);
+      state.dose[n] = static_cast<std::uint16_t>(increment << kIncrementShift | light);
+      if (increment < begun_.increment) return;
+      const auto tissue = static_cast<assets::Tissue>(state.reach[n]);
+      // What light sets may be gone on with until some of it has set.
+      const bool waits = settingOf(state.reach[n]).light_s > 0.0;
+      is_open = waits && (increment > begun_.increment || (is_open && tissue == begun_.material));
+      begun_.increment = increment, begun_.material = tissue;
+    });
+    if (!isNothing(state)) restoreBlock(field().blockAt(block), state);
+  });
+  if (!is_open) begun_.material = assets::Tissue::unlabelled;
+  const std::size_t ages = std::min<std::size_t>(volumes.age_s.size(), kMostIncrements);
+  for (std::size_t n = 0; n < ages; ++n) begun_.age_s[n + 1] = volumes.age_s[n];
+}
+
 BlockState Filling::stateOf(std::size_t block) const {
   BlockState state;
   if (!cubelets_.isOwn(block)) return state;
@@ -157,7 +185,8 @@ FillingBrick Filling::copyBrick(glm::ivec3 brick) const {
 Filling::Volumes Filling::volumes() const {
   const SolidField at = field();
   const std::size_t count = grid_.voxelCount();
-  Volumes volumes{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
+  Volumes volumes{
+      std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count), {}, {}};
   assets::forVoxels(glm::ivec3(0), at.blocks, [&](glm::ivec3 block) {
     const std::size_t number = at.blockAt(block);
     if (at.weight[at.slotOf(number)] == 0) return;
@@ -168,6 +197,10 @@ Filling::Volumes Filling::volumes() const {
       volumes.laid[v] = state.solid[n];
       volumes.tissue[v] = state.reach[n];
       volumes.increment[v] = static_cast<std::uint8_t>(state.dose[n] >> kIncrementShift);
+      const auto light = static_cast<std::uint16_t>(state.dose[n] & kMostLight);
+      if (light == 0) return;
+      if (volumes.light.empty()) volumes.light.resize(count);
+      volumes.light[v] = light;
     });
   });
   return volumes;

@@ -16,9 +16,31 @@ namespace haptics {
 
 /// Not set: it can be pressed aside.
 constexpr bool isPlastic(std::uint8_t label) {
-  return label >= static_cast<std::uint8_t>(assets::Tissue::composite_soft) &&
-         label != static_cast<std::uint8_t>(assets::Tissue::composite) &&
-         label != static_cast<std::uint8_t>(assets::Tissue::glass_ionomer);
+  using assets::Tissue;
+  const auto tissue = static_cast<Tissue>(label);
+  return label >= static_cast<std::uint8_t>(Tissue::composite_soft) && tissue != Tissue::composite &&
+         tissue != Tissue::glass_ionomer && tissue != Tissue::amalgam;
+}
+
+/// What a material becomes: after so much light, or so long after its increment was begun (0: not by that); itself
+/// where neither sets it. Light: reference/sisters 5.4. Amalgam: 4.5 min, an admixed alloy (Dispersalloy; University of
+/// Iowa, Operative Dentistry). Glass ionomer: 4.83 min net, Fuji II (Ghashami 2022, by ISO 9917-1).
+struct Setting {
+  assets::Tissue into;
+  double light_s = 0.0, by_itself_s = 0.0;
+};
+constexpr Setting settingOf(std::uint8_t label) {
+  using assets::Tissue;
+  switch (static_cast<Tissue>(label)) {
+    case Tissue::composite_soft:
+      return {Tissue::composite, 10.0, 0.0};
+    case Tissue::glass_ionomer_soft:
+      return {Tissue::glass_ionomer, 20.0, 290.0};
+    case Tissue::amalgam_soft:
+      return {Tissue::amalgam, 0.0, 270.0};
+    default:
+      return {static_cast<Tissue>(label), 0.0, 0.0};
+  }
 }
 
 /// A grid on which a tooth is filled: that of a single tooth.
@@ -37,7 +59,26 @@ class Filling {
   static constexpr unsigned kIncrementShift = 10, kMostIncrements = 63, kMostLight = 1023;
   static constexpr double kLightUnit_s = 0.02;
 
+  /// In the order of the grid: the filling's part of each voxel, its assets::Tissue, its increment, its light (empty:
+  /// none has any); by increment, from 1, how long ago it was begun (one that is not named: now).
+  struct Volumes {
+    std::vector<std::uint8_t> laid{}, tissue{}, increment{};
+    std::vector<std::uint16_t> light{};
+    std::vector<double> age_s{};
+  };
+
   explicit Filling(const assets::VolumeGrid& grid);
+
+  /// What lies there when a servo takes over, of a stranger's bytes too. Before that, on an empty filling; allocates.
+  void begin(const Volumes& volumes);
+  /// Of what begin() put there: the newest increment, what it is of where more of it may be laid (unlabelled: it is
+  /// ended), ages.
+  struct Begun {
+    unsigned increment = 0;
+    assets::Tissue material = assets::Tissue::unlabelled;
+    std::array<double, kMostIncrements + 1> age_s{};
+  };
+  const Begun& begun() const { return begun_; }
 
   const assets::VolumeGrid& grid() const { return grid_; }
   bool isEmpty() const { return steps_ == 0; }
@@ -75,11 +116,7 @@ class Filling {
   /// The 8x8x8 voxels of a brick (i fastest; outside of the volume 0). One reading thread.
   FillingBrick copyBrick(glm::ivec3 brick) const;
 
-  /// In the order of the grid: the filling's part of each voxel, its assets::Tissue, its increment.
-  struct Volumes {
-    std::vector<std::uint8_t> laid, tissue, increment;
-  };
-  /// O(voxels), allocates; writing thread, or without a writer.
+  /// O(voxels), allocates; writing thread, or without a writer. Without ages, which the servo has.
   Volumes volumes() const;
   std::size_t bytes() const { return cubelets_.bytes() + set_.bytes() + mark_.size() * sizeof(std::uint16_t); }
 
@@ -93,6 +130,7 @@ class Filling {
   std::int64_t steps_ = 0, set_steps_ = 0;
   std::uint64_t digest_ = 0;
   std::size_t first_block_ = 0;
+  Begun begun_;
   DirtyBricks dirty_;
   std::vector<std::uint64_t> written_;
 };

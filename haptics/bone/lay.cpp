@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 
+#include "calibration/random.h"
+#include "haptics/bone/laid_voxel.h"
 #include "haptics/bone/round_coverage.h"
 
 namespace haptics {
 namespace {
 
 constexpr int kWhole = 255, kHalf = 128;
+constexpr double kProbe_mm = 0.14;     ///< radius of the places ahead that are looked at
 constexpr double kAside_voxels = 3.0;  ///< how far beside a ball material goes in a step
 
 using Weights = std::array<int, kBlockVoxels>;
@@ -88,6 +91,7 @@ class Under {
     if (!field_.grid.contains(ijk)) return 0;
     return ball_.tooth.solidAt(ijk) + field_.solidAt(ijk);
   }
+  int laidAt(glm::ivec3 ijk) const { return field_.grid.contains(ijk) ? field_.solidAt(ijk) : 0; }
   bool isInGrid(glm::ivec3 block, std::size_t n) const { return field_.grid.contains(voxelOf(block, n)); }
   static glm::ivec3 voxelOf(glm::ivec3 block, std::size_t n) {
     const int at = static_cast<int>(n);
@@ -102,17 +106,6 @@ class Under {
   VoxelBox box_;
   BlockCut cut_;
 };
-
-std::uint16_t markOf(unsigned increment) {
-  return static_cast<std::uint16_t>(std::min(increment, Filling::kMostIncrements) << Filling::kIncrementShift);
-}
-
-/// More of a material in a voxel; the larger part names it.
-void add(BlockState& state, std::size_t n, int more, std::uint8_t material, std::uint16_t mark) {
-  if (more == 0) return;
-  if (more >= state.solid[n]) state.reach[n] = material, state.dose[n] = mark;
-  state.solid[n] = static_cast<std::uint8_t>(state.solid[n] + more);
-}
 
 }  // namespace
 
@@ -156,7 +149,7 @@ std::int64_t layBall(const LaidBall& ball, assets::Tissue material, unsigned inc
     std::int64_t here = 0;
     for (std::size_t n = 0; n < lack.size(); ++n) {
       const int more = shares.of(lack[n]);
-      add(state, n, more, static_cast<std::uint8_t>(material), markOf(increment));
+      addLaid(state, n, more, static_cast<std::uint8_t>(material), markOf(increment));
       here += more;
     }
     if (here != 0 && ball.filling.setBlock(number, state, ball.strokes)) done += here;
@@ -164,10 +157,22 @@ std::int64_t layBall(const LaidBall& ball, assets::Tissue material, unsigned inc
   return done;
 }
 
-std::int64_t packBall(const LaidBall& ball, double share) noexcept {
-  const double radius = ball.radius_mm / ball.filling.grid().spacing_mm;
-  if (ball.filling.isEmpty() || !(share > 0.0) || !(radius > 0.0) || !std::isfinite(radius)) return 0;
-  Under under(ball, radius), wide(ball, radius + kAside_voxels);
+namespace {
+
+bool canPack(const LaidBall& ball, double share) {
+  return !ball.filling.isEmpty() && share > 0.0 && ball.radius_mm > 0.0 && std::isfinite(ball.radius_mm);
+}
+
+/// Where what is pressed away may go: air of `part` of the voxels under `wide` that borders on what holds it.
+struct Room {
+  Under& wide;
+  VoxelBox part;
+  bool beside_filling = false;  ///< the tooth alone does not hold it
+};
+
+std::int64_t pack(const LaidBall& ball, double share, const Room& to) {
+  Under under(ball, ball.radius_mm / ball.filling.grid().spacing_mm);
+  Under& wide = to.wide;
 
   // What is in the way, and of which material most of it is.
   std::array<std::int64_t, assets::kTissueCount> of{};
@@ -200,7 +205,7 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
   if (all == 0) return 0;
   const auto material = static_cast<std::uint8_t>(std::max_element(of.begin(), of.end()) - of.begin());
 
-  // Room beside the ball, where something is to hold on to; an eighth of the places around it in every step.
+  // Room beside the ball, where something is to hold on to.
   const auto room = [&](glm::ivec3 block, std::size_t number, const Weights& cover, Weights& free) {
     const std::uint8_t *const tooth = wide.tooth(number), *const laid = wide.laid(number);
     Weights inner;
@@ -210,12 +215,12 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
       free[n] = inner[n] != 0 ? 0 : std::max(0, std::min(kWhole - tooth[n] - laid[n], cover[n]));
       if (free[n] == 0) continue;
       const glm::ivec3 ijk = Under::voxelOf(block, n);
-      bool holds = under.isInGrid(block, n) && tooth[n] + laid[n] >= kHalf / 2;
+      bool holds = under.isInGrid(block, n) && (to.beside_filling ? 0 : tooth[n]) + laid[n] >= kHalf / 2;
       for (int axis = 0; axis < 3 && !holds && under.isInGrid(block, n); ++axis)
         for (const int way : {-1, 1}) {
           glm::ivec3 next = ijk;
           next[axis] += way;
-          holds = holds || wide.solidAt(next) >= kHalf;
+          holds = holds || (to.beside_filling ? wide.laidAt(next) : wide.solidAt(next)) >= kHalf;
         }
       if (!holds) free[n] = 0;
       sum += free[n];
@@ -223,7 +228,7 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
     return sum;
   };
   std::int64_t free_steps = 0;
-  const VoxelBox part = wide.octant(static_cast<unsigned>(ball.tick % 8));
+  const VoxelBox& part = to.part;
   const auto has_room = [&](std::size_t number) { return wide.hasRoom(number); };
   wide.forBlocks(part, has_room, [&](glm::ivec3 block, std::size_t number, const Weights& cover) {
     free_steps += room(block, number, cover, weight);
@@ -242,7 +247,7 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
     for (std::size_t n = 0; n < weight.size(); ++n) {
       // What was laid before may have made more room.
       const auto more = static_cast<int>(std::min<std::int64_t>(given.of(weight[n]), due - shared - here));
-      add(state, n, more, material, mark);
+      addLaid(state, n, more, material, mark);
       here += more;
     }
     shared += here;
@@ -261,6 +266,30 @@ std::int64_t packBall(const LaidBall& ball, double share) noexcept {
     ball.filling.setBlock(number, state, ball.strokes);
   });
   return moved;
+}
+
+}  // namespace
+
+std::int64_t packBall(const LaidBall& ball, double share) noexcept {
+  if (!canPack(ball, share)) return 0;
+  Under wide(ball, ball.radius_mm / ball.filling.grid().spacing_mm + kAside_voxels);
+  // An eighth of the places around it in every step.
+  return pack(ball, share, {wide, wide.octant(static_cast<unsigned>(ball.tick % 8))});
+}
+
+std::int64_t packAhead(const LaidBall& ball, const glm::dvec3& ahead, double share) noexcept {
+  if (!canPack(ball, share)) return 0;
+  // Another place ahead in every step.
+  const std::uint64_t bits = calibration::mixedBits(ball.tick);
+  const auto share_at = [&](unsigned shift) { return static_cast<double>(bits >> shift & 0xFFFFU) / 65535.0; };
+  const glm::dvec3 helper = std::fabs(ahead.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const glm::dvec3 x = glm::normalize(glm::cross(ahead, helper)), y = glm::cross(ahead, x);
+  constexpr double kAside_mm = kHeatedRadius_mm - kProbe_mm;
+  LaidBall there = ball;
+  there.centre_P.mm += (ball.radius_mm + share_at(0) * kHeated_mm) * ahead +
+                       kAside_mm * ((2.0 * share_at(16) - 1.0) * x + (2.0 * share_at(32) - 1.0) * y);
+  Under wide(there, kProbe_mm / ball.filling.grid().spacing_mm);
+  return pack(ball, share, {wide, wide.box(), true});
 }
 
 }  // namespace haptics

@@ -1,7 +1,7 @@
-// What instruments with a ball at their tip do to a filling: lay material into air, press it aside. Frame P; steps of
-// 1/255 of a voxel, so that sums are exact. The thread that owns the filling; several passes over the blocks under the
-// ball: layBall 50 us, packBall 130 us, 300 at most, with 0.5 and 0.7 mm at 0.08 mm; no allocation, no throw. Carving:
-// bone/carve. Light: bone/cure.
+// What instruments with a ball at their tip do to a filling: lay material into air, press it aside or ahead. Frame P;
+// steps of 1/255 of a voxel, so that sums are exact. The thread that owns the filling; several passes over the blocks
+// under the ball: layBall 50 us, packBall 130 us, 300 at most, with 0.5 and 0.7 mm at 0.08 mm; no allocation, no throw.
+// Carving: bone/carve. Light: bone/cure.
 #pragma once
 
 #include <cstdint>
@@ -30,5 +30,11 @@ std::int64_t layBall(const LaidBall& ball, assets::Tissue material, unsigned inc
 /// Presses what has not set out of the ball, into air beside it that borders on tooth or filling: `share` of it, as far
 /// as there is room. Nothing is lost or made. Returns the steps moved.
 std::int64_t packBall(const LaidBall& ball, double share) noexcept;
+
+/// How far ahead of a hot plugger gutta-percha is soft, and how wide: our defaults, after the 3 to 5 mm that are
+/// taught.
+inline constexpr double kHeated_mm = 4.0, kHeatedRadius_mm = 0.6;
+/// The same into air ahead that borders on filling, towards the unit vector `ahead`: what lies between moves on.
+std::int64_t packAhead(const LaidBall& ball, const glm::dvec3& ahead, double share) noexcept;
 
 }  // namespace haptics

@@ -119,6 +119,10 @@ SectionContact FileInCanal::wallAt(const ChainShape& shape, const Kept& kept, co
                            is_tip ? 0.5 * chain_.link_mm : chain_.link_mm};
   addSection(law_, *scene.wall, place, contact);
   if (is_tip) addTip(law_, *scene.wall, place, contact);
+  if (scene.laid != nullptr) {
+    addSection(law_, *scene.laid, place, contact);
+    if (is_tip) addTip(law_, *scene.laid, place, contact);
+  }
   if (scene.fragments != nullptr) scene.fragments->press(shape.node_mm[i], chain_.radius_mm[i], contact);
   return contact;
 }

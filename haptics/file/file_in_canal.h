@@ -33,6 +33,7 @@ struct FileScene {
   std::optional<RubberStop> stop;
   const PerNode<glm::dvec3>* pull_P_N = nullptr;  ///< loads on nodes; null: none
   const FileFragments* fragments = nullptr;       ///< of other files; null: none
+  const SolidField* laid = nullptr;               ///< wall beside the wall: what was laid; null: none
 };
 
 struct FileGrip {

@@ -14,7 +14,7 @@ struct FillingWork {
   double changed_mm3 = 0.0;  ///< by the instrument: laid, or carved away (below 0)
   double packed_mm3 = 0.0;   ///< pressed aside
   double total_mm3 = 0.0;    ///< in the tooth
-  double cured_mm3 = 0.0;    ///< of it
+  double cured_mm3 = 0.0;    ///< of it, that has set
 
   bool operator==(const FillingWork&) const = default;
 };

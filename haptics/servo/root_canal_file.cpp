@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "haptics/file/cone_chain.h"
 #include "haptics/file/material_frame.h"
 #include "haptics/file/wall_contact.h"
 
@@ -16,6 +18,9 @@ using glm::dvec3;
 
 // A hand without torque feels the torque as a vibration along the file (reference/sisters 1.5).
 constexpr double kSlowest_Hz = 60.0, kFastest_Hz = 250.0, kBuzz_N = 0.3, kFeltShare = 0.1;
+
+/// A cone that is not so far in a canal is not let go of.
+constexpr double kStays_mm = 1.0;
 
 FilePose poseOf(const calibration::Pose<Patient, calibration::Tool>& X_PT) {
   return {X_PT.rotation, X_PT.translation_mm};
@@ -37,12 +42,15 @@ double rollBetween_rad(const glm::dquat& from, const glm::dquat& to) {
 FileReference sanitised(const FileReference& reference) noexcept {
   const double length = glm::length(reference.out_P);
   if (!calibration::isFinite(reference.point_P_mm) || !(length > 1e-6) || !std::isfinite(length)) return {};
-  return {reference.point_P_mm, reference.out_P / length};
+  constexpr double kDeepest_mm = 30.0;
+  const double orifice_mm = std::isfinite(reference.orifice_mm) ? reference.orifice_mm : 0.0;
+  return {reference.point_P_mm, reference.out_P / length, std::clamp(orifice_mm, 0.0, kDeepest_mm)};
 }
 
 void RootCanalFile::takeUp(const Tool& tool, const FilePose& X_PT, const WearSettings& wear,
                            double max_stiffness_N_per_mm) noexcept {
   const auto made = tool.file.made();
+  const auto cone = tool.file.cone();
   const bool is_another = tool.file != chosen_ || !file_;
   chosen_ = tool.file;
   wear_settings_ = wear;
@@ -51,13 +59,15 @@ void RootCanalFile::takeUp(const Tool& tool, const FilePose& X_PT, const WearSet
   wear_ = CanalWear(wear);
   work_ = {};
   let_go_rad_ = buzz_rad_ = 0.0;
+  has_let_go_ = false;
   last_hand_ = X_PT.rotation;
-  if (!made) {
+  if (!made && !cone) {
     file_.reset();
     return;
   }
-  const double N_per_mm = std::min(kFileCoupling_N_per_mm, max_stiffness_N_per_mm);
-  file_.emplace(fileChain(*made, kUsualLinks), FileLaw{}, FileGrip{false, N_per_mm}, X_PT);
+  const FileGrip grip{false, std::min(kFileCoupling_N_per_mm, max_stiffness_N_per_mm)};
+  file_.emplace(cone ? coneChain(*cone, kUsualLinks) : fileChain(*made, kUsualLinks), cone ? coneLaw() : FileLaw{},
+                grip, X_PT);
   if (chosen_.bent_deg != 0.0)
     file_->prebend(chosen_.bent_mm, chosen_.bent_deg * std::numbers::pi / 180.0,
                    chosen_.bent_towards_deg * std::numbers::pi / 180.0);
@@ -73,25 +83,48 @@ void RootCanalFile::putDown(double dt_s, bool irrigates) noexcept {
   work_.fragments = static_cast<std::uint8_t>(fragments_.lying());
 }
 
+double RootCanalFile::belowOrifice_mm(const FileReference& reference) const noexcept {
+  const dvec3& tip_mm = file_->state().shape.node_mm[file_->chain().links];
+  return -reference.orifice_mm - glm::dot(tip_mm - reference.point_P_mm, reference.out_P);
+}
+
 bool RootCanalFile::isOut(const FileReference& reference) const noexcept {
   const dvec3& tip_mm = file_->state().shape.node_mm[file_->chain().links];
   return glm::dot(tip_mm - reference.point_P_mm, reference.out_P) > 0.0;
 }
 
-bool RootCanalFile::isInSolid(const SolidField& wall) const noexcept {
+bool RootCanalFile::isInSolid(const FileScene& scene) const noexcept {
   const FileChain& chain = file_->chain();
   const ChainShape& shape = file_->state().shape;
   for (std::size_t i = 1; i <= chain.links; ++i) {
     SectionContact contact;
-    addSection(file_->law(), wall, {shape.node_mm[i], shape.direction[i], chain.radius_mm[i], chain.link_mm}, contact);
+    const SectionPlace place{shape.node_mm[i], shape.direction[i], chain.radius_mm[i], chain.link_mm};
+    if (scene.wall != nullptr) addSection(file_->law(), *scene.wall, place, contact);
+    if (scene.laid != nullptr) addSection(file_->law(), *scene.laid, place, contact);
     if (contact.normal_N > 0.0) return true;
   }
   return false;
 }
 
+LaidCone RootCanalFile::laidCone(const FileReference& reference) const noexcept {
+  static_assert(LaidCone::kMostNodes == kUsualLinks + 1);
+  const FileChain& chain = file_->chain();
+  LaidCone cone;
+  cone.nodes = chain.links + 1;
+  for (std::size_t n = 0; n < cone.nodes; ++n) {
+    cone.node_P_mm[n] = file_->state().shape.node_mm[n];
+    cone.radius_mm[n] = chain.radius_mm[n];
+  }
+  cone.sealer_mm3 = chosen_.sealer_mm3;
+  cone.seared_P_mm = reference.point_P_mm - reference.orifice_mm * reference.out_P;
+  cone.out_P = reference.out_P;
+  return cone;
+}
+
 FilePose RootCanalFile::gripped(const Hand& hand) noexcept {
   FilePose at = poseOf(hand.X_PT);
-  if (hand.opens_fingers && !hand.relocated) let_go_rad_ += rollBetween_rad(last_hand_, at.rotation);
+  if (hand.opens_fingers && !hand.relocated && !chosen_.isCone())
+    let_go_rad_ += rollBetween_rad(last_hand_, at.rotation);
   last_hand_ = at.rotation;
   // About the axis towards the tip, which is -z.
   const glm::dvec2 half = turnBy(-0.5 * let_go_rad_);
@@ -107,21 +140,36 @@ RootCanalFile::Felt RootCanalFile::update(Bodies& bodies, StrokeHistory& strokes
   Felt felt;
   felt.handle_P = {hand.X_PT.translation_mm};
   const bool other = !file_ || tool.file != chosen_ || wear != wear_settings_;
+  // A cone meets what is laid too; files go through it.
+  const bool is_cone = tool.file.isCone();
+  SolidField laid;
+  FileScene met;
+  met.wall = &wall;
+  if (is_cone && bodies.filling() != nullptr && !bodies.filling()->isEmpty())
+    laid = bodies.filling()->field(), met.laid = &laid;
   if (other || hand.relocated) {
     takeUp(tool, poseOf(hand.X_PT), wear, hand.max_stiffness_N_per_mm);
     if (!file_) return felt;
-    passes_ = isInSolid(wall);
+    passes_ = isInSolid(met);
+  }
+  const bool opens = !std::exchange(were_open_, hand.opens_fingers) && hand.opens_fingers;
+  if (is_cone && opens && !passes_ && hand.may_cut && bodies.filling() != nullptr &&
+      belowOrifice_mm(reference) > kStays_mm) {
+    felt.let_go = laidCone(reference);
+    takeUp(tool, poseOf(hand.X_PT), wear, hand.max_stiffness_N_per_mm);
+    has_let_go_ = passes_ = true;
   }
 
   FileScene scene;
   if (!passes_) {
-    scene.wall = &wall;
+    scene = met;
     if (fragments_.isMet()) scene.fragments = &fragments_;
     if (chosen_.stop_mm > 0.0) scene.stop = RubberStop{chosen_.stop_mm, reference.point_P_mm, reference.out_P};
   }
   const FileTick done = file_->step(gripped(hand), scene);
-  if (passes_) passes_ = isInSolid(wall);
-  felt.files = hand.may_cut && !passes_ && done.normal_N > 0.0;
+  has_let_go_ = has_let_go_ && belowOrifice_mm(reference) > 0.0;
+  if (passes_) passes_ = has_let_go_ || isInSolid(met);
+  felt.files = hand.may_cut && !is_cone && !passes_ && done.normal_N > 0.0;
   if (felt.files) felt.removed = wear_.step(*file_, bone, &strokes, tick, &flutes_);
   flutes_.rinse(dt_s, hand.irrigates, isOut(reference));
   if (done.broken_link && file_->fragment()) fragments_.leave(*file_->fragment(), file_->chain(), strokes);
@@ -161,8 +209,9 @@ void RootCanalFile::tell(const FileTick& tick) noexcept {
   work_.removed_total_mm3 = taken_before_mm3_ + wear_.removed_mm3();
   work_.broken_from_tip_mm = tick.broken_link && file_->fragment() ? file_->fragment()->from_tip_mm : 0.0;
   work_.left_mm = chain.length_mm();
-  work_.flutes_full = flutes_.fullest();
-  work_.sharpness = flutes_.sharpness();
+  // A cone has none.
+  work_.flutes_full = chosen_.isCone() ? 0.0 : flutes_.fullest();
+  work_.sharpness = chosen_.isCone() ? 1.0 : flutes_.sharpness();
   work_.debris_mm3 = flutes_.left_mm3();
   work_.fragments = static_cast<std::uint8_t>(fragments_.lying());
   work_.keeps_bend = tick.set;

@@ -1,14 +1,16 @@
 // A root-canal file in the hand: taken up, led along its canal (file/file_in_canal), worn against the wall
 // (file/canal_wear). It meets the jaw's bone, not pieces of a tooth to be removed. The pedal opens the fingers: while
 // it is down the handle turns without the file, as one grips anew. A file that an undo or a jump of the hand has put
-// into the tooth has no wall until it is out. Frame P. Servo thread; no allocation, lock or throw; costs in
-// file/README.
+// into the tooth has no wall until it is out. Or a cone of gutta-percha in pliers: it cuts nothing, meets what is laid
+// too, and stays in the tooth once they open; the next one has no wall until the hand is out. Frame P. Servo thread; no
+// allocation, lock or throw; costs in file/README.
 #pragma once
 
 #include <optional>
 #include <span>
 
 #include "haptics/body/bodies.h"
+#include "haptics/bone/lay_cone.h"
 #include "haptics/file/canal_wear.h"
 #include "haptics/file/file_flutes.h"
 #include "haptics/file/file_fragments.h"
@@ -21,6 +23,7 @@ namespace haptics {
 /// Where the rubber stop of a file comes to rest on the tooth.
 struct FileReference {
   glm::dvec3 point_P_mm{0.0}, out_P{0.0, 0.0, 1.0};
+  double orifice_mm = 0.0;  ///< so far below it the canals begin: a cone that is let go of is seared off there
 };
 
 /// Unit length; as usual, what is none.
@@ -44,6 +47,7 @@ class RootCanalFile {
     bool touches = false;
     bool files = false;  ///< it may take something of the wall
     CarveResult removed;
+    std::optional<LaidCone> let_go;  ///< in this tick, of a cone
   };
 
   /// With what earlier files have left in the tooth.
@@ -63,8 +67,11 @@ class RootCanalFile {
 
  private:
   bool isOut(const FileReference& reference) const noexcept;
+  /// Of its tip, in a canal.
+  double belowOrifice_mm(const FileReference& reference) const noexcept;
   void takeUp(const Tool& tool, const FilePose& X_PT, const WearSettings& wear, double max_stiffness_N_per_mm) noexcept;
-  bool isInSolid(const SolidField& wall) const noexcept;
+  bool isInSolid(const FileScene& scene) const noexcept;
+  LaidCone laidCone(const FileReference& reference) const noexcept;
   FilePose gripped(const Hand& hand) noexcept;
   void tell(const FileTick& tick) noexcept;
   calibration::Vector<calibration::Patient> vibration(const FileTick& tick, double dt_s) noexcept;
@@ -78,6 +85,8 @@ class RootCanalFile {
   FileWork work_;
   double worn_before_mm3_ = 0.0, taken_before_mm3_ = 0.0;  ///< by the files before this one
   bool passes_ = false;
+  bool were_open_ = false;   ///< the fingers, in the last tick
+  bool has_let_go_ = false;  ///< of a cone, and is not out yet
   glm::dquat last_hand_{1.0, 0.0, 0.0, 0.0};
   double let_go_rad_ = 0.0;  ///< turned by the fingers alone
   double buzz_rad_ = 0.0;

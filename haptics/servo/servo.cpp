@@ -208,13 +208,15 @@ Tick Servo::step(const HandSample& hand, const Command& requested, double dt_s) 
   removed += filing_.file(bodies_, undo_.strokes(), {at.X_PT, at.head, at.contact, at.force_P_N}, files, tick.dt_s,
                           tick.index);
   removed += filed.removed;
+  if (undo_.hasChanged()) filling_.stopCone();
+  if (filed.let_go) filling_.lay(*filed.let_go);
   tick.filling = filling_.work(
       bodies_, undo_.strokes(), command.tool, at_proxy_X_PT_,
       pedal && command.drill_enabled && admitted.mayDrill() && tick.drill_inhibit == DrillInhibit::none && !was_undone,
       command.erosion, tick.dt_s, tick.index);
   const double worked_mm3 = std::max(std::abs(tick.filling.changed_mm3), tick.filling.packed_mm3);
   undo_.update(cuts || filed.files || tick.filling.works, proxy.proxy_P, removed.removed_mm3 + worked_mm3,
-               !split_.isRunning() && !chips_.isRunning(), tick.dt_s);
+               !split_.isRunning() && !chips_.isRunning() && !filling_.isLayingCone(), tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - restored_mm3;
 
   // The bridge of the piece that is twisted or wedged breaks: the tool leads alone until its parts are ready.

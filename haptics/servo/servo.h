@@ -35,7 +35,11 @@ class Servo {
   /// Borrows bodies and soft tissue (null: none), which must outlive this; becomes the only writer of the bodies.
   /// Allocates the undo history.
   explicit Servo(Bodies& bodies, const assets::SoftTissueField* soft_tissue = nullptr)
-      : bodies_(bodies), soft_tissue_(soft_tissue), canal_file_(bodies.fragments()), undo_(bodies) {}
+      : bodies_(bodies),
+        soft_tissue_(soft_tissue),
+        filling_(bodies.filling()),
+        canal_file_(bodies.fragments()),
+        undo_(bodies) {}
 
   /// One tick of length `dt_s`. Invalid input is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;

@@ -5,6 +5,6 @@ namespace haptics {
 
 /// Raised with every change that may alter a bit of a Tick for the same bone, hand and commands (recorded digests in
 /// the tests show it): sessions of other revisions are read, but not verified by a replay.
-inline constexpr int kServoRevision = 8;
+inline constexpr int kServoRevision = 9;
 
 }  // namespace haptics

@@ -26,6 +26,8 @@ enum class HandInstrument : std::uint8_t {
   plugger = 11,      ///< round, of 1.4 mm
   carver = 12,       ///< takes filling away, the softer the faster, and nothing else
   curing_lamp = 13,  ///< its light goes towards -z
+  /// For root canals, of 0.5 mm; hot while the pedal is down: what it softens goes towards -z, where there is room.
+  root_plugger = 14,
 };
 
 constexpr bool isApplicator(HandInstrument kind) {
@@ -35,9 +37,9 @@ constexpr bool isApplicator(HandInstrument kind) {
 constexpr bool fills(HandInstrument kind) { return kind >= HandInstrument::composite; }
 
 /// As ordered and recorded, in the order of the kinds.
-inline constexpr std::array<std::string_view, 14> kHandInstrumentKeys{
-    "none",          "scalpel:15", "periosteal", "curette",      "bone-file", "suction", "composite",
-    "glass-ionomer", "amalgam",    "wax",        "gutta-percha", "plugger",   "carver",  "curing-lamp"};
+inline constexpr std::array<std::string_view, 15> kHandInstrumentKeys{
+    "none",    "scalpel:15", "periosteal",   "curette", "bone-file", "suction",     "composite",   "glass-ionomer",
+    "amalgam", "wax",        "gutta-percha", "plugger", "carver",    "curing-lamp", "root-plugger"};
 
 /// What of it meets bone and tooth: a ball about T's origin and a rod of `shank_radius_mm` along +z. The drawn
 /// instrument (assets/instrument/hand_instrument) has its tip at z = -tip_radius_mm. Our defaults: a ball is as thick
@@ -58,6 +60,7 @@ inline constexpr std::array<HandInstrumentSize, kHandInstrumentKeys.size()> kHan
                                                                                                   {0.4, 0.3},
                                                                                                   {0.7, 0.5},
                                                                                                   {0.4, 0.3},
-                                                                                                  {3.0, 3.0}}};
+                                                                                                  {3.0, 3.0},
+                                                                                                  {0.25, 0.22}}};
 
 }  // namespace haptics

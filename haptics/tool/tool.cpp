@@ -9,6 +9,7 @@ namespace {
 constexpr double kShankRadius_mm = 2.35 / 2.0, kNeckPart = 0.6, kOutOfHandpiece_mm = 25.0;
 constexpr double kBetweenBeaks_mm = 2.0;                         // radius: a tooth is gripped when it reaches so near
 constexpr double kBladeHalf_mm = 0.5, kBladeAndShank_mm = 40.0;  // thickness of a blade, its length with the shank
+constexpr double kMostSealer_mm3 = 20.0;
 constexpr double kThickestShaft_mm = 5.0, kLongestShaft_mm = 100.0;
 
 constexpr double kFileHandleRadius_mm = 1.8;
@@ -18,12 +19,18 @@ double within(double value, double low, double high) {
 }
 
 CanalFile sanitised(const CanalFile& file) noexcept {
+  if (const auto cone = file.cone())
+    return {.size = file.size,
+            .length_mm = file.length_mm,
+            .cone_taper = cone->taper,
+            .sealer_mm3 = within(file.sealer_mm3, 0.0, kMostSealer_mm3)};
   if (!file.made()) return {};
   CanalFile safe = file;
   safe.bent_deg = within(file.bent_deg, -90.0, 90.0);
   safe.bent_mm = within(file.bent_mm, 0.0, 10.0);
   safe.bent_towards_deg = within(file.bent_towards_deg, -360.0, 360.0);
   safe.stop_mm = within(file.stop_mm, 0.0, file.length_mm);
+  safe.sealer_mm3 = 0.0;
   return safe;
 }
 
@@ -35,7 +42,7 @@ Tool sanitised(const Tool& tool) noexcept {
             tool.handpiece,
             tool.grips,
             tool.grips || tool.elevator > ElevatorKind::cryer_right ? ElevatorKind::none : tool.elevator};
-  if (!safe.luxates() && tool.hand_instrument <= HandInstrument::curing_lamp)
+  if (!safe.luxates() && tool.hand_instrument <= HandInstrument::root_plugger)
     safe.hand_instrument = tool.hand_instrument;
   if (!safe.luxates() && !safe.isHandInstrument()) safe.file = sanitised(tool.file);
   const Shaft& shaft = tool.shaft;

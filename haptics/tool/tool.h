@@ -24,7 +24,7 @@ struct Tool {
   bool grips = false;     ///< forceps: the head is the place between the beaks, the pedal closes them, nothing turns
   ElevatorKind elevator = ElevatorKind::none;  ///< of this kind: T's origin is its blade's tip, nothing turns
   HandInstrument hand_instrument = HandInstrument::none;  ///< of this kind: nothing turns
-  CanalFile file{};  ///< chosen: T's origin is its handle, nothing turns, the pedal opens the fingers
+  CanalFile file{};  ///< chosen: T's origin is its handle, nothing turns, the pedal opens the fingers (pliers)
 
   bool isElevator() const { return elevator != ElevatorKind::none; }
   /// Moves pieces of tooth: forceps or an elevator.
@@ -51,7 +51,8 @@ Tool elevatorTool(ElevatorKind kind) noexcept;
 /// `kind` not none.
 Tool handInstrumentTool(HandInstrument kind) noexcept;
 
-/// A file made as ISO 3630-1 has it. Only what is stiff at its handle is held off by soft tissue.
+/// A file made as ISO 3630-1 has it, or a cone of gutta-percha. Only what is stiff at its handle is held off by soft
+/// tissue.
 Tool fileTool(const CanalFile& file) noexcept;
 
 /// The usual shaft of a bur: a shank of 2.35 mm (ISO 1797, type 2), or a neck narrower than the head that lets chips

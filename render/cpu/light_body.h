@@ -57,6 +57,17 @@ inline Float bouncedAmbient(Float open, Float albedo) {
   return maximum(open, ((open * a + b) * open + c) * open);
 }
 
+inline Float3 cured(const EyeBlock& eye, const Surface& s, const Float3& p_P, const Float3& normal) {
+  const Float3 offset = p_P - splat(eye.curing_P), axis = splat(eye.curing_axis_P);
+  const Float along = dot(offset, axis);
+  const Float aside = (1.0f / eye.curing_axis_P.w) * length(offset - along * axis);
+  const Float spot = (1.0f - smoothStep(CURING_EDGE, 1.0f, aside)) * smoothStep(-0.1f, 0.0f, along);
+  const Float fall = clamp(1.0f - (1.0f / eye.curing_P.w) * along, 0.0f, 1.0f);
+  const Float facing = maximum(CURING_WRAP - dot(normal, axis), 0.0f) * (1.0f / (1.0f + CURING_WRAP));
+  const Float3 colour = mix(s.albedo, vec3(1.0f, 1.0f, 1.0f), splat(CURING_WHITE));
+  return (spot * fall * facing * (1.0f / kPi)) * (colour * vec3(CURING_LIGHT));
+}
+
 inline Float3 lit(const ShadeScene& scene, const Surface& s, const Float3& p_P, const Float3& normal,
                   const Float3& to_eye, const Visibility& visibility) {
   const EyeBlock& eye = scene.eye;
@@ -82,6 +93,7 @@ inline Float3 lit(const ShadeScene& scene, const Surface& s, const Float3& p_P, 
   const Float3 creeping = mix(s.scatter, vec3(1.0f, 1.0f, 1.0f), smoothStep(-s.wrap, splat(0.5f), n_l));
   const Float3 diffuse = (wrapped / kPi) * (s.albedo * creeping);
   Float3 light = visibility.lamp * ((diffuse + highlight) * lampRadiance(eye, to_lamp, lamp_distance));
+  if (eye.curing_P.w != 0.0f) light = light + cured(eye, s, p_P, normal);
 
   // The room.
   const Float sky = 0.5f + 0.5f * dot(normal, splat(eye.up_P));

@@ -16,6 +16,8 @@ layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   vec4 field_cover;      // water, blood, dust, spray there, 0..1; all 0: dry
   vec4 begin_P;          // in a reflected view: out of the glass; w: how far this eye lies behind it. 0: rays begin here
   vec4 glass;            // x: 1 if the glass of the second hand reflects, y: its fog
+  vec4 curing_P;         // tip of a curing lamp; w: how far its light reaches, 0: it is off
+  vec4 curing_axis_P;    // unit, away from it; w: radius of its light
 } eye;
 
 // Unit direction from the eye through a point of the image, 0..1 from its lower left.

@@ -55,6 +55,18 @@ vec3 bouncedAmbient(float open, vec3 albedo) {
   return max(vec3(open), ((open * a + b) * open + c) * open);
 }
 
+// What a curing lamp adds.
+vec3 cured(Surface s, vec3 p_P, vec3 normal) {
+  if (eye.curing_P.w == 0.0) return vec3(0.0);
+  vec3 offset = p_P - eye.curing_P.xyz;
+  float along = dot(offset, eye.curing_axis_P.xyz);
+  float aside = length(offset - along * eye.curing_axis_P.xyz) / eye.curing_axis_P.w;
+  float spot = (1.0 - smoothstep(CURING_EDGE, 1.0, aside)) * smoothstep(-0.1, 0.0, along);
+  float fall = clamp(1.0 - along / eye.curing_P.w, 0.0, 1.0);
+  float facing = max(CURING_WRAP - dot(normal, eye.curing_axis_P.xyz), 0.0) / (1.0 + CURING_WRAP);
+  return mix(s.albedo, vec3(1.0), CURING_WHITE) * vec3(CURING_LIGHT) * (spot * fall * facing / 3.14159265);
+}
+
 vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Visibility visibility) {
   vec3 lamp_offset = eye.lamp_P.xyz - p_P;
   float lamp_distance = length(lamp_offset);
@@ -73,6 +85,7 @@ vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Visibility visibility) {
   float wrapped = max(n_l + s.wrap, 0.0) / (1.0 + s.wrap);
   vec3 diffuse = s.albedo / 3.14159265 * wrapped * mix(s.scatter, vec3(1.0), smoothstep(-s.wrap, 0.5, n_l));
   vec3 light = (diffuse + highlight) * lampRadiance(p_P, to_lamp, lamp_distance) * visibility.lamp;
+  light += cured(s, p_P, normal);
 
   // The room.
   float sky = 0.5 + 0.5 * dot(normal, eye.up_P.xyz);

@@ -73,7 +73,7 @@
 
 #define VIEW_ISO 0               // how tooth and bone are drawn
 #define VIEW_DVR 1
-#define TISSUE_COUNT 19          // assets::kTissueCount
+#define TISSUE_COUNT 20          // assets::kTissueCount
 #define CAST_GROUP 8             // edge of a work group of the compute caster, px
 
 #define TOOL_PARTS 4             // round parts of an instrument that shade the patient

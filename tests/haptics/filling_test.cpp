@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "haptics/bone/carve.h"
@@ -252,6 +255,181 @@ TEST(Filling, IsTheSameBitsAgain) {
     ASSERT_EQ(first.ticks[n].law_force_P_N.xyz, second.ticks[n].law_force_P_N.xyz) << n;
   }
   EXPECT_GT(first.tick.filling.total_mm3, 0.0);
+}
+
+/// The same tooth with what was laid into it, as another servo finds it.
+Bodies goneOnWith(const Bodies& of, std::vector<double> age_s = {}) {
+  Bodies next = drilled(-1.0, 3.0).bodies(static_cast<std::uint8_t>(Tissue::dentine));
+  Filling::Volumes laid = of.filling()->volumes();
+  laid.age_s = std::move(age_s);
+  next.filling()->begin(laid);
+  return next;
+}
+
+TEST(Filling, GoesOnWithEveryByteOfIt) {
+  Room room;
+  room.stroke();
+  const glm::dvec3 over{0.0, 0.0, 2.0};
+  room.command.tool = handInstrumentTool(HandInstrument::curing_lamp);
+  room.go(over, 100);
+  room.hand.drill_pedal = true;
+  room.go(over, 6000);  // not enough to set
+  ASSERT_EQ(room.bodies.filling()->volume_mm3(Tissue::composite), 0.0);
+  Bodies next = goneOnWith(room.bodies);
+  EXPECT_EQ(next.digest(), room.bodies.digest());
+  EXPECT_FALSE(next.filling()->volumes().light.empty());
+  // The light that it had counts.
+  Servo servo(next);
+  HandSample hand = room.hand;
+  hand.drill_pedal = false;
+  Tick tick = servo.step(hand, room.command, 1e-3);
+  EXPECT_EQ(tick.bone_digest, room.tick.bone_digest);
+  EXPECT_EQ(tick.strokes, 0) << "what was done before is not undone";
+  hand.drill_pedal = true;
+  for (int n = 0; n < 6000; ++n) tick = servo.step(hand, room.command, 1e-3);
+  EXPECT_GT(tick.filling.cured_mm3, 0.3 * tick.filling.total_mm3);
+  Command undo = room.command;
+  undo.undo_serial = 5;
+  hand.drill_pedal = false;
+  for (int n = 0; n < 300; ++n) tick = servo.step(hand, undo, 1e-3);
+  EXPECT_EQ(tick.bone_digest, room.tick.bone_digest);
+}
+
+TEST(Filling, GoesOnWithItsIncrementUntilSomeOfItHasSet) {
+  Room room;
+  room.stroke();
+  const auto nextIncrement = [&](HandInstrument with) {
+    Room next;
+    next.bodies = goneOnWith(room.bodies);
+    Servo servo(next.bodies);
+    next.command.tool = handInstrumentTool(with);
+    next.hand.X_PT.translation_mm = {-0.7, 0.0, 0.6};
+    for (int n = 0; n < 400; ++n) {
+      next.hand.drill_pedal = n > 100;
+      next.tick = servo.step(next.hand, next.command, 1e-3);
+    }
+    EXPECT_GT(next.tick.filling.total_mm3, room.tick.filling.total_mm3);
+    return next.tick.filling.increment;
+  };
+  EXPECT_EQ(nextIncrement(HandInstrument::composite), 1);
+  EXPECT_EQ(nextIncrement(HandInstrument::amalgam), 2);
+  room.command.tool = handInstrumentTool(HandInstrument::curing_lamp);
+  room.go({0.0, 0.0, 2.0}, 100);
+  room.hand.drill_pedal = true;
+  room.go({0.0, 0.0, 2.0}, 12000);
+  ASSERT_GT(room.tick.filling.cured_mm3, 0.0);
+  EXPECT_EQ(nextIncrement(HandInstrument::composite), 2);
+}
+
+TEST(Filling, BeginsOfAStrangersBytesWithoutHarm) {
+  std::mt19937 random(7);
+  Bodies bodies = drilled().bodies(static_cast<std::uint8_t>(Tissue::dentine));
+  const std::size_t count = bodies.grid().voxelCount();
+  Filling::Volumes laid{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count),
+                        std::vector<std::uint8_t>(count), std::vector<std::uint16_t>(count),
+                        std::vector<double>(300, 1e8)};
+  for (std::size_t v = 0; v < count; ++v) {
+    laid.laid[v] = static_cast<std::uint8_t>(random());
+    laid.tissue[v] = static_cast<std::uint8_t>(random() % assets::kTissueCount);
+    laid.increment[v] = static_cast<std::uint8_t>(random());
+    laid.light[v] = static_cast<std::uint16_t>(random());
+  }
+  bodies.filling()->begin(laid);
+  const Filling::Volumes kept = bodies.filling()->volumes();
+  EXPECT_LE(*std::ranges::max_element(kept.increment), Filling::kMostIncrements);
+  EXPECT_LE(*std::ranges::max_element(kept.light), Filling::kMostLight);
+  EXPECT_LE(bodies.filling()->begun().increment, Filling::kMostIncrements);
+  Servo servo(bodies);
+  HandSample hand;
+  hand.drill_pedal = true;
+  Command command;
+  for (const HandInstrument kind :
+       {HandInstrument::composite, HandInstrument::plugger, HandInstrument::carver, HandInstrument::curing_lamp}) {
+    command.tool = handInstrumentTool(kind);
+    for (int n = 0; n < 50; ++n) servo.step(hand, command, 1e-3);
+  }
+}
+
+/// A hand away from the tooth for a while, in the longest steps.
+void wait(Room& room, double seconds) {
+  for (int n = 0; n < static_cast<int>(std::lround(seconds / 0.02)); ++n)
+    room.tick = room.servo.step(room.hand, room.command, 0.02);
+}
+
+TEST(Filling, AmalgamSetsByItselfAfterItsTime) {
+  Room room;
+  room.command.tool = handInstrumentTool(HandInstrument::amalgam);
+  room.stroke();
+  const double laid_mm3 = room.tick.filling.total_mm3;
+  ASSERT_GT(laid_mm3, 0.5);
+  const Filling& filling = *room.bodies.filling();
+  // It was begun 0.8 s ago: the press and the way out.
+  wait(room, 269.0);
+  EXPECT_EQ(filling.volume_mm3(Tissue::amalgam), 0.0);
+  EXPECT_FALSE(filling.hasSet());
+  wait(room, 3.0);
+  EXPECT_NEAR(filling.volume_mm3(Tissue::amalgam), laid_mm3, 1e-12);
+  EXPECT_EQ(filling.volume_mm3(Tissue::amalgam_soft), 0.0);
+  EXPECT_NEAR(room.tick.filling.cured_mm3, laid_mm3, 1e-12);
+  // What is laid then is another mix, with a time of its own.
+  room.go({0.0, 0.0, 2.0}, 100);
+  room.stroke();
+  EXPECT_EQ(room.tick.filling.increment, 2);
+  EXPECT_GT(filling.volume_mm3(Tissue::amalgam_soft), 0.1);
+  wait(room, 100.0);
+  EXPECT_NEAR(filling.volume_mm3(Tissue::amalgam), laid_mm3, 1e-12);
+}
+
+TEST(Filling, WhatUndoBringsBackHasSetASecondLater) {
+  Room room;
+  room.command.tool = handInstrumentTool(HandInstrument::amalgam);
+  room.stroke();
+  const double laid_mm3 = room.tick.filling.total_mm3;
+  room.command.tool = handInstrumentTool(HandInstrument::carver);
+  room.stroke();
+  ASSERT_LT(room.tick.filling.total_mm3, laid_mm3 - 0.01);
+  wait(room, 275.0);
+  room.command.undo_serial = 1;
+  wait(room, 0.1);
+  EXPECT_NEAR(room.tick.filling.total_mm3, laid_mm3, 1e-12);
+  wait(room, 2.0);
+  EXPECT_NEAR(room.bodies.filling()->volume_mm3(Tissue::amalgam), laid_mm3, 1e-12);
+}
+
+TEST(Filling, GoesOnSettingWhereItsAgeIsKnown) {
+  Room room;
+  room.command.tool = handInstrumentTool(HandInstrument::amalgam);
+  room.stroke();
+  const auto hasSetAfter = [&](double seconds, std::vector<double> age_s) {
+    Bodies next = goneOnWith(room.bodies, std::move(age_s));
+    Servo servo(next);
+    for (int n = 0; n < static_cast<int>(seconds / 0.02); ++n) servo.step(room.hand, room.command, 0.02);
+    return next.filling()->volume_mm3(Tissue::amalgam) > 0.0;
+  };
+  EXPECT_FALSE(hasSetAfter(65.0, {200.0}));
+  EXPECT_TRUE(hasSetAfter(75.0, {200.0}));
+  EXPECT_FALSE(hasSetAfter(75.0, {}));
+}
+
+TEST(Filling, GlassIonomerSetsByLightOrByItself) {
+  Room room;
+  room.command.tool = handInstrumentTool(HandInstrument::glass_ionomer);
+  room.stroke();
+  wait(room, 288.0);
+  EXPECT_EQ(room.tick.filling.cured_mm3, 0.0);
+  wait(room, 5.0);
+  EXPECT_NEAR(room.tick.filling.cured_mm3, room.tick.filling.total_mm3, 1e-12);
+}
+
+TEST(Filling, SetsWithoutAllocating) {
+  Room room;
+  room.command.tool = handInstrumentTool(HandInstrument::amalgam);
+  room.stroke();
+  wait(room, 269.0);
+  const std::size_t before = allocation_count::now();
+  wait(room, 3.0);
+  EXPECT_EQ(allocation_count::now(), before);
+  EXPECT_GT(room.tick.filling.cured_mm3, 0.0);
 }
 
 }  // namespace

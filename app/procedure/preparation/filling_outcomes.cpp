@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/procedure/preparation/made_surface.h"
-#include "assets/segment/cell_masks.h"
 
 namespace app {
 namespace {
@@ -34,70 +33,6 @@ BoxBytes ownOf(const Crown& crown) {
     if (isOwn(crown, ijk)) own.bytes()[v] = crown.solid.bytes()[v];
   });
   return own;
-}
-
-/// Air of a box by what it is connected to: 0 solid, 1 the outside, from 2 on the enclosed ones.
-class AirParts {
- public:
-  explicit AirParts(const BoxBytes& all) : grid_(all.grid()) {
-    std::vector<std::uint8_t> air(grid_.voxelCount());
-    std::ranges::transform(all.bytes(), air.begin(),
-                           [](std::uint8_t byte) { return static_cast<std::uint8_t>(byte < kHalfByte ? 1 : 0); });
-    pieces_ = assets::piecesOfCells(grid_.size, air);
-    number_.assign(pieces_.cells.size(), 0);
-    // The outside: all air at the box's faces.
-    assets::forVoxels(grid_, [&](glm::ivec3 ijk, std::size_t v) {
-      const bool at_face = glm::any(glm::equal(ijk, glm::ivec3(0))) || glm::any(glm::equal(ijk, grid_.size - 1));
-      if (at_face && air[v] != 0) number_[static_cast<std::size_t>(pieces_.of[v])] = 1;
-    });
-    for (std::size_t piece = 1; piece < number_.size(); ++piece)
-      if (number_[piece] == 0) number_[piece] = count_++;
-  }
-
-  bool isOutside(glm::ivec3 ijk) const { return !grid_.contains(ijk) || at(grid_.index(ijk)) == 1; }
-  std::uint32_t at(std::size_t v) const { return number_[static_cast<std::size_t>(pieces_.of[v])]; }
-  std::uint32_t count() const { return count_; }
-
- private:
-  assets::VolumeGrid grid_;
-  assets::CellPieces pieces_;
-  std::vector<std::uint32_t> number_;  ///< by piece
-  std::uint32_t count_ = 2;
-};
-
-/// With the air in voxels at their rims, of those that border on filling.
-std::vector<FillingVoid> voidsOf(const BoxBytes& all, const BoxBytes& laid, const AirParts& air) {
-  struct Sum {
-    double air = 0.0, voxels = 0.0;
-    glm::dvec3 index{0.0};
-    bool is_beside_filling = false;
-  };
-  const assets::VolumeGrid& grid = all.grid();
-  std::vector<Sum> sums(air.count());
-  assets::forVoxels(glm::ivec3(1), grid.size - 1, [&](glm::ivec3 ijk) {
-    const std::size_t v = grid.index(ijk);
-    std::uint32_t part = air.at(v);
-    for (int axis = 0; axis < 3 && part == 0; ++axis)
-      for (const int way : {-1, 1}) {
-        glm::ivec3 next = ijk;
-        next[axis] += way;
-        part = std::max(part, air.at(grid.index(next)));
-      }
-    if (part < 2) return;
-    Sum& sum = sums[part];
-    sum.air += (kFullByte - all.bytes()[v]) / 255.0;
-    sum.voxels += 1.0;
-    sum.index += glm::dvec3(ijk);
-    sum.is_beside_filling = sum.is_beside_filling || laid.bytes()[v] != 0;
-  });
-  std::vector<FillingVoid> voids;
-  for (const Sum& sum : sums) {
-    const double volume_mm3 = sum.air * grid.voxelVolume_mm3();
-    if (!sum.is_beside_filling || volume_mm3 < kLeastVoid_mm3) continue;
-    voids.push_back({volume_mm3, grid.origin_P_mm + grid.spacing_mm / sum.voxels * sum.index});
-  }
-  std::ranges::sort(voids, std::greater{}, &FillingVoid::volume_mm3);
-  return voids;
 }
 
 std::vector<Increment> incrementsOf(const Crown& crown, const LaidBoxes& filling) {
@@ -185,8 +120,8 @@ FillingOutcomes FillingMeasure::outcomesOf(const BoxBytes& made, const LaidBoxes
   });
   if (outcomes.laid_mm3 <= 0.0) return outcomes;
 
-  const AirParts air(all);
-  outcomes.voids = voidsOf(all, filling.laid, air);
+  const AirParts air(grid, all.bytes());
+  outcomes.voids = voidsBeside(air, grid, all.bytes(), filling.laid.bytes(), kLeastVoid_mm3);
   outcomes.increments = incrementsOf(intact_, filling);
 
   // The free surface: where filling meets the air outside.

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "app/procedure/preparation/deviation.h"
+#include "app/procedure/root_canal/air_parts.h"
 #include "haptics/bone/filling.h"
 
 namespace app {
 
 inline constexpr double kDeepestIncrement_mm = 2.0;  ///< of what light sets
-inline constexpr double kLeastVoid_mm3 = 0.1, kLeastOverhang_mm = 0.1;
+inline constexpr double kLeastOverhang_mm = 0.1;
 
 struct Increment {
   int number = 0;  ///< in the order laid
@@ -24,18 +25,13 @@ struct Increment {
   bool isTooDeep() const { return is_cured_by_light && depth_mm > kDeepestIncrement_mm; }
 };
 
-struct FillingVoid {
-  double volume_mm3 = 0.0;
-  glm::dvec3 middle_P_mm{0.0};
-};
-
 struct FillingOutcomes {
   double laid_mm3 = 0.0;
   std::array<double, assets::kTissueCount> laid_of_mm3{};  ///< by material
   double curable_mm3 = 0.0, cured_mm3 = 0.0;               ///< of what light sets
   double cavity_mm3 = 0.0;                                 ///< that the tooth lacks
   double filled_mm3 = 0.0;                                 ///< of it
-  std::vector<FillingVoid> voids;                          ///< of at least kLeastVoid_mm3, the largest first
+  std::vector<EnclosedAir> voids;                          ///< of at least kLeastVoid_mm3, the largest first
   double overhang_mm3 = 0.0;  ///< laid more than kLeastOverhang_mm outside of the intact tooth
   double overhang_mm = 0.0;   ///< the farthest of it
   double contour_mm2 = 0.0;   ///< of the filling's free surface

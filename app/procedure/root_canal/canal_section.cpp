@@ -102,6 +102,21 @@ void measureAfter(CanalSection& section, const ToothBlocks& before, const FineSo
   }
 }
 
+void lookAtLaid(CanalSection& section, const FineSolid& laid) {
+  constexpr int kEdge = CanalSection::kLaidEdge;
+  constexpr double kHalfLaid = 0.5;
+  section.is_laid.assign(static_cast<std::size_t>(kEdge) * kEdge, false);
+  bool any = false;
+  for (int row = 0; row < kEdge; ++row)
+    for (int column = 0; column < kEdge; ++column) {
+      const glm::dvec2 at_mm = CanalSection::kLaidCell_mm * glm::dvec2(column - kEdge / 2, row - kEdge / 2);
+      if (laid.at(section.centre_P_mm + at_mm.x * section.furcation_P + at_mm.y * section.aside_P) < kHalfLaid)
+        continue;
+      section.is_laid[static_cast<std::size_t>(row * kEdge + column)] = any = true;
+    }
+  if (!any) section.is_laid.clear();
+}
+
 CanalSection canalSection(const ToothBlocks& before, const FineSolid& after, const assets::ToothCanal& canal,
                           const glm::dvec3& furcation_P, double from_foramen_mm) {
   CanalSection section = sectionBefore(before, canal, furcation_P, from_foramen_mm);

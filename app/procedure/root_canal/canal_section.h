@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "app/procedure/root_canal/tooth_blocks.h"
 #include "assets/tooth_canals.h"
@@ -20,6 +21,10 @@ struct CanalSection {
   Radii before_mm{}, after_mm{}, root_mm{};                       ///< infinity: no wall, no surface within reach
   double read_mm = 0.0;                                           ///< farther out nothing was asked of what it is now
   std::array<bool, kRays> is_untouched{};
+  /// What was laid in its plane: kLaidEdge x kLaidEdge cells, towards the furcation first; empty: nothing.
+  std::vector<bool> is_laid;
+  static constexpr int kLaidEdge = 121;
+  static constexpr double kLaidCell_mm = 0.02;
 
   glm::dvec2 wayOf(std::size_t ray) const;
   glm::dvec3 wayInP(std::size_t ray) const;
@@ -34,6 +39,8 @@ CanalSection canalSection(const ToothBlocks& before, const FineSolid& after, con
 CanalSection sectionBefore(const ToothBlocks& before, const assets::ToothCanal& canal, const glm::dvec3& furcation_P,
                            double from_foramen_mm);
 void measureAfter(CanalSection& section, const ToothBlocks& before, const FineSolid& after);
+/// Into `is_laid`.
+void lookAtLaid(CanalSection& section, const FineSolid& laid);
 
 /// (X1 - X2) - (Y1 - Y2) of Gambill 1996 (JOE 22:369), X towards the furcation: positive where it moved there.
 double transportation_mm(const CanalSection& section);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPanel = 250.0, kNames = 26.0, kWords = 13.0, kHalf_mm = 3.2;
 constexpr double kPerMm = 0.5 * kPanel / kHalf_mm;
-constexpr Ink kDentine = inkOf(0xf0e2c4);
+constexpr Ink kDentine = inkOf(0xf0e2c4), kLaid = inkOf(0xd9756a);
 
 /// As it lies in a panel, seen towards the apex: the furcation to the right. What is farther ends at the panel's edge.
 std::vector<glm::dvec2> shapeOf(const CanalSection& section, const CanalSection::Radii& radii_mm,
@@ -24,6 +24,24 @@ std::vector<glm::dvec2> shapeOf(const CanalSection& section, const CanalSection:
     shape.push_back(centre + half / half_mm * std::min(radii_mm[ray], most_mm) * way);
   }
   return shape;
+}
+
+/// Row by row.
+void drawLaid(const Drawing& drawing, const CanalSection& section, const glm::dvec2& centre, double per_mm) {
+  constexpr int kEdge = CanalSection::kLaidEdge;
+  const double cell = per_mm * CanalSection::kLaidCell_mm;
+  for (int row = 0; row < kEdge; ++row)
+    for (int from = 0; from < kEdge; ++from) {
+      const auto is_laid = [&](int column) {
+        return column < kEdge && section.is_laid[static_cast<std::size_t>(row * kEdge + column)];
+      };
+      int end = from;
+      while (is_laid(end)) ++end;
+      if (end == from) continue;
+      const glm::dvec2 corner = centre + cell * (glm::dvec2(from, row) - 0.5 * kEdge);
+      drawing.box(corner, {cell * (end - from), 1.05 * cell}, kLaid);
+      from = end;
+    }
 }
 
 void drawPanel(const Drawing& drawing, const CanalSection& section, const glm::dvec2& corner) {
@@ -59,6 +77,8 @@ void drawSection(const Drawing& drawing, const CanalSection& section, const glm:
   drawing.box(corner, glm::dvec2(edge), paper::kFaint);
   drawing.polygon(shape(section.root_mm), kDentine);
   drawing.polygon(shape(section.after_mm), paper::kWhite);
+  if (!section.is_laid.empty())
+    drawing.inside(corner, glm::dvec2(edge), [&] { drawLaid(drawing, section, centre, 0.5 * edge / half_mm); });
   if (section.after_mm != section.before_mm) drawing.path(shape(section.after_mm), line, paper::kOrange, true);
   drawing.path(shape(section.before_mm), 0.75 * line, paper::kBlue, true, {2.0 * line, 1.5 * line});
 }
@@ -78,8 +98,9 @@ render::Image sectionPicture(const std::vector<CanalRow>& canals) {
   }
   const double y = size.y - 0.5 * kNames;
   drawing.line({8.0, y}, {8.0 + kPerMm, y}, 2.0, paper::kInk);
-  drawing.text("1 mm; blue as it was, orange as it is; seen towards the apex, the furcation to the right",
-               {16.0 + kPerMm, y}, kWords, paper::kQuiet, Align::left);
+  drawing.text(
+      "1 mm; blue as it was, orange as it is, rose what was laid; seen towards the apex, the furcation to the right",
+      {16.0 + kPerMm, y}, kWords, paper::kQuiet, Align::left);
   return drawing.picture();
 }
 

@@ -1,6 +1,6 @@
 // Sections of canals as a picture for people: a row a canal, a panel for each of 1, 3, 5 and 7 mm from the foramen; the
-// root, the canal as it was (blue, dashed) and as it is (orange), the furcation to the right. Any one thread; some
-// milliseconds.
+// root, the canal as it was (blue, dashed) and as it is (orange), what was laid (rose), the furcation to the right. Any
+// one thread; some milliseconds.
 #pragma once
 
 #include <span>

@@ -35,7 +35,7 @@ void FileUse::moveOn(const haptics::Tick& tick, int size) {
   const glm::dvec3& handle_P_mm = tick.proxy_P.mm;
   in_mm_ += glm::dot(handle_P_mm - last_handle_P_mm_, tick.heldRotation() * glm::dvec3(0.0, 0.0, -1.0));
   last_handle_P_mm_ = handle_P_mm;
-  if (tick.file.stay != haptics::FileStay::wall || size != in_hand_)
+  if (tick.file.stay != haptics::FileStay::wall || size == 0 || size != in_hand_)
     motion_.lift();
   else
     motion_.add(tick.dt_s, tick.file.roll_rad, in_mm_);
@@ -47,6 +47,7 @@ void FileUse::add(const haptics::Tick& tick, int size) {
   moveOn(tick, size);
   fragments_ = file.fragments;
   debris_mm3_ = file.debris_mm3;
+  if (size == 0) return;
   // Told once a filling: water lets a little more in at once.
   is_full_ = file.flutes_full >= (is_full_ ? kEmptied : kFlutesFull);
   if (file.stay == FileStay::none || file.stay == FileStay::through) return;
@@ -93,7 +94,7 @@ void Treatment::setFiles(const FileUse& files) {
 }
 
 Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& before, const FineSolid& after,
-                      const FileUse& files) {
+                      const FileUse& files, const FineSolid* laid) {
   TreatmentMeter meter(tooth, before);
   for (const glm::ivec3& block : changedBlocks(before, after)) {
     ToothNow::Bytes bytes;
@@ -101,6 +102,14 @@ Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& befor
     for (std::size_t v = 0; v < bytes.size(); ++v) bytes[v] = is.at(v);
     meter.change(block, bytes);
   }
+  if (laid != nullptr)
+    assets::forVoxels(glm::ivec3(0), laid->grid().size / FineSolid::kEdge, [&](glm::ivec3 block) {
+      const FineSolid::Block is = laid->block(block);
+      if (is.bytes == nullptr && is.same == 0) return;
+      LaidBlocks::Bytes bytes;
+      for (std::size_t v = 0; v < bytes.size(); ++v) bytes[v] = is.at(v);
+      meter.lay(block, bytes);
+    });
   return meter.measure(files);
 }
 

@@ -15,6 +15,7 @@
 #include "app/procedure/root_canal/file_motion.h"
 #include "app/procedure/root_canal/perforation.h"
 #include "app/procedure/root_canal/placed_fragment.h"
+#include "app/procedure/root_canal/root_filling.h"
 #include "haptics/file/canal_wear.h"
 #include "haptics/servo/tick.h"
 
@@ -33,7 +34,7 @@ inline constexpr double kForamenMoved_mm = 0.1;
 class FileUse {
  public:
   explicit FileUse(const assets::ToothCanals& tooth);
-  /// `size`: of the file in the hand; 0: none. Ticks in order, without gaps in the hand.
+  /// `size`: of the file in the hand; 0: none, or a cone. Ticks in order, without gaps in the hand.
   void add(const haptics::Tick& tick, int size);
   /// What lies in the tooth now, whole (session/fragment_trail, fragments_event).
   void setFragments(std::span<const assets::MetalFragment> lying) { lying_ = placed(tooth_, lying); }
@@ -84,6 +85,7 @@ struct TreatedCanal {
   std::optional<LengthError> length;  ///< none: no file was in it
   StraightLine straight_line;
   int size = 0;
+  std::optional<RootFilling> filling;  ///< none: nothing was laid in it
 };
 
 struct Treatment {
@@ -108,7 +110,8 @@ struct Treatment {
 /// "filing 62 %, watch-winding 25 %" of the time against the wall, the longest first; empty: none.
 std::string motionWords(const Treatment& treatment);
 
+/// `laid`: into it; null: nothing.
 Treatment treatmentOf(const assets::ToothCanals& tooth, const ToothBlocks& before, const FineSolid& after,
-                      const FileUse& files);
+                      const FileUse& files, const FineSolid* laid = nullptr);
 
 }  // namespace app

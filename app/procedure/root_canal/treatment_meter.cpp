@@ -6,7 +6,7 @@
 namespace app {
 
 TreatmentMeter::TreatmentMeter(const assets::ToothCanals& tooth, const ToothBlocks& before)
-    : tooth_(tooth), before_(before), now_(before) {
+    : tooth_(tooth), before_(before), now_(before), laid_(before.grid()) {
   canals_.reserve(tooth.canals.size());
   for (std::size_t n = 0; n < tooth.canals.size(); ++n)
     canals_.push_back({CanalSections(before_, now_, tooth.canals[n], furcationSide_P(tooth, n)), {}});
@@ -58,12 +58,18 @@ void TreatmentMeter::measureCanals(const FileUse& files) {
     for (const Cut& cut : cuts_) removed_mm3 += cut.of_canal_mm3[n];
     TreatedCanal& treated = canal.treated;
     treated.name = tooth_.canals[n].name;
-    if (!std::exchange(canal.is_known, true)) treated.outcomes = canalOutcomes(canal.sections, removed_mm3);
+    const bool was_known = std::exchange(canal.is_known, true);
+    if (!was_known) treated.outcomes = canalOutcomes(canal.sections, removed_mm3);
     treated.outcomes.removed_mm3 = removed_mm3;
+    if (!laid_.isEmpty() && (is_laid_new_ || !was_known)) {
+      treated.filling = rootFilling(canal.sections, now_, laid_, tooth_, n);
+      for (CanalSection& section : treated.outcomes.sections) lookAtLaid(section, laid_);
+    }
     if (!std::exchange(canal.is_line_known, true)) treated.straight_line = straightLine(now_, tooth_.canals[n]);
     treated.size = files.size(n);
     treated.length = files.tip(n).isEmpty() ? std::nullopt : std::optional(files.tip(n).error());
   }
+  is_laid_new_ = false;
 }
 
 Treatment TreatmentMeter::measure(const FileUse& files) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/procedure/root_canal/canal_sections.h"
+#include "app/procedure/root_canal/laid_blocks.h"
 #include "app/procedure/root_canal/tooth_now.h"
 #include "app/procedure/root_canal/treatment.h"
 
@@ -23,6 +24,8 @@ class TreatmentMeter {
 
   /// The bytes of a block as they are now.
   void change(glm::ivec3 block, const ToothNow::Bytes& bytes);
+  /// What is laid in a block now.
+  void lay(glm::ivec3 block, const LaidBlocks::Bytes& bytes) { is_laid_new_ = laid_.set(block, bytes) || is_laid_new_; }
 
   Treatment measure(const FileUse& files);
 
@@ -48,6 +51,8 @@ class TreatmentMeter {
   std::vector<Canal> canals_;
   std::vector<Cut> cuts_;          ///< as now_.told()
   std::vector<std::size_t> news_;  ///< places in them
+  LaidBlocks laid_;
+  bool is_laid_new_ = false;
   std::optional<RoofOutcome> roof_;
   std::optional<OutlineOutcome> outline_;
   std::optional<std::vector<Perforation>> perforations_;

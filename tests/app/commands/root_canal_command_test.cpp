@@ -46,13 +46,35 @@ TEST_F(RootCanalCommand, FilesACanalAndTellsWhatItHasComeTo) {
   EXPECT_GT(canal.at("E4_untouched_share").get<double>(), 0.3);
   EXPECT_NEAR(canal.at("E7_most_over_mm").get<double>(), 0.0, 0.05);
   EXPECT_EQ(read("s.png").substr(1, 3), "PNG");
+  // Then its cone: to length, hardly a void, nothing beyond the foramen.
+  EXPECT_NE(said.err.find("a cone stays, seared off at the orifice"), std::string::npos) << said.err;
+  const auto& filling = canal.at("filling");
+  EXPECT_EQ(filling.at("length"), "right") << filling;
+  EXPECT_NEAR(filling.at("end_mm").get<double>(), 0.0, 0.5);
+  EXPECT_GT(filling.at("filled_share").get<double>(), 0.6) << filling;
+  EXPECT_LE(filling.at("filled_share").get<double>(), 1.02) << filling;
+  EXPECT_LT(filling.at("extruded_mm3").get<double>(), 0.05);
   EXPECT_NE(molar("metrics " + at("s.molar")).out.find("Root canals of tooth 45"), std::string::npos);
+
+  // It is on the film, and there when it is gone on with.
+  const auto film = [&](const std::string& out, const std::string& more) {
+    EXPECT_EQ(molar("radiograph --session " + at("s.molar") + " --tooth 45 --out " + at(out) + more).status, 0);
+    return read(out.c_str());
+  };
+  EXPECT_NE(film("f.png", ""), film("g.png", " --to 5"));
+  const ProgramOutput next = molar("rehearse --continue " + at("s.molar") +
+                                   " --headless --device scripted --pace fast --seconds 2 --record " + at("t.molar"));
+  ASSERT_EQ(next.status, 0) << next.err;
+  const ProgramOutput again = molar("metrics " + at("t.molar") + " --json");
+  const auto kept = nlohmann::json::parse(again.out).at("root_canals").at("canals")[0].at("filling");
+  EXPECT_NEAR(kept.at("filled_mm3").get<double>(), filling.at("filled_mm3").get<double>(), 1e-6);
+  EXPECT_EQ(molar("replay " + at("t.molar") + " --verify").status, 0);
 
   // The same as a page, with the films of the tooth within its jaw.
   const ProgramOutput reported = molar("report " + at("s.molar") + " --out " + at("s.html"));
   ASSERT_EQ(reported.status, 0) << reported.err;
   const std::string page = read("s.html");
-  for (const char* words : {"<b>No</b>: File separated", "E4 wall untouched", "Shape of each canal",
+  for (const char* words : {"<b>No</b>: File separated", "E4 wall untouched", "Shape of each canal", "Root filling",
                             "tube 20° to distal: before, after", "within the jaw"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find("lingual plate"), std::string::npos) << "of an extraction";
@@ -160,6 +182,9 @@ TEST_F(RootCanalCommand, RefusesInOneLine) {
   refused("--device scripted --tool round:1.0 --tool k-file:7,25", "no such file is made");
   refused("--device scripted --tool round:1.0 --tool k-file:25,25,bent:130", "0 to 90 degrees");
   refused("--device scripted --tool round:1.0 --tool k-file:25,x", "'x' is not understood");
+  refused("--device scripted --tool round:1.0 --tool gp-cone:25,3", "no such cone is made");
+  refused("--task root-canal --tooth 45 --access open --device scripted --tool round:1.2 --tool k-file:10,25",
+          "it is not on the tray");
 }
 
 TEST_F(RootCanalCommand, ASessionOfAnotherOperationHasNoSections) {

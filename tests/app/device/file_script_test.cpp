@@ -19,9 +19,12 @@ TEST(FileScript, TakesEverySizeIntoEveryForamen) {
   const auto foramina = static_cast<std::size_t>(
       std::ranges::count_if(tooth.canals, [](const assets::ToothCanal& canal) { return !canal.joins; }));
   ASSERT_GE(foramina, 2u);
-  ASSERT_EQ(script.requests.size(), 4 * foramina);
+  ASSERT_EQ(script.requests.size(), 4 * foramina + 2);
   EXPECT_EQ(script.requests[0].tool, "k-file:10,25");
   EXPECT_EQ(script.requests[3].tool, "k-file:25,25");
+  // Then one of them is filled.
+  EXPECT_TRUE(script.requests[4 * foramina].tool.starts_with("gp-cone:")) << script.requests[4 * foramina].tool;
+  EXPECT_EQ(script.requests[4 * foramina + 1].tool, "root-plugger");
   for (std::size_t n = 1; n < script.requests.size(); ++n)
     EXPECT_GT(script.requests[n].t_s, script.requests[n - 1].t_s) << n;
 }
@@ -40,6 +43,7 @@ TEST(FileScript, MovesNoFasterThanAHandAndToTheWorkingLength) {
     if (canal.joins) continue;
     double deepest_mm = 0.0;
     for (const haptics::TimedHandlePose& pose : script.poses) {
+      if (pose.t_s > script.requests[script.requests.size() - 2].t_s) break;
       const glm::dvec3 in = pose.X_DH.rotation * glm::dvec3(0.0, 0.0, -1.0);
       const glm::dvec3 tip_P = pose.X_DH.translation_mm + 25.0 * in, beyond = tip_P - canal.orifice_P_mm();
       if (glm::length(beyond - glm::dot(beyond, in) * in) < 1e-6)
@@ -67,8 +71,9 @@ TEST(AccessScript, KeepsTheBurWithinTheChambersOutlineAndOffItsFloor) {
   EXPECT_EQ(script.requests[0].tool, kAccessBur);
   EXPECT_TRUE(script.poses[1].pedal);
   EXPECT_EQ(script.requests[1].tool, "k-file:10,25");
+  const double filled_s = script.requests[script.requests.size() - 2].t_s;
   for (const haptics::TimedHandlePose& pose : script.poses)
-    EXPECT_FALSE(pose.pedal && pose.t_s >= script.requests[1].t_s) << pose.t_s;
+    EXPECT_FALSE(pose.pedal && pose.t_s >= script.requests[1].t_s && pose.t_s < filled_s) << pose.t_s;
 }
 
 }  // namespace

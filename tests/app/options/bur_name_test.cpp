@@ -34,6 +34,11 @@ TEST(BurName, HasNoIsoSizeBetweenTenths) { EXPECT_EQ(burName({ShapeKind::sphere,
 TEST(BurName, NamesAFileBySizeColourAndLength) {
   EXPECT_EQ(toolName(haptics::fileTool({25, 25.0})), "K-file 25 red, 25 mm");
   EXPECT_EQ(toolName(haptics::fileTool({10, 21.0, true, 30.0})), "K-file 10 purple, 21 mm, NiTi, bent 30°");
+  haptics::CanalFile cone{.size = 30, .length_mm = 21.0};
+  cone.cone_taper = 0.04, cone.sealer_mm3 = 2.0;
+  EXPECT_EQ(toolName(haptics::fileTool(cone)), "gutta-percha cone 30, 4 %");
+  cone.sealer_mm3 = 0.0;
+  EXPECT_EQ(toolName(haptics::fileTool(cone)), "gutta-percha cone 30, 4 %, dry");
 }
 
 }  // namespace

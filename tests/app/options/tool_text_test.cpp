@@ -90,7 +90,8 @@ TEST(ToolText, ReadsEveryHandInstrument) {
                                    {"gutta-percha", haptics::HandInstrument::gutta_percha},
                                    {"plugger", haptics::HandInstrument::plugger},
                                    {"carver", haptics::HandInstrument::carver},
-                                   {"curing-lamp", haptics::HandInstrument::curing_lamp}})
+                                   {"curing-lamp", haptics::HandInstrument::curing_lamp},
+                                   {"root-plugger", haptics::HandInstrument::root_plugger}})
     EXPECT_EQ(toolFrom(text, ""), haptics::handInstrumentTool(kind)) << text;
   for (const char* bad : {"scalpel", "scalpel:11", "none", "curette:3"})
     EXPECT_NE(tests::refusalOf<UsageError>([&] {
@@ -158,6 +159,25 @@ TEST(ToolText, ReadsRootCanalFiles) {
   EXPECT_FALSE(plain == bent);
   for (const char* const wrong : {"k-file", "k-file:", "k-file:7,25", "k-file:25,24", "k-file:25,25,gold",
                                   "k-file:25,25,bent:91", "k-file:-25,25", "k-file:25,25,bent:x"})
+    EXPECT_THROW(toolFrom(wrong, ""), UsageError) << wrong;
+}
+
+TEST(ToolText, ReadsConesOfGuttaPercha) {
+  const haptics::Tool cone = toolFrom("gp-cone:30,4", "");
+  ASSERT_TRUE(cone.isFile());
+  ASSERT_TRUE(cone.file.isCone());
+  EXPECT_FALSE(cone.file.made()) << "no file";
+  EXPECT_EQ(cone.file.cone()->size, 30);
+  EXPECT_EQ(cone.file.cone()->taper, 0.04);
+  EXPECT_EQ(cone.reach_mm(), 21.0);
+  EXPECT_GT(cone.file.sealer_mm3, 0.0);
+  EXPECT_EQ(haptics::sanitised(cone), cone);
+  const haptics::Tool dry = toolFrom("gp-cone:15,2,22.5,dry", "");
+  EXPECT_EQ(dry.file.sealer_mm3, 0.0);
+  EXPECT_EQ(dry.reach_mm(), 22.5);
+  for (const char* const wrong :
+       {"gp-cone", "gp-cone:30", "gp-cone:30,5", "gp-cone:32,4", "gp-cone:10,2", "gp-cone:65,2", "gp-cone:30,4,9",
+        "gp-cone:30,4,29", "gp-cone:30,4,wet", "gp-cone:-30,4", "gp-cone:1e30,4"})
     EXPECT_THROW(toolFrom(wrong, ""), UsageError) << wrong;
 }
 

@@ -68,6 +68,20 @@ TEST(FrameBuilder, RotatesTheBurSevenTimesASecondWhileDrilling) {
   EXPECT_EQ(resting.bur_angle_rad, drilling.bur_angle_rad) << "it keeps its angle";
 }
 
+TEST(FrameBuilder, ACuringLampShinesWhileItWorksFromItsTip) {
+  haptics::Command lamp = plan().command;
+  lamp.tool = haptics::handInstrumentTool(haptics::HandInstrument::curing_lamp);
+  haptics::Tick tick = tickAt(0.5);
+  EXPECT_FALSE(nextFrame(openingFrame(plan()), tick, lamp).curing) << "the pedal is up";
+  tick.filling.works = true;
+  const render::Frame frame = nextFrame(openingFrame(plan()), tick, lamp);
+  ASSERT_TRUE(frame.curing);
+  // Its rod is 3 mm thick to both sides, the hand upright.
+  EXPECT_NEAR(glm::distance(frame.curing->tip_P.mm, glm::dvec3(1.0, 2.0, 0.5)), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(frame.curing->axis_P, glm::dvec3(0.0, 0.0, -1.0)), 0.0, 1e-12);
+  EXPECT_FALSE(nextFrame(frame, tick, plan().command).curing) << "another tool";
+}
+
 TEST(FrameBuilder, OutlinesTheBurOfTheCommand) {
   haptics::Command other = plan().command;
   other.tool.head = {haptics::ShapeKind::cylinder, 0.8, 4.0};

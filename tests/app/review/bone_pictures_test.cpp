@@ -54,6 +54,25 @@ TEST(BonePictures, AHoleOutsideOfThePlanIsRedAndWhatStandsOfItBlue) {
   EXPECT_GT(colours.y, 100) << "the planned ball";
 }
 
+TEST(BonePictures, WhatWasLaidIsSeenInItsColour) {
+  const Site site;
+  const std::size_t count = site.grid.voxelCount();
+  haptics::Filling::Volumes laid{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count),
+                                 std::vector<std::uint8_t>(count)};
+  for (std::size_t v = 0; v < count; ++v)
+    if (site.after[v] == 0) laid.laid[v] = 255, laid.tissue[v] = static_cast<std::uint8_t>(assets::Tissue::wax);
+  const auto green = [&](const haptics::Filling::Volumes* of) {
+    const render::Image image =
+        bonePictures({site.grid, site.label, site.before, site.after, of}, {}, {}, {120, 100})[0].image;
+    int pixels = 0;
+    for (std::size_t n = 0; n < image.rgba.size(); n += 4) pixels += image.rgba[n + 1] > image.rgba[n] + 20;
+    return pixels;
+  };
+  // A disc of 6 mm in a picture of 34 mm: 244 pixels.
+  EXPECT_EQ(green(nullptr), 0);
+  EXPECT_NEAR(green(&laid), 244, 40);
+}
+
 TEST(BonePictures, AHoleAsPlannedIsNeither) {
   assets::PlannedCut plan = Site::ballAt({0.0, 0.0, 0.0});
   plan.strokes_P_mm = {{{0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}}};

@@ -73,6 +73,24 @@ TEST(TreatmentPage, MeasuresHaveTheirUnits) {
   EXPECT_TRUE(tells(page, "least dentine 0.75 mm")) << "of a section";
 }
 
+TEST(TreatmentPage, ARootFillingIsToldWhereThereIsOne) {
+  TreatmentReview review = someTreatment();
+  EXPECT_FALSE(tells(pageOf(review), "Root filling"));
+  RootFilling filling;
+  filling.end_mm = -0.8, filling.canal_mm3 = 2.0, filling.filled_mm3 = 1.84;
+  filling.voids = {{0.213, {}}}, filling.largest_void_mm3 = 0.213;
+  review.of.treatment.canals[0].filling = filling;
+  review.of.treatment.canals.emplace_back();
+  review.of.treatment.canals.back().name = "other";
+  const std::string page = pageOf(review);
+  EXPECT_TRUE(tells(page, "Root filling"));
+  EXPECT_TRUE(tells(page,
+                    "<td>single</td><td>-0.8 mm: short</td><td>92 % of 2.00 mm³</td><td>1, largest 0.213 mm³</td>"
+                    "<td>0.00 mm³</td>"))
+      << page;
+  EXPECT_TRUE(tells(page, "<td>other</td><td>not filled</td>"));
+}
+
 TEST(TreatmentPage, RadiographsAreBesideEachOtherAndSayWhatTheyAreOf) {
   TreatmentReview review = someTreatment();
   EXPECT_FALSE(tells(pageOf(review), "Radiographs"));
@@ -105,7 +123,7 @@ TEST(TreatmentFilms, ShowThatACanalWasWidened) {
   };
   start.solid = drilled(0.2);
   start.label.assign(start.grid.voxelCount(), static_cast<std::uint8_t>(assets::Tissue::dentine));
-  const TreatmentFilms films = treatmentFilms(start, drilled(0.8), {}, nullptr);
+  const TreatmentFilms films = treatmentFilms(start, {drilled(0.8), {}}, nullptr);
   EXPECT_FALSE(films.in_jaw);
   ASSERT_EQ(films.pairs.size(), kTubeShifts_deg.size());
   for (const FilmPair& pair : films.pairs) {
@@ -115,12 +133,26 @@ TEST(TreatmentFilms, ShowThatACanalWasWidened) {
     };
     EXPECT_LT(grey(pair.after) + 10, grey(pair.before)) << pair.shift_deg;
   }
-  const TreatmentFilms same = treatmentFilms(start, start.solid, {}, nullptr);
+  const TreatmentFilms same = treatmentFilms(start, {start.solid, {}}, nullptr);
   EXPECT_EQ(same.pairs[0].before.rgba, same.pairs[0].after.rgba);
+
+  // Gutta-percha in it is lighter than dentine.
+  haptics::Filling::Volumes filling;
+  filling.laid.assign(start.grid.voxelCount(), 0), filling.tissue = filling.laid;
+  assets::forVoxels(start.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (0.1 * std::hypot(ijk.x - 32.0, ijk.y - 32.0) > 0.8) return;
+    filling.laid[v] = 255, filling.tissue[v] = static_cast<std::uint8_t>(assets::Tissue::gutta_percha);
+  });
+  const TreatmentFilms filled = treatmentFilms(start, {drilled(0.8), {}, &filling}, nullptr);
+  for (const FilmPair& pair : filled.pairs) {
+    const render::Image& film = pair.after;
+    const auto at = 4 * static_cast<std::size_t>(film.h / 2 * film.w + film.w / 2);
+    EXPECT_GT(static_cast<int>(film.rgba[at]), static_cast<int>(pair.before.rgba[at]) + 20) << pair.shift_deg;
+  }
 
   // A fragment in it is lighter than anything around.
   const assets::MetalFragment steel{25, false, {{3.2, 3.2, 9.0}, {3.2, 3.2, 7.0}}, {0.15, 0.13}};
-  const TreatmentFilms broken = treatmentFilms(start, start.solid, std::span(&steel, 1), nullptr);
+  const TreatmentFilms broken = treatmentFilms(start, {start.solid, std::span(&steel, 1)}, nullptr);
   for (const FilmPair& pair : broken.pairs) {
     const render::Image& film = pair.after;
     const auto at = 4 * static_cast<std::size_t>(film.h / 2 * film.w + film.w / 2);

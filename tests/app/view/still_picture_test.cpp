@@ -85,6 +85,7 @@ TEST(StillPicture, DropsBackAtOnceWhateverMoves) {
       {"scrolled slice", [](render::Frame& f) { f.slices_beside_bur_P_mm.z = 0.5; }},
       {"ruler", [](render::Frame& f) { f.ruler = render::RulerLine{}; }},
       {"mirror", [](render::Frame& f) { f.second_visible = true; }},
+      {"curing lamp", [](render::Frame& f) { f.curing = render::CuringSpot{}; }},
       {"tooth",
        [](render::Frame& f) {
          f.pieces[0] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.05}};

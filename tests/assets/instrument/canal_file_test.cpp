@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "tests/assets/instrument/part_named.h"
+#include "tests/assets/mesh/closed_mesh.h"
 
 namespace assets {
 namespace {
@@ -35,6 +37,26 @@ TEST(CanalFile, IsColouredByItsTorquePlaceByPlace) {
       EXPECT_NEAR(c.r, c.b, 0.1f) << "grey at the tip";
     }
   }
+}
+
+TEST(CanalCone, IsAsThickAsItsSizeAndTaperSayAndGoneOnceItIsLetGoOf) {
+  DrawnCone drawn{.cone = *guttaPerchaCone(30, 0.04, 21.0), .node_T_mm = {}};
+  const MeshModel model = canalCone(drawn);
+  for (const MeshPart& part : model.parts) {
+    EXPECT_EQ(test::opennessOf(part.triangles), "") << part.name;
+    EXPECT_GT(test::volume(part), 0.0) << part.name;
+  }
+  float low_mm = 0.0f;
+  for (const glm::vec3& p : tests::partNamed(model, "Cone").position_mm) {
+    low_mm = std::min(low_mm, p.z);
+    EXPECT_LE(std::hypot(p.x, p.y), 0.15f + 0.02f * (p.z + 21.0f) + 1e-4f);
+    if (p.z > -20.0f && std::hypot(p.x, p.y) > 0.01f) {
+      EXPECT_NEAR(std::hypot(p.x, p.y), 0.15f + 0.02f * (p.z + 21.0f), 1e-3f);
+    }
+  }
+  EXPECT_NEAR(low_mm, -21.0f, 0.02f);
+  drawn.is_held = false;
+  EXPECT_EQ(canalCone(drawn).parts.size(), model.parts.size() - 1);
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ namespace assets {
 namespace {
 
 constexpr HandInstrumentForm kHandForms[] = {
-    HandInstrumentForm::scalpel_15,    HandInstrumentForm::periosteal, HandInstrumentForm::curette,
-    HandInstrumentForm::bone_file,     HandInstrumentForm::suction,    HandInstrumentForm::composite,
-    HandInstrumentForm::glass_ionomer, HandInstrumentForm::amalgam,    HandInstrumentForm::wax,
-    HandInstrumentForm::gutta_percha,  HandInstrumentForm::plugger,    HandInstrumentForm::carver,
-    HandInstrumentForm::curing_lamp};
+    HandInstrumentForm::scalpel_15,    HandInstrumentForm::periosteal,  HandInstrumentForm::curette,
+    HandInstrumentForm::bone_file,     HandInstrumentForm::suction,     HandInstrumentForm::composite,
+    HandInstrumentForm::glass_ionomer, HandInstrumentForm::amalgam,     HandInstrumentForm::wax,
+    HandInstrumentForm::gutta_percha,  HandInstrumentForm::plugger,     HandInstrumentForm::carver,
+    HandInstrumentForm::curing_lamp,   HandInstrumentForm::root_plugger};
 
 TEST(HandInstrument, IsMadeOfClosedSurfacesWithoutHandles) {
   for (const HandInstrumentForm form : kHandForms)
