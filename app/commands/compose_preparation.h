@@ -14,11 +14,18 @@ namespace app {
 /// A crown, or the cavity over a lesion.
 std::string usualIdeal(const std::string& caries);
 
+/// What the tooth bites on, and how; `whole`: the scan that it is of. Returns what is remarked. Throws UsageError.
+std::vector<std::string> chooseBite(assets::Patient& patient, const assets::CtVolume& whole,
+                                    const RehearseOptions& options);
+/// "55,32": behind and over, mm. Throws UsageError.
+glm::dvec2 hingeFrom(const std::string& text);
+
 /// The tray, where nothing was asked for by name.
 std::vector<std::string> preparationTools(const RehearseOptions& options);
 
 /// The tooth has room for its ideal, and a scripted hand knows its way; throws UsageError where it has none.
-void planPreparation(RehearsalPlan& plan);
+/// `draws_outline`: on a practice block. `is_cut`: its cavity will be, and the hand fills it.
+void planPreparation(RehearsalPlan& plan, bool draws_outline, bool is_cut);
 
 /// Cuts the tooth to its ideal. Returns the solid as it was.
 std::vector<std::uint8_t> cutReady(assets::Patient& patient);
