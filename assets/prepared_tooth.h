@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/opposing_teeth.h"
 #include "assets/tooth_canals.h"
 #include "assets/volume_grid.h"
 
@@ -28,6 +29,8 @@ struct PreparedTooth {
   std::string ideal;                ///< "crown:all-ceramic"; kGivenIdeal
   std::string caries;               ///< where a lesion was placed: "occlusal"; empty: none
   std::optional<GivenIdeal> given;  ///< none: by rule
+  ToothBite bite = {};
+  std::optional<OpposingTeeth> opposing = {};  ///< none: made of the tooth itself
 };
 
 }  // namespace assets

@@ -8,6 +8,7 @@
 
 #include "app/case/impaction_class.h"
 #include "assets/synthetic/practice_block.h"
+#include "assets/synthetic/preparation_block.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -53,6 +54,7 @@ std::vector<std::string> caseNames() {
 std::vector<std::string> rehearsalNames() {
   std::vector<std::string> names = caseNames();
   for (const assets::PracticeText& block : assets::kPracticeTasks) names.emplace_back(block.key);
+  for (const assets::PreparationBlock& block : assets::kPreparationBlocks) names.emplace_back(block.key);
   return names;
 }
 
@@ -60,6 +62,8 @@ std::string practiceList() {
   std::string text;
   for (const assets::PracticeText& block : assets::kPracticeTasks)
     text += fmt::format("{:<16} {}, round bur of {:g} mm\n", block.key, block.instruction, 2.0 * block.bur_radius_mm);
+  for (const assets::PreparationBlock& block : assets::kPreparationBlocks)
+    text += fmt::format("{:<16} {}\n", block.key, block.instruction);
   return text;
 }
 

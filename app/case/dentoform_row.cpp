@@ -13,6 +13,7 @@
 #include "assets/import/tooth_site.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/synthetic/built_in_teeth.h"
+#include "assets/synthetic/front_row.h"
 #include "assets/tooth.h"
 #include "assets/trilinear.h"
 
@@ -29,6 +30,9 @@ constexpr auto kFilledWith = static_cast<std::uint8_t>(assets::Tissue::trabecula
 
 /// The tooth of the lower row whose place it takes.
 int placeOf(int fdi) { return (assets::isRight(fdi) ? 40 : 30) + assets::positionOf(fdi); }
+
+/// 1 and 2, 3 and 4.
+int otherSideOf(int quadrant) { return quadrant % 2 == 1 ? quadrant + 1 : quadrant - 1; }
 
 /// The farthest that teeth reach along the row, by heights and places across it.
 class RowReaches {
@@ -183,16 +187,17 @@ assets::JawParameters dentoformJaw(int fdi) {
   return jaw;
 }
 
-bool isInDentoform(int fdi) {
-  return assets::isToothNumber(fdi) && !assets::isPrimaryTooth(fdi) && assets::positionOf(fdi) >= 4;
-}
+bool isInDentoform(int fdi) { return assets::isToothNumber(fdi) && !assets::isPrimaryTooth(fdi); }
 
-DentoformTooth dentoformTooth(const assets::ToothVolume& tooth, const assets::Patient& jaw, int fdi,
+bool isInFront(int fdi) { return assets::positionOf(fdi) <= 3; }
+
+DentoformTooth dentoformTooth(const assets::ToothVolume& tooth, const assets::CtVolume& jaw, int fdi,
                               const std::string& name) {
   DentoformTooth made;
   const assets::ToothFrame frame = assets::toothFrame(tooth.ct, fdi);
-  const assets::ToothFrame place = assets::builtInTooth(dentoformJaw(fdi), placeOf(fdi)).frame;
-  const BuiltInRow row(jaw.ct, place, placeOf(fdi));
+  const assets::ToothFrame place = isInFront(fdi) ? assets::frontToothFrame(placeOf(fdi))
+                                                  : assets::builtInTooth(dentoformJaw(fdi), placeOf(fdi)).frame;
+  const BuiltInRow row(jaw, place, placeOf(fdi));
   const RowShift shift = rowShift(tooth.ct, frame, row, name);
   made.remarks.push_back(
       fmt::format("set into the built-in row as {} ({}); its neighbours were moved by {:+.1f} mm mesially and {:+.1f} "
@@ -215,7 +220,12 @@ DentoformTooth dentoformTooth(const assets::ToothVolume& tooth, const assets::Pa
     const BuiltInRow::Matter around = row.matter(there_P);
     ct.solid[v] = byte(row.solid(there_P));
     ct.label[v] = around.label;
-    if (around.tooth != 0) ct.tooth[v] = static_cast<std::uint8_t>(quadrant + assets::positionOf(around.tooth));
+    if (around.tooth != 0) {
+      // Over the midline stands the other side's.
+      const bool is_same_side = assets::isRight(around.tooth) == assets::isRight(fdi);
+      const int beside = is_same_side ? quadrant : 10 * otherSideOf(assets::quadrantOf(fdi));
+      ct.tooth[v] = static_cast<std::uint8_t>(beside + assets::positionOf(around.tooth));
+    }
     // The tooth itself, which bone surrounds without a gap.
     const glm::ivec3 at(glm::floor(tooth.ct.grid.indexFromPoint(p_P) + 0.5));
     if (tooth.ct.grid.contains(at)) {

@@ -1,15 +1,19 @@
 #include "app/commands/compose_preparation.h"
 
-#include <algorithm>
-#include <span>
+#include <cmath>
 #include <utility>
 
 #include "app/case/treated_tooth.h"
-#include "app/options/tool_text.h"
+#include "app/procedure/preparation/bite.h"
+#include "app/procedure/preparation/filling_script.h"
+#include "app/procedure/preparation/given_antagonist.h"
 #include "app/procedure/preparation/given_ideal.h"
 #include "app/procedure/preparation/groove_script.h"
+#include "app/procedure/preparation/preparation_paint.h"
 #include "app/procedure/preparation/preparation_script.h"
 #include "app/procedure/root_canal/dense_tooth.h"
+#include "app/text/list.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -19,9 +23,49 @@ std::string usualIdeal(const std::string& caries) {
   return caries == "occlusal" ? "class-1" : "class-2:" + caries;
 }
 
+glm::dvec2 hingeFrom(const std::string& text) {
+  constexpr double kMost_mm = 200.0, kLeastBehind_mm = 10.0;
+  const std::vector<std::string_view> words = split(text);
+  const auto behind_mm = parseNumber<double>(words.front()), over_mm = parseNumber<double>(words.back());
+  if (words.size() != 2 || !behind_mm || !over_mm || !(*behind_mm >= kLeastBehind_mm && *behind_mm <= kMost_mm) ||
+      !(std::abs(*over_mm) <= kMost_mm))
+    throw UsageError("--hinge " + text +
+                     ": give BACK,UP, mm behind the tooth (10 to 200) and over its bite (-200 to 200), as in 55,32");
+  return {*behind_mm, *over_mm};
+}
+
+std::vector<std::string> chooseBite(assets::Patient& patient, const assets::CtVolume& whole,
+                                    const RehearseOptions& options) {
+  assets::PreparedTooth& tooth = *patient.prepared;
+  std::vector<std::string> remarks;
+  if (options.former_bite) tooth.bite = *options.former_bite;
+  tooth.opposing = options.opposing;
+  const bool is_scanned = options.antagonist.empty() && !tooth.opposing && hasOpposingTeeth(whole, tooth.fdi);
+  const bool is_asked = !options.antagonist.empty() || !options.bite.empty() || !options.hinge.empty();
+  if (!is_scanned && !is_asked) return remarks;
+  const Crown crown(ToothBlocks(DenseTooth(patient.ct.grid, patient.ct.solid, patient.ct.label)), tooth.frame);
+  std::optional<GivenAntagonist> given;
+  if (!options.antagonist.empty()) given = readAntagonist(options.antagonist, crown, "--antagonist");
+  if (is_scanned) given = scannedAntagonist(whole, tooth.fdi, crown);
+  if (given) {
+    if (!given->remark.empty()) remarks.push_back(given->remark);
+    tooth.bite.closing = given->is_arch ? assets::Closing::hinge : assets::Closing::axis;
+    tooth.opposing = std::move(given->teeth);
+  } else if (is_scanned) {
+    remarks.push_back("the scan's opposing teeth do not stand over tooth " + std::to_string(tooth.fdi) +
+                      ": one is made");
+  }
+  for (const auto closing : {assets::Closing::axis, assets::Closing::hinge, assets::Closing::balance})
+    if (options.bite == nameOf(closing)) tooth.bite.closing = closing;
+  if (!options.former_bite || !options.hinge.empty() || tooth.bite.hinge_P_mm == glm::dvec3(0.0))
+    tooth.bite.hinge_P_mm =
+        hinge_P_mm(crown, options.hinge.empty() ? usualHinge_mm(tooth.fdi) : hingeFrom(options.hinge));
+  return remarks;
+}
+
 std::vector<std::string> preparationTools(const RehearseOptions& options) {
   const IdealRule* const rule = isIdealFile(options.ideal) ? nullptr : &idealRule(options.ideal, "--ideal");
-  if (rule != nullptr && options.plan.device == "scripted") return scriptedBurs(*rule);
+  if (options.plan.device == "scripted") return options.cavity == "ready" ? fillingTray() : scriptedBurs(rule);
   // A pear and a narrow cylinder, a round one and an inverted cone, and what fills a cavity.
   if (rule != nullptr && rule->kind == IdealKind::cavity)
     return {"pear:0.5,1.2", "cylinder:0.4,4", "round:1.0",   "inverted-cone:0.5,0.8", "flame:0.6,6", "composite",
@@ -30,26 +74,25 @@ std::vector<std::string> preparationTools(const RehearseOptions& options) {
   return {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6", "wheel:1.8,1.2", "cylinder:0.5,6", "round:1.4"};
 }
 
-void planPreparation(RehearsalPlan& plan) {
+void planPreparation(RehearsalPlan& plan, bool draws_outline, ScriptedWork work) {
   const assets::PreparedTooth& tooth = *plan.patient.prepared;
-  if (tooth.given && plan.device == "scripted")
-    throw UsageError("--device scripted: no hand knows the way to an ideal from a file, give mouse or poses:FILE.csv");
-  if (tooth.given) return;
+  const bool is_scripted = plan.device == "scripted";
+  if (tooth.given && !is_scripted) return;
   const assets::CtVolume& ct = plan.patient.ct;
   Crown crown(ToothBlocks(DenseTooth(ct.grid, ct.solid, ct.label)), tooth.frame);
-  const IdealRule& rule = idealRule(tooth.ideal, "--ideal");
-  if (plan.device != "scripted") {
-    PreparedIdeal(crown, rule, "--ideal");
-    return;
+  if (!tooth.given) {
+    const PreparedIdeal ideal(crown, idealRule(tooth.ideal, "--ideal"), "--ideal");
+    if (draws_outline) plan.outline = {crown.solid.grid(), outlineSpots(crown, ideal)};
   }
+  if (!is_scripted) return;
   std::vector<haptics::Tool> tray = plan.other_tools;
   tray.insert(tray.begin(), plan.command.tool);
-  const std::vector<std::string> own = scriptedBurs(rule);
-  const bool is_own = tray.size() >= own.size() &&
-                      std::ranges::equal(
-                          own, std::span(tray).first(own.size()), {},
-                          [](const std::string& bur) { return toolFrom(bur, "").head; }, &haptics::Tool::head);
-  plan.hand_script = is_own ? preparationScript({std::move(crown), rule, "--ideal"}, tray) : grooveScript(crown, tray);
+  if (work == ScriptedWork::groove) {
+    plan.hand_script = grooveScript(crown, tray);
+    return;
+  }
+  const PreparationMeasure measure(std::move(crown), tooth, "--ideal");
+  plan.hand_script = work == ScriptedWork::fill ? fillingScript(measure, tray) : preparationScript(measure, tray);
 }
 
 std::vector<std::uint8_t> cutReady(assets::Patient& patient) {

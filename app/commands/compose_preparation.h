@@ -14,11 +14,22 @@ namespace app {
 /// A crown, or the cavity over a lesion.
 std::string usualIdeal(const std::string& caries);
 
+/// What the tooth bites on, and how; `whole`: the scan that it is of. Returns what is remarked. Throws UsageError.
+std::vector<std::string> chooseBite(assets::Patient& patient, const assets::CtVolume& whole,
+                                    const RehearseOptions& options);
+/// "55,32": behind and over, mm. Throws UsageError.
+glm::dvec2 hingeFrom(const std::string& text);
+
 /// The tray, where nothing was asked for by name.
 std::vector<std::string> preparationTools(const RehearseOptions& options);
 
+/// What a scripted hand does: it prepares the tooth to its ideal, fills the cavity that was cut, or grooves the biting
+/// surface with burs that were named.
+enum class ScriptedWork : std::uint8_t { prepare, fill, groove };
+
 /// The tooth has room for its ideal, and a scripted hand knows its way; throws UsageError where it has none.
-void planPreparation(RehearsalPlan& plan);
+/// `draws_outline`: on a practice block.
+void planPreparation(RehearsalPlan& plan, bool draws_outline, ScriptedWork work);
 
 /// Cuts the tooth to its ideal. Returns the solid as it was.
 std::vector<std::uint8_t> cutReady(assets::Patient& patient);

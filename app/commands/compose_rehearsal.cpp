@@ -346,8 +346,11 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
     if (!former->setup.practice.empty()) {
       options.case_name = former->setup.practice;
       refuseUnlessForBlock(options);
-      options.jaw.spacing_mm = former->grid.spacing_mm;
-      plan.instruction = assets::textOf(*practiceOf(options)).instruction;
+      if (const auto* const block = preparationBlockOf(options)) plan.instruction = block->instruction;
+      if (const auto task = practiceOf(options)) {
+        options.jaw.spacing_mm = former->grid.spacing_mm;
+        plan.instruction = assets::textOf(*task).instruction;
+      }
     }
     if (former->setup.canals) {
       options.task = "root-canal";
@@ -363,6 +366,8 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.ideal = prepared->ideal;
       options.caries = prepared->caries;
       options.given_ideal = prepared->given;
+      options.opposing = prepared->opposing;
+      options.former_bite = prepared->bite;
       refuseUnlessForPreparation(options);
     }
     plan.drawn = former->drawn;
@@ -403,7 +408,7 @@ void completeRootTray(RehearsalPlan& plan) {
 void describeSetup(RehearsalPlan& plan, const RehearseOptions& options, const assets::JawParameters& jaw,
                    const std::optional<Continuation>& former) {
   SessionSetup& setup = plan.recording->setup;
-  setup.practice = practiceOf(options) ? options.case_name : "";
+  setup.practice = isOnBlock(options) ? options.case_name : "";
   if (options.patient.empty() && setup.practice.empty()) setup.built_in = jaw;
   setup.tray = plan.other_tools;
   setup.tray.insert(setup.tray.begin(), plan.command.tool);
@@ -422,6 +427,12 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   static const RehearseOptions kUntouched;
   const bool are_tools_named = options.tools != kUntouched.tools;
   const std::optional<assets::PracticeTask> block = practiceOf(options);
+  if (const auto* const of = preparationBlockOf(options); of != nullptr && !isRootCanal(options)) {
+    options.task = "preparation";
+    if (!options.tooth) options.tooth = assets::kPreparationBlockTooth;
+    if (options.ideal.empty() && options.caries.empty()) options.ideal = of->ideal;
+    plan.instruction = of->instruction;
+  }
   if (isRootCanal(options)) refuseUnlessForRootCanal(options);
   if (isPreparation(options)) {
     if (options.ideal.empty()) options.ideal = usualIdeal(options.caries);
@@ -473,7 +484,12 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2], orificeDepth_mm(*plan.patient.canals)};
-  if (plan.patient.prepared) planPreparation(plan);
+  if (plan.patient.prepared) {
+    const ScriptedWork work = are_tools_named             ? ScriptedWork::groove
+                              : options.cavity == "ready" ? ScriptedWork::fill
+                                                          : ScriptedWork::prepare;
+    planPreparation(plan, preparationBlockOf(options) != nullptr, work);
+  }
   if (options.cavity == "ready" && plan.patient.prepared) plan.scanned_solid = cutReady(plan.patient);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);

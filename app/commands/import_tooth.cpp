@@ -10,6 +10,7 @@
 #include "app/text/usage_error.h"
 #include "assets/import/tooth_volume.h"
 #include "assets/patient/patient_folder.h"
+#include "assets/synthetic/front_row.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -41,7 +42,7 @@ assets::ToothLevels levelsOf(const std::string& text) {
 void addToothOptions(CommandLine& command, const Option& tooth, ToothImport& options) {
   command
       .option("--tooth-number", options.fdi,
-              "Which tooth a single tooth's volume shows, FDI number: 14 to 18 … 44 to 48")
+              "Which tooth a single tooth's volume shows, FDI number: 11 to 18 … 41 to 48")
       .wholeFrom(11, 48)
       .showsDefault()
       .needs(tooth);
@@ -56,7 +57,7 @@ void addToothOptions(CommandLine& command, const Option& tooth, ToothImport& opt
 void refuseUnknownTooth(const ToothImport& options) {
   if (!isInDentoform(options.fdi))
     throw UsageError("--tooth-number " + std::to_string(options.fdi) +
-                     ": the row has premolars and molars, give 14 to 18, 24 to 28, 34 to 38 or 44 to 48");
+                     ": no tooth of adults, give 11 to 18, 21 to 28, 31 to 38 or 41 to 48");
   levelsOf(options.levels);
 }
 
@@ -66,7 +67,8 @@ std::string importTooth(const ToothImport& options, const std::string& folder, b
       assets::readToothVolume(options.volume, {options.fdi, levelsOf(options.levels), options.upright});
   course.begin("row of teeth");
   const DentoformTooth made =
-      dentoformTooth(tooth, builtInPatient(dentoformJaw(options.fdi)), options.fdi, options.volume);
+      dentoformTooth(tooth, isInFront(options.fdi) ? assets::frontRow() : builtInPatient(dentoformJaw(options.fdi)).ct,
+                     options.fdi, options.volume);
   course.end();
   for (const auto* remarks : {&tooth.remarks, &made.remarks})
     for (const std::string& remark : *remarks) course.say("tooth: " + remark);

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "app/commands/compose_preparation.h"
+#include "app/commands/rehearsed_case.h"
 #include "app/device/pose_source_table.h"
 #include "app/procedure/preparation/given_ideal.h"
 #include "app/procedure/preparation/ideal_rule.h"
@@ -61,11 +63,16 @@ static void refuseUnlessForOneTooth(const RehearseOptions& options) {
   if (!options.procedure.empty()) throw UsageError("--procedure " + options.procedure + ":" + with);
   if (options.flap == "closed") throw UsageError("--flap closed:" + with);
   if (!options.drawn.empty()) throw UsageError("--drawn " + options.drawn + ":" + with);
-  if (!options.case_name.empty() && assets::practiceTaskOf(options.case_name))
+  if (practiceOf(options))
     throw UsageError("--case " + options.case_name + ": a practice block has no tooth, leave it or " + task + " out");
 }
 
-void refuseUnlessForRootCanal(const RehearseOptions& options) { refuseUnlessForOneTooth(options); }
+void refuseUnlessForRootCanal(const RehearseOptions& options) {
+  refuseUnlessForOneTooth(options);
+  if (preparationBlockOf(options) != nullptr)
+    throw UsageError("--case " + options.case_name +
+                     ": a practice block has no canals, leave it or --task root-canal out");
+}
 
 void refuseTooWide(const RehearsalPlan& plan) {
   const assets::ToothCanals& tooth = *plan.patient.canals;
@@ -83,19 +90,30 @@ void refuseTooWide(const RehearsalPlan& plan) {
 
 void refuseUnlessForPreparation(const RehearseOptions& options) {
   refuseUnlessForOneTooth(options);
+  if (preparationBlockOf(options) != nullptr) {
+    refuseUnlessForBlock(options);
+    if (*options.tooth != assets::kPreparationBlockTooth)
+      throw UsageError(fmt::format("--tooth {}: a practice block is a tooth of its own, leave it or --case {} out",
+                                   *options.tooth, options.case_name));
+    if (!options.caries.empty())
+      throw UsageError("--caries " + options.caries + ": a practice block has none, leave it or --case " +
+                       options.case_name + " out");
+  }
   if (!options.given_ideal && !isIdealFile(options.ideal)) {
     if (std::ranges::find(idealRules(), options.ideal, &IdealRule::name) == idealRules().end())
       throw UsageError("--ideal " + options.ideal + ": no such preparation, give " +
                        joined(idealRules(), [](const IdealRule& rule) { return std::string(rule.name); }) +
                        ", or a FILE.nrrd or FILE.stl of the prepared tooth");
   }
+  if (!options.hinge.empty()) hingeFrom(options.hinge);
   if (options.plan.device == "scripted" && !options.continued.empty())
     throw UsageError("--device scripted: its hand begins with an untouched tooth, leave --continue out");
   if (options.cavity != "ready") return;
   if (isIdealFile(options.ideal) || idealRule(options.ideal, "--ideal").kind != IdealKind::cavity)
     throw UsageError("--cavity ready: " + options.ideal + " is no cavity by rule, give --ideal class-1 or class-2");
-  if (options.plan.device == "scripted")
-    throw UsageError("--cavity ready: a scripted hand cuts the cavity itself, leave it out or give another --device");
+  if (options.plan.device == "scripted" && idealRule(options.ideal, "--ideal").box_side != 0)
+    throw UsageError("--cavity ready: a scripted hand has no matrix to fill " + options.ideal +
+                     " against, give --ideal class-1 or another --device");
   if (!options.continued.empty())
     throw UsageError("--cavity ready: --continue " + options.continued + " has its own cavity, leave one of them out");
 }

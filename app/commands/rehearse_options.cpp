@@ -78,6 +78,23 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
       .showsDefault()
       .needs(task);
   command
+      .option("--antagonist", options.antagonist,
+              "Of a preparation: the opposing teeth, FILE.stl, closed or open, where the teeth meet in the patient's "
+              "frame, mm [those of the scan where it has both jaws, else made from the tooth]")
+      .valueNamed("FILE")
+      .needs(task);
+  command
+      .option("--bite", options.bite,
+              "Of a preparation, how the jaws close on paper: axis, along the tooth; hinge, about the condyles; "
+              "balance, until three contacts around its middle hold what opposes it [hinge on a whole arch, else axis]")
+      .oneOf({"axis", "hinge", "balance"})
+      .needs(task);
+  command
+      .option("--hinge", options.hinge,
+              "BACK,UP: how far the axis of the condyles lies behind the tooth and over its bite, mm [of a mean jaw: "
+              "55,32 for a first molar]")
+      .needs(task);
+  command
       .option("--tooth", options.tooth,
               "The tooth of a root-canal treatment or a preparation, FDI number, see molar teeth")
       .wholeFrom(11, 48)

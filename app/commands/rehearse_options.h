@@ -30,9 +30,14 @@ struct RehearseOptions {
   std::string ideal;   ///< of a tooth preparation: a rule's name or a file; empty: as the caries asks for, else a crown
   std::string caries;  ///< of a tooth preparation; empty: none
   std::optional<assets::GivenIdeal> given_ideal;  ///< of the session that goes on
-  std::string cavity = "uncut";                   ///< ready: of a preparation, cut to its ideal
-  double paper_um = kUsualPaper_um;               ///< of a tooth preparation
-  std::optional<int> tooth;                       ///< of a root-canal treatment or a preparation
+  std::string antagonist;                         ///< a file; empty: of the scan, else made
+  std::string bite;                               ///< how the jaws close; empty: as the antagonist asks for
+  std::string hinge;                              ///< BACK,UP; empty: the usual
+  std::optional<assets::OpposingTeeth> opposing;  ///< of the session that goes on, with how the jaws close
+  std::optional<assets::ToothBite> former_bite;
+  std::string cavity = "uncut";      ///< ready: of a preparation, cut to its ideal
+  double paper_um = kUsualPaper_um;  ///< of a tooth preparation
+  std::optional<int> tooth;          ///< of a root-canal treatment or a preparation
   bool list_cases = false, assess = false;
   PictureOption picture;
   std::vector<std::string> settings;

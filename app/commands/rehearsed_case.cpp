@@ -14,6 +14,7 @@
 #include "app/case/soft_tissue_source.h"
 #include "app/case/treated_tooth.h"
 #include "app/case/trough_plan.h"
+#include "app/commands/compose_preparation.h"
 #include "app/controls/prediction_question.h"
 #include "app/device/pose_source_table.h"
 #include "app/procedure/preparation/given_ideal.h"
@@ -35,6 +36,7 @@ struct PreparedCase {
   assets::SoftTissueField soft_tissue;
   assets::RiskStructures risks;
   Prediction computed;  ///< difficulty and index alone
+  std::vector<std::string> remarks;
 };
 
 /// Nothing where they cannot be measured.
@@ -49,6 +51,16 @@ Prediction computedDifficulty(const assets::Patient& patient) {
   } catch (const UsageError&) {
   }
   return computed;
+}
+
+/// By rule, or of a file.
+void takeIdeal(assets::Patient& patient, const RehearseOptions& options) {
+  assets::PreparedTooth& tooth = *patient.prepared;
+  const bool is_given = isIdealFile(options.ideal) || options.given_ideal;
+  tooth.ideal = is_given ? assets::kGivenIdeal : options.ideal;
+  if (!is_given) return;
+  const Crown crown(ToothBlocks(DenseTooth(patient.ct.grid, patient.ct.solid, patient.ct.label)), tooth.frame);
+  tooth.given = options.given_ideal ? *options.given_ideal : readGivenIdeal(options.ideal, crown, "--ideal");
 }
 
 /// The patient, and what is computed from it: the cut and how a handpiece lies clear of soft tissue while it is made.
@@ -66,6 +78,12 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
     one.cut->cut.shaft_P = one.cut->cut.outward_P;
     return one;
   }
+  if (const auto* const block = preparationBlockOf(options)) {
+    one.patient = assets::preparationBlock(*block);
+    takeIdeal(one.patient, options);
+    one.remarks = chooseBite(one.patient, {}, options);
+    return one;
+  }
   one.patient = options.patient.empty() ? builtInPatient(jaw, load) : assets::loadPatient(options.patient, load);
   one.X_PF = one.patient.X_PF.value_or(assets::kFaceAxes_PF);
   if (!options.face.empty()) one.X_PF = replaceFace(one.patient, options.face);
@@ -80,13 +98,11 @@ PreparedCase prepared(const RehearseOptions& options, const assets::JawParameter
     // A straight handpiece held upright would press lip and cheek all the time, where a
     // dentist's is bent: they are held away.
     const bool is_given = isIdealFile(options.ideal) || options.given_ideal;
-    one.patient = preparedTooth(one.patient, built_in, *options.tooth,
+    const assets::Patient whole = std::move(one.patient);
+    one.patient = preparedTooth(whole, built_in, *options.tooth,
                                 {is_given ? assets::kGivenIdeal : options.ideal, options.caries}, "--tooth");
-    if (!is_given) return one;
-    const Crown crown(ToothBlocks(DenseTooth(one.patient.ct.grid, one.patient.ct.solid, one.patient.ct.label)),
-                      one.patient.prepared->frame);
-    one.patient.prepared->given =
-        options.given_ideal ? *options.given_ideal : readGivenIdeal(options.ideal, crown, "--ideal");
+    one.remarks = chooseBite(one.patient, whole.ct, options);
+    takeIdeal(one.patient, options);
     return one;
   }
   if (options.flap == "closed") {
@@ -119,6 +135,11 @@ std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options) {
   return assets::practiceTaskOf(options.case_name);
 }
 
+const assets::PreparationBlock* preparationBlockOf(const RehearseOptions& options) {
+  return assets::preparationBlockOf(options.case_name);
+}
+bool isOnBlock(const RehearseOptions& options) { return practiceOf(options) || preparationBlockOf(options) != nullptr; }
+
 bool isRootCanal(const RehearseOptions& options) { return options.task == "root-canal"; }
 bool isPreparation(const RehearseOptions& options) { return options.task == "preparation"; }
 
@@ -127,7 +148,7 @@ assets::JawParameters jawOf(const RehearseOptions& options) {
   // The jaw has the teeth of one side: that of the tooth that is asked for.
   jaw.right_side =
       options.task != "extraction" && options.tooth ? assets::isRight(*options.tooth) : options.side == "right";
-  if (options.case_name.empty() || practiceOf(options)) return jaw;
+  if (options.case_name.empty() || isOnBlock(options)) return jaw;
   jaw = caseNamed(options.case_name)->jaw;
   jaw.spacing_mm = options.jaw.spacing_mm;
   jaw.seed = options.jaw.seed;
@@ -148,6 +169,7 @@ bool prepareCase(RehearsalPlan& plan, const RehearseOptions& options, const asse
   plan.patient = std::move(one->patient);
   plan.soft_tissue = std::move(one->soft_tissue);
   plan.risks = std::move(one->risks);
+  plan.remarks.insert(plan.remarks.end(), one->remarks.begin(), one->remarks.end());
   plan.windows = preparation.takeWindows();
   if (plan.procedure_steps) {
     plan.procedure_steps->prediction.computed = one->computed.computed;

@@ -9,11 +9,16 @@
 #include "assets/scenery/face_frame.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/synthetic/practice_block.h"
+#include "assets/synthetic/preparation_block.h"
 
 namespace app {
 
 /// The block to practise on; none: a patient.
 std::optional<assets::PracticeTask> practiceOf(const RehearseOptions& options);
+/// A block on which a tooth preparation is practised; nullptr: another case.
+const assets::PreparationBlock* preparationBlockOf(const RehearseOptions& options);
+/// Of either kind.
+bool isOnBlock(const RehearseOptions& options);
 /// Of one tooth; else of the third molar's extraction.
 bool isRootCanal(const RehearseOptions& options);
 bool isPreparation(const RehearseOptions& options);

@@ -12,6 +12,7 @@
 #include "app/evaluation/evaluation_desk.h"
 #include "app/evaluation/spectator.h"
 #include "app/procedure/coach/coach.h"
+#include "app/procedure/preparation/tooth_paint.h"
 #include "app/procedure/procedure.h"
 #include "app/procedure/root_canal/apex_locator.h"
 #include "app/procedure/steps/step_plan.h"
@@ -85,6 +86,7 @@ struct RehearsalPlan {
   glm::ivec2 snapshot_px{1280, 800};
   std::optional<ApexLocator::Mode> locator;  ///< of a root-canal treatment; none: it lies in its drawer
   double paper_mm = 0.04;                    ///< articulating paper of a tooth preparation
+  DrawnOutline outline;                      ///< of its task, on a practice block; no spots: none is drawn
   double face_window_mm = 0.0;
   Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;

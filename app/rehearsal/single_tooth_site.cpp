@@ -29,7 +29,7 @@ SingleToothSite::SingleToothSite(const Links& links) : links_(links) {
   // An assessment tells nothing on the way.
   const bool measures = links_.is_real_time && !plan.is_assessed;
   if (patient.prepared) {
-    painting_.emplace(patient.ct.grid);
+    painting_.emplace(patient.ct.grid, plan.outline);
     bite_.emplace(*patient.prepared, patient.ct, before, links_.bodies, plan.paper_mm);
     if (!plan.is_assessed) preparation_.emplace(*patient.prepared, patient.ct, before, links_.bodies);
   }

@@ -20,11 +20,14 @@ void ToothPainting::layTogether(const render::Layers& layers) {
     std::ranges::move(means, std::back_inserter(rows));
     if (title == nullptr) title = named;
   };
+  if (outline_ != nullptr) lay(outline_->spots, outlineRows(), "practice block");
   if (has_deviation_ && measured_ != nullptr) lay(measured_->deviation, deviationRows(), "off the ideal");
   if (has_insertion_ && measured_ != nullptr) lay(measured_->undercut, insertionRows(*measured_), "insertion");
   if (has_marks_ && marked_ != nullptr) lay(marked_->spots, biteRows(marked_->bite), "bite");
   if (title == nullptr) return;
-  const assets::VolumeGrid& box = marked_ != nullptr ? marked_->box : measured_->box;
+  const assets::VolumeGrid& box = marked_ != nullptr     ? marked_->box
+                                  : measured_ != nullptr ? measured_->box
+                                                         : outline_->box;
   paint_ = paintOf(volume_, box, spots);
   paint_.title = title;
   paint_.rows = std::move(rows);

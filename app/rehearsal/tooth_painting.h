@@ -17,6 +17,9 @@ class ToothPainting {
  public:
   /// `volume`: that the renderer draws.
   explicit ToothPainting(const assets::VolumeGrid& volume) : volume_(volume) {}
+  /// With an outline under everything else, whatever layers are shown; borrowed.
+  ToothPainting(const assets::VolumeGrid& volume, const DrawnOutline& outline)
+      : volume_(volume), outline_(outline.spots.empty() ? nullptr : &outline), is_new_(outline_ != nullptr) {}
   ToothPainting(const ToothPainting&) = delete;
   ToothPainting& operator=(const ToothPainting&) = delete;
 
@@ -37,6 +40,7 @@ class ToothPainting {
   void layTogether(const render::Layers& layers);
 
   assets::VolumeGrid volume_;
+  const DrawnOutline* outline_ = nullptr;
   const PreparationPaint* measured_ = nullptr;
   const BittenTooth::Marked* marked_ = nullptr;
   bool is_new_ = false;

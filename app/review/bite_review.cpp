@@ -18,7 +18,8 @@ std::vector<BiteAgain> bitesAgain(const std::string& path) {
     throw UsageError("--bites: " + path + " continues another session, whose first tooth it does not hold, name that");
   const BittenTooth tooth(
       Crown(ToothBlocks(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label)),
-            start.setup.prepared->frame));
+            start.setup.prepared->frame),
+      *start.setup.prepared);
   std::vector<BiteAgain> all;
   for (const SessionEvent& event : session.events()) {
     if (event.kind != kBiteEvent) continue;

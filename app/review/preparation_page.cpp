@@ -176,6 +176,10 @@ std::string biteOf(const PreparationOfSession& of) {
   if (rows.empty())
     text += escaped(bite.clearance_um ? fmt::format("no mark; it is free by {:.2f} mm. ", 0.001 * *bite.clearance_um)
                                       : std::string("nothing opposes it. "));
+  if (bite.closing == "hinge") text += "The jaws close about the hinge of the condyles. ";
+  if (bite.is_balanced) text += "What opposes it rests on three contacts around the middle. ";
+  if (bite.closing == "balance" && !bite.is_balanced && !rows.empty())
+    text += "No three contacts hold what opposes it: it would tip over. ";
   if (bite.is_made) text += "The opposing tooth was made from the tooth's own biting surface, not scanned. ";
   text += "A mark's area tells where teeth meet, not how hard.</p>\n";
   if (!rows.empty()) text += tableMarkup({"mark", "area along the way of closing", "narrowest gap"}, rows);

@@ -66,6 +66,8 @@ OrderedJson biteJson(const BiteRecord& of) {
     marks.push_back({{"where", one.where}, {"area_mm2", one.area_mm2}, {"gap_um", one.gap_um}});
   return {{"paper_um", of.paper_um},
           {"antagonist", of.is_made ? "made" : "scanned"},
+          {"closing", of.closing.empty() ? "axis" : of.closing},
+          {"balanced", of.is_balanced},
           {"high_spot_um", of.high_um},
           {"first_contact", of.first.empty() ? OrderedJson() : OrderedJson(of.first)},
           {"clearance_um", of.clearance_um ? OrderedJson(*of.clearance_um) : OrderedJson()},
@@ -188,7 +190,7 @@ std::optional<PreparationOfSession> preparationOfSession(SessionReader& session,
   of.picture = preparationPicture(measure, made, of.outcomes);
   const double paper_um = of.bites.empty() ? kUsualPaper_um : of.bites.back().paper_um;
   const BoxBytes bitten = filling ? filledTooth(made, *filling, start.grid) : made;
-  of.bite = recordOf(BittenTooth(measure.crown()).bitten(bitten, 0.001 * paper_um).bite, 0.0);
+  of.bite = recordOf(BittenTooth(measure.crown(), of.tooth).bitten(bitten, 0.001 * paper_um).bite, 0.0);
   return of;
 }
 
@@ -226,6 +228,7 @@ std::string preparationJson(const PreparationOfSession& of) {
                       {"dentine_mm3", removed.dentine_mm3},
                       {"pulp_open_mm2", removed.pulp_open_mm2}};
   if (of.tooth.given) json["ideal_sha256"] = of.tooth.given->digest;
+  if (of.tooth.opposing && !of.tooth.opposing->digest.empty()) json["antagonist_sha256"] = of.tooth.opposing->digest;
   if (const auto& caries = of.outcomes.caries)
     json["caries"] = {{"place", of.tooth.caries.empty() ? OrderedJson() : OrderedJson(of.tooth.caries)},
                       {"soft_mm3", caries->soft_before_mm3},
@@ -276,7 +279,10 @@ std::string preparationTable(const PreparationOfSession& of) {
 }
 
 std::string biteInWords(const BiteRecord& of) {
-  std::string text = fmt::format("{:g} µm paper{}: ", of.paper_um, of.is_made ? " on a made antagonist" : "");
+  std::string text = fmt::format("{:g} µm paper{}{}: ", of.paper_um, of.is_made ? " on a made antagonist" : "",
+                                 of.closing == "hinge" ? ", closing about the hinge"
+                                 : of.is_balanced      ? ", resting on three contacts"
+                                                       : "");
   if (of.high_um >= kToldHigh_um) text += fmt::format("{:.0f} µm too high, {}; ", of.high_um, of.first);
   if (of.contacts.empty())
     return text + (of.clearance_um ? fmt::format("no mark, free by {:.2f} mm", 0.001 * *of.clearance_um)

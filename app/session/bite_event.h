@@ -25,6 +25,8 @@ struct BiteRecord {
   std::optional<double> clearance_um;  ///< of the narrowest place when closed; none: nothing opposes it
   std::string first;                   ///< where it touches first; empty: it does not
   std::vector<Contact> contacts;       ///< largest first
+  std::string closing = {};            ///< "hinge", "balance"; empty: along the tooth's axis
+  bool is_balanced = false;            ///< on three contacts around the middle
 
   bool operator==(const BiteRecord&) const = default;
   double area_mm2() const {

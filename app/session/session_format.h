@@ -41,6 +41,9 @@ inline constexpr LaidNames kLaidBefore{"laid_before", "laid_before_tissue", "lai
 inline constexpr std::string_view kTeeth = "teeth";
 /// Optional: what is to be left of a prepared tooth, as a file gave it, on its own grid (key prepared of `about`).
 inline constexpr std::string_view kIdeal = "ideal";
+/// Optional: heights of what opposes a prepared tooth (assets/opposing_teeth.h), the four bytes of their floats, least
+/// first, one after the other for all of them.
+inline constexpr std::string_view kOpposing = "opposing";
 /// Soft tissue, on its own grid (key soft_tissue_grid of `about`): low, then high bytes of the distances; tissues.
 inline constexpr std::string_view kSoftDistance = "soft_distance", kSoftTissue = "soft_tissue";
 

@@ -1,6 +1,8 @@
 #include "app/session/session_reader.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <filesystem>
 
 #include <SQLiteCpp/Database.h>
@@ -197,6 +199,23 @@ struct SessionReader::Impl {
 
   StoredStart about() { return isPacked() ? old_formats::packedAbout(database, schema) : aboutWithLabels().start; }
 
+  void readOpposing(SessionSetup& setup) {
+    if (!setup.prepared || !setup.prepared->opposing) return;
+    constexpr std::size_t kPlaces =
+        static_cast<std::size_t>(assets::OpposingTeeth::kSide) * assets::OpposingTeeth::kSide;
+    const std::vector<std::uint8_t> bytes = volume(session_format::kOpposing, 4 * kPlaces);
+    if (bytes.empty()) throw damagedSession("its opposing teeth are missing");
+    std::vector<float>& height = setup.prepared->opposing->height_mm;
+    height.resize(kPlaces);
+    for (std::size_t n = 0; n < kPlaces; ++n) {
+      std::uint32_t bits = 0;
+      for (std::size_t b = 4; b-- > 0;) bits = bits << 8 | bytes[b * kPlaces + n];
+      height[n] = std::bit_cast<float>(bits);
+      if (!std::isnan(height[n]) && !(std::abs(height[n]) < 1e3F))
+        throw damagedSession("its opposing teeth are at no place");
+    }
+  }
+
   /// The grid is known.
   void readIdeal(SessionSetup& setup) {
     if (!setup.prepared || !setup.prepared->given) return;
@@ -247,6 +266,7 @@ struct SessionReader::Impl {
       start.is_tooth = volume(session_format::kIsTooth, voxels);
       start.teeth = volume(session_format::kTeeth, voxels);
       readIdeal(start.setup);
+      readOpposing(start.setup);
       readSoftTissue(start.soft_tissue);
       start.laid = laid(session_format::kLaidBefore, voxels);
       if (start.laid) start.laid->age_s = aboutWithLabels().laid_before_age_s;

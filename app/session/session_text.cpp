@@ -11,6 +11,7 @@
 #include "app/session/session_error.h"
 #include "assets/json_depth.h"
 #include "assets/synthetic/practice_block.h"
+#include "assets/synthetic/preparation_block.h"
 #include "assets/tissue.h"
 #include "assets/tooth.h"
 
@@ -181,6 +182,13 @@ json setupJson(const SessionSetup& setup) {
     if (!prepared->caries.empty()) object["prepared"]["caries"] = prepared->caries;
     if (prepared->given)
       object["prepared"]["given"] = {{"sha256", prepared->given->digest}, {"grid", gridJson(prepared->given->grid)}};
+    if (prepared->bite.closing != assets::Closing::axis)
+      object["prepared"]["bite"] = {{"closing", static_cast<int>(prepared->bite.closing)},
+                                    {"hinge_P_mm", three(prepared->bite.hinge_P_mm)}};
+    if (prepared->opposing)
+      object["prepared"]["opposing"] = {{"sha256", prepared->opposing->digest},
+                                        {"side", assets::OpposingTeeth::kSide},
+                                        {"step_mm", assets::OpposingTeeth::kStep_mm}};
   }
   if (setup.down_P) object["down_P"] = three(*setup.down_P);
   if (setup.proposed.tooth) object["not_confirmed"].push_back("tooth");
@@ -197,6 +205,10 @@ glm::dvec3 vectorFrom(const json& three) {
     vector[axis] = number.get<double>();
   }
   return vector;
+}
+
+bool isDigest(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 assets::PreparedTooth preparedFrom(const json& object) {
@@ -220,9 +232,21 @@ assets::PreparedTooth preparedFrom(const json& object) {
   if (const auto given = object.find("given"); given != object.end()) {
     if (!given->is_object()) throw bad();
     prepared.given = assets::GivenIdeal{valueOf(*given, "sha256", std::string()), gridFrom(*given), {}};
-    const std::string& digest = prepared.given->digest;
-    if (digest.size() != 64 || digest.find_first_not_of("0123456789abcdef") != std::string::npos) throw bad();
+    if (!isDigest(prepared.given->digest)) throw bad();
     refuseInvalidGrid(prepared.given->grid);
+  }
+  if (const auto bite = object.find("bite"); bite != object.end()) {
+    const int closing = valueOf(*bite, "closing", -1);
+    if (closing < 0 || closing > static_cast<int>(assets::Closing::balance) || !bite->contains("hinge_P_mm"))
+      throw bad();
+    prepared.bite = {static_cast<assets::Closing>(closing), vectorFrom((*bite)["hinge_P_mm"])};
+  }
+  if (const auto opposing = object.find("opposing"); opposing != object.end()) {
+    if (valueOf(*opposing, "side", 0) != assets::OpposingTeeth::kSide ||
+        valueOf(*opposing, "step_mm", 0.0) != assets::OpposingTeeth::kStep_mm)
+      throw bad();
+    prepared.opposing = assets::OpposingTeeth{valueOf(*opposing, "sha256", std::string()), {}};
+    if (const std::string& digest = prepared.opposing->digest; !digest.empty() && !isDigest(digest)) throw bad();
   }
   return prepared;
 }
@@ -263,7 +287,8 @@ SessionSetup setupFrom(const json& object) {
   }
   // One of another version is as an imported patient: its bone is in the session.
   setup.practice = valueOf(object, "practice", std::string());
-  if (!assets::practiceTaskOf(setup.practice)) setup.practice.clear();
+  if (!assets::practiceTaskOf(setup.practice) && assets::preparationBlockOf(setup.practice) == nullptr)
+    setup.practice.clear();
   if (const auto list = object.find("not_confirmed"); list != object.end() && list->is_array())
     for (const json& what : *list) {
       if (what == "tooth") setup.proposed.tooth = true;

@@ -1,6 +1,7 @@
 #include "app/session/session_writer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <map>
 #include <optional>
@@ -162,6 +163,16 @@ struct SessionWriter::Impl {
       const std::vector<std::uint8_t>& ideal = prepared->given->solid;
       appendVolume(session_format::kIdeal, ideal.size(), [&](std::size_t first, std::span<std::uint8_t> part) {
         std::copy_n(ideal.begin() + static_cast<std::ptrdiff_t>(first), part.size(), part.begin());
+      });
+    }
+    if (const auto& prepared = start.setup.prepared; prepared && prepared->opposing) {
+      const std::vector<float>& height = prepared->opposing->height_mm;
+      const auto byte = [&](std::size_t n) {
+        return static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(height[n % height.size()]) >>
+                                         8 * (n / height.size()));
+      };
+      appendVolume(session_format::kOpposing, 4 * height.size(), [&](std::size_t first, std::span<std::uint8_t> part) {
+        for (std::size_t n = 0; n < part.size(); ++n) part[n] = byte(first + n);
       });
     }
     if (start.soft_tissue != nullptr && !start.soft_tissue->isEmpty()) appendSoftTissue(*start.soft_tissue);

@@ -15,6 +15,7 @@
 #include "app/text/clock_text.h"
 #include "assets/synthetic/jaw.h"
 #include "assets/synthetic/practice_block.h"
+#include "assets/synthetic/preparation_block.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
 
@@ -50,6 +51,12 @@ StartList caseStartList(std::span<const PatientListing> patients) {
          .fdi = one.fdi()});
   }
   for (const assets::PracticeText& block : assets::kPracticeTasks)
+    list.choices.push_back({.words = begun(std::string(block.title)),
+                            .beside = "practice",
+                            .about = std::string(block.instruction) + ".",
+                            .arguments = {"--case", std::string(block.key)},
+                            .has_mouth = false});
+  for (const assets::PreparationBlock& block : assets::kPreparationBlocks)
     list.choices.push_back({.words = begun(std::string(block.title)),
                             .beside = "practice",
                             .about = std::string(block.instruction) + ".",

@@ -6,12 +6,19 @@
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/practice_block.h"
+#include "assets/synthetic/preparation_block.h"
 
 namespace app {
 
 std::optional<assets::Patient> patientOfSession(const StoredStart& start, const std::string& folder) {
   if (const auto task = assets::practiceTaskOf(start.setup.practice))
     return assets::practiceBlock(*task, start.grid.spacing_mm);
+  if (const auto* const block = assets::preparationBlockOf(start.setup.practice)) {
+    assets::Patient patient = assets::preparationBlock(*block, start.grid.spacing_mm);
+    if (start.setup.prepared) patient.prepared = start.setup.prepared;
+    patient.ct.solid = start.solid;
+    return patient;
+  }
   if (folder.empty() && !start.setup.built_in) return {};
   assets::Patient patient = folder.empty() ? builtInPatient(*start.setup.built_in) : assets::loadPatient(folder);
   if (start.setup.canals) {
@@ -25,6 +32,8 @@ std::optional<assets::Patient> patientOfSession(const StoredStart& start, const 
     const auto built_in = folder.empty() ? start.setup.built_in : std::nullopt;
     patient = preparedTooth(patient, built_in, prepared->fdi, {prepared->ideal, prepared->caries}, "--tooth");
     patient.prepared->given = prepared->given;
+    patient.prepared->bite = prepared->bite;
+    patient.prepared->opposing = prepared->opposing;
     patient.ct.solid = start.solid;
   }
   if (patient.ct.grid == start.grid && patient.ct.label == start.label) return patient;

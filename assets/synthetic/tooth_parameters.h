@@ -58,7 +58,7 @@ struct ToothParameters {
   double pulp = 1.0;  ///< size of chamber and canals, 1 = adult, larger when young
 };
 
-/// The lower tooth at `position` 4..8 from the midline (first premolar .. third molar).
+/// The lower tooth at `position` 1..8 from the midline (central incisor .. third molar).
 const ToothParameters& lowerToothParameters(int position);
 
 }  // namespace assets

@@ -1,6 +1,6 @@
-// Lower teeth of one side in position: premolars, first and second molar, and the impacted third molar. Frame J
-// (dental_arch.h), mm. Immutable once built; any thread. Building takes about 1 s. Occlusal plane z = 0: the highest
-// cusp of every erupted tooth touches it.
+// Lower teeth of one side in position: the front ones, premolars, first and second molar, the impacted third molar.
+// Frame J (dental_arch.h), mm. Immutable once built; any thread. Building takes about 1 s. Occlusal plane z = 0: the
+// highest cusp of every erupted tooth touches it.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 namespace assets {
 
 struct PlacedTooth {
-  int position = 6;             ///< 4..8 from the midline
+  int position = 6;             ///< 1..8 from the midline
   const ToothShape& shape;      ///< lowerToothShape(position)
   glm::dvec3 cervix_J_mm{0.0};  ///< origin of the tooth frame
   glm::dmat3 axes_J{1.0};       ///< columns: mesial, buccal, occlusal
@@ -20,7 +20,8 @@ struct PlacedTooth {
   glm::dvec3 inJaw(const glm::dvec3& p) const { return cervix_J_mm + axes_J * p; }
 };
 
-/// A premolar or one of the first two molars (4..7), upright on the arch with the natural lean to the tongue.
+/// An incisor, canine, premolar or one of the first two molars (1..7), upright on the arch with the natural lean to the
+/// tongue.
 PlacedTooth eruptedTooth(const DentalArch& arch, int position);
 
 /// Third molar rotated by the Winter angle (positive: crown to mesial), its highest point `depth_mm` below the occlusal

@@ -159,8 +159,9 @@ static const ToothShape& shapeOnce() {
 }
 
 const ToothShape& lowerToothShape(int position) {
-  constexpr std::array kShapes{shapeOnce<4>, shapeOnce<5>, shapeOnce<6>, shapeOnce<7>, shapeOnce<8>};
-  return kShapes[static_cast<std::size_t>(position - 4)]();
+  constexpr std::array kShapes{shapeOnce<1>, shapeOnce<2>, shapeOnce<3>, shapeOnce<4>,
+                               shapeOnce<5>, shapeOnce<6>, shapeOnce<7>, shapeOnce<8>};
+  return kShapes[static_cast<std::size_t>(position - 1)]();
 }
 
 }  // namespace assets

@@ -28,7 +28,7 @@ class ToothShape {
   DistanceLattice pulp_;
 };
 
-/// Shape of the lower tooth at `position` 4..8, the same for every jaw; made at the first call.
+/// Shape of the lower tooth at `position` 1..8, the same for every jaw; made at the first call.
 const ToothShape& lowerToothShape(int position);
 
 }  // namespace assets

@@ -31,16 +31,25 @@ int main() {
     return app::removedMaterial(crown, made, measure->ideal(), [&](const glm::dvec3& p) { return ideal.zone(p); })
         .under_mm3();
   });
+  const app::IdealDistance distance(measure->ideal());
+  bench::printCost("  P2, P8: deviation",
+                   [&] { return app::deviationOf(crown, made, measure->ideal(), distance).rms_mm; });
+  bench::printCost("  splinters", [&] { return static_cast<double>(app::attached(crown, made).bytes().size()); });
   bench::printCost("  P3, P4, P6: walls",
                    [&] { return app::StumpWalls(crown, made, 0.0, crown.top_mm).radius_mm(0, 40); });
-  bench::printCost("  P5: columns", [&] { return app::CrownColumns(crown, made, 1.0).undercut_mm3(glm::dvec2(0.0)); });
+  std::optional<app::CrownColumns> columns;
+  bench::printCost("  P5: columns", [&] {
+    columns.emplace(crown, made, 1.0);
+    return columns->undercut_mm3(glm::dvec2(0.0));
+  });
+  bench::printCost("  P5: way of insertion", [&] { return app::bestInsertion(*columns).undercut_mm3; });
   const app::PreparationOutcomes outcomes = measure->outcomesOf(made);
   bench::printCost("what is painted on the live tooth", [&] {
     return static_cast<double>(app::preparationPaint(*measure, made, outcomes).deviation.size());
   });
   std::optional<app::BittenTooth> bitten;
   bench::printCost("what opposes it, made, once", [&] {
-    bitten.emplace(crown);
+    bitten.emplace(crown, assets::PreparedTooth{46, crown.frame, rule.name.data(), "", {}});
     return 0.0;
   });
   bench::printCost("a bite on articulating paper", [&] { return bitten->bitten(made, 0.04).bite.clearance_mm; });

@@ -1,9 +1,9 @@
 #include "app/procedure/preparation/antagonist.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <vector>
+
+#include "app/procedure/preparation/resting_plane.h"
 
 namespace app {
 namespace {
@@ -61,51 +61,14 @@ std::vector<double> blurred(const std::vector<double>& from, bool along_x) {
   return to;
 }
 
-struct Support {
-  glm::dvec2 place{0.0};
-  double height = 0.0;
-};
-
-/// Shares of three supports in a load.
-glm::dvec3 sharesOf(const std::array<Support, 3>& on, const glm::dvec2& load) {
-  const glm::dvec2 a = on[1].place - on[0].place, b = on[2].place - on[0].place, p = load - on[0].place;
-  const double area = a.x * b.y - a.y * b.x;
-  const double s = (p.x * b.y - p.y * b.x) / area, t = (a.x * p.y - a.y * p.x) / area;
-  return {1.0 - s - t, s, t};
-}
-
-/// The plane through three supports.
-glm::dvec3 planeOf(const std::array<Support, 3>& on) {
-  const glm::dmat3 rows(glm::dvec3(on[0].place, 1.0), glm::dvec3(on[1].place, 1.0), glm::dvec3(on[2].place, 1.0));
-  return glm::dvec3(on[0].height, on[1].height, on[2].height) * glm::inverse(rows);
-}
-
-/// On which a plane loaded at a place comes to rest over all of them: the highest support over the plane replaces one
-/// of its three such that the load stays among them (the dual simplex method).
-glm::dvec3 restingPlane(const std::vector<Support>& all, const glm::dvec2& load) {
-  constexpr double kFar = 1e3, kLow = -1e4, kOver_mm = 1e-6;
-  std::array<Support, 3> on{{{{-kFar, -kFar}, kLow}, {{kFar, -kFar}, kLow}, {{0.0, kFar}, kLow}}};
-  for (int n = 0; n < 1000; ++n) {
-    const glm::dvec3 plane = planeOf(on);
-    const Support* highest = nullptr;
-    double over = kOver_mm;
-    for (const Support& one : all)
-      if (const double by = one.height - glm::dot(plane, glm::dvec3(one.place, 1.0)); by > over)
-        over = by, highest = &one;
-    if (highest == nullptr) break;
-    std::optional<std::array<Support, 3>> best;
-    double least = -1e300;
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::array<Support, 3> next = on;
-      next[k] = *highest;
-      const glm::dvec3 shares = sharesOf(next, load);
-      const double worst = std::min({shares.x, shares.y, shares.z});
-      if (std::isfinite(worst) && worst > least) least = worst, best = next;
-    }
-    if (!best) break;
-    on = *best;
-  }
-  return planeOf(on);
+/// Of a biting surface.
+glm::dvec2 middleOf(const std::vector<char>& mask) {
+  glm::dvec2 sum(0.0);
+  double count = 0.0;
+  for (int y = 0; y < kCells; ++y)
+    for (int x = 0; x < kCells; ++x)
+      if (mask[static_cast<std::size_t>(y * kCells + x)] != 0) sum += OcclusalRaster::place_mm(x, y), count += 1.0;
+  return sum / std::max(1.0, count);
 }
 
 }  // namespace
@@ -113,18 +76,14 @@ glm::dvec3 restingPlane(const std::vector<Support>& all, const glm::dvec2& load)
 Antagonist madeAntagonist(const OcclusalRaster& intact) {
   const std::vector<char> mask = bites(intact);
   std::vector<double> height(mask.size(), 0.0), weight(mask.size(), 0.0);
-  glm::dvec2 middle(0.0);
-  double count = 0.0;
   for (int y = 0; y < kCells; ++y)
     for (int x = 0; x < kCells; ++x) {
       const auto at = static_cast<std::size_t>(y * kCells + x);
       if (mask[at] == 0) continue;
       height[at] = static_cast<double>(intact.at(x, y)), weight[at] = 1.0;
-      middle += OcclusalRaster::place_mm(x, y), count += 1.0;
     }
   Antagonist made;
-  if (count == 0.0) return made;
-  middle /= count;
+  made.middle_mm = middleOf(mask);
   height = blurred(blurred(height, true), false);
   weight = blurred(blurred(weight, true), false);
   std::vector<Support> supports;
@@ -135,16 +94,36 @@ Antagonist madeAntagonist(const OcclusalRaster& intact) {
         supports.push_back(
             {OcclusalRaster::place_mm(x, y), static_cast<double>(intact.at(x, y)) - height[at] / weight[at]});
     }
-  const glm::dvec3 plane = restingPlane(supports, middle);
+  if (supports.empty()) return made;
+  const auto rests_on = restingPlane(supports, made.middle_mm);
+  const double highest_mm = std::ranges::max_element(supports, {}, &Support::height_mm)->height_mm;
   for (int y = 0; y < kCells; ++y)
     for (int x = 0; x < kCells; ++x) {
       const auto at = static_cast<std::size_t>(y * kCells + x);
       if (!rests(mask, x, y)) continue;
       const double smooth_mm = height[at] / weight[at];
-      made.height_mm.at(x, y) =
-          static_cast<float>(smooth_mm + glm::dot(plane, glm::dvec3(OcclusalRaster::place_mm(x, y), 1.0)));
+      const glm::dvec2 place = OcclusalRaster::place_mm(x, y);
+      made.height_mm.at(x, y) = static_cast<float>(smooth_mm + (rests_on ? rests_on->at_mm(place) : highest_mm));
     }
   return made;
+}
+
+Antagonist antagonistOf(const Crown& crown, const OcclusalRaster& intact, const assets::PreparedTooth& tooth) {
+  Antagonist opposes = tooth.opposing ? Antagonist{} : madeAntagonist(intact);
+  if (tooth.opposing) {
+    opposes.is_made = false;
+    opposes.middle_mm = middleOf(bites(intact));
+    for (int y = 0; y < kCells; ++y)
+      for (int x = 0; x < kCells; ++x)
+        opposes.height_mm.at(x, y) = tooth.opposing->height_mm[static_cast<std::size_t>(y * kCells + x)];
+  }
+  opposes.closing = tooth.bite.closing;
+  opposes.hinge_mm = crown.frame.local(tooth.bite.hinge_P_mm);
+  opposes.opens = glm::transpose(crown.frame.axes_P)[0];
+  // Whichever way lifts what stands over the tooth.
+  if (glm::cross(opposes.opens, glm::dvec3(opposes.middle_mm, crown.top_mm) - opposes.hinge_mm).z < 0.0)
+    opposes.opens = -opposes.opens;
+  return opposes;
 }
 
 }  // namespace app

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "app/procedure/preparation/jaw_closing.h"
+
 namespace app {
 namespace {
 
@@ -103,6 +105,8 @@ std::vector<BiteContact> contactsOf(const OcclusalRaster& gap_mm, double paper_m
       if (!gap_mm.has(x, y) || !gap_mm.has(x + 1, y) || !gap_mm.has(x, y + 1) || !gap_mm.has(x + 1, y + 1)) continue;
       contacts[static_cast<std::size_t>(any - 1)].area_mm2 += markedArea_mm2(gap_mm, x, y, paper_mm);
     }
+  // First contact lies between the places.
+  for (BiteContact& one : contacts) one.gap_mm = std::max(0.0, one.gap_mm);
   std::erase_if(contacts, [](const BiteContact& one) { return one.area_mm2 < kLeastMark_mm2; });
   std::ranges::sort(contacts, std::greater<>(), &BiteContact::area_mm2);
   return contacts;
@@ -117,24 +121,21 @@ double Bite::area_mm2() const {
 }
 
 Bite biteOn(const OcclusalRaster& heights, const Antagonist& antagonist, double paper_mm) {
+  ClosedJaws jaws = closedOn(heights, antagonist);
   Bite bite;
   bite.paper_mm = paper_mm, bite.is_made = antagonist.is_made;
-  double least_mm = std::numeric_limits<double>::infinity();
-  glm::dvec2 least_at(0.0);
-  for (int y = 0; y < kBiteCells; ++y)
-    for (int x = 0; x < kBiteCells; ++x) {
-      const float gap = antagonist.height_mm.at(x, y) - heights.at(x, y);
-      bite.gap_mm.at(x, y) = gap;
-      if (static_cast<double>(gap) < least_mm)
-        least_mm = static_cast<double>(gap), least_at = OcclusalRaster::place_mm(x, y);
-    }
-  bite.open_mm = std::max(0.0, -least_mm);
-  bite.clearance_mm = least_mm + bite.open_mm;
-  if (bite.clearance_mm <= kTouching_mm) bite.first_mm = least_at;
-  for (int y = 0; y < kBiteCells; ++y)
-    for (int x = 0; x < kBiteCells; ++x) bite.gap_mm.at(x, y) += static_cast<float>(bite.open_mm);
+  bite.closing = antagonist.closing, bite.is_balanced = jaws.is_balanced;
+  bite.open_mm = jaws.open_mm;
+  bite.clearance_mm = std::max(0.0, jaws.narrowest.gap_mm);
+  if (bite.clearance_mm <= kTouching_mm) bite.first_mm = jaws.first_mm;
+  bite.gap_mm = std::move(jaws.gap_mm);
   bite.contacts = contactsOf(bite.gap_mm, paper_mm);
   return bite;
+}
+
+std::string_view nameOf(assets::Closing closing) {
+  constexpr std::array<std::string_view, 3> kNames{"axis", "hinge", "balance"};
+  return kNames[static_cast<std::size_t>(closing)];
 }
 
 std::string placeName(const glm::dvec2& place_mm) {
@@ -182,6 +183,9 @@ std::vector<render::SurfacePaint::Row> biteRows(const Bite& bite) {
   const glm::vec3 ink = render::linearFromSrgb(glm::vec3(kInk));
   std::vector<render::SurfacePaint::Row> rows{{ink, fmt::format("paper {:g} µm", 1000.0 * bite.paper_mm)}};
   if (bite.is_made) rows.push_back({{}, kMadeAntagonist});
+  if (bite.closing == assets::Closing::hinge) rows.push_back({{}, "closing about the hinge"});
+  if (bite.closing == assets::Closing::balance)
+    rows.push_back({{}, bite.is_balanced ? "resting on three contacts" : "nothing holds it on three contacts"});
   return rows;
 }
 

@@ -1,11 +1,12 @@
-// A bite on articulating paper (reference/sisters 5.4): the jaws close until the tooth meets what opposes it, at the
-// latest where the rest of the teeth meet; paper of a thickness marks where the gap is not wider than it is. A mark's
-// area tells where, never how hard (Open Dent J 2007, PMC2581523), so nothing is said of loads. Real papers are 8 to
-// 200 µm thick, shimstock 8. Frame of the tooth, mm. Pure; any thread; some ms.
+// A bite on articulating paper (reference/sisters 5.4): the jaws close (jaw_closing.h) until the tooth meets what
+// opposes it, at the latest where the rest of the teeth meet; paper of a thickness marks where the gap is not wider
+// than it is. A mark's area tells where, never how hard (Open Dent J 2007, PMC2581523), so nothing is said of loads.
+// Real papers are 8 to 200 µm thick, shimstock 8. Frame of the tooth, mm. Pure; any thread; some ms.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/procedure/preparation/antagonist.h"
@@ -24,7 +25,9 @@ struct BiteContact {
 
 struct Bite {
   double paper_mm = 0.0;
-  bool is_made = true;                 ///< the antagonist
+  bool is_made = true;  ///< the antagonist
+  assets::Closing closing = assets::Closing::axis;
+  bool is_balanced = false;            ///< on three contacts around the middle
   double open_mm = 0.0;                ///< that the tooth keeps the jaws apart: how high it is
   double clearance_mm = 0.0;           ///< of the narrowest place when closed; 0: it touches
   std::optional<glm::dvec2> first_mm;  ///< where the tooth touches first; none: the rest of the teeth meet before
@@ -37,6 +40,8 @@ struct Bite {
 /// `heights`: of the tooth as it is. No clearance where nothing opposes the tooth: infinite.
 Bite biteOn(const OcclusalRaster& heights, const Antagonist& antagonist, double paper_mm);
 
+/// "hinge": of a command line and in a recording.
+std::string_view nameOf(assets::Closing closing);
 /// "mesiobuccal", "middle".
 std::string placeName(const glm::dvec2& place_mm);
 /// For the surgeon: "3 marks of 40 µm paper, 0.92 mm² in all"; "0.21 mm too high, distobuccal"; "free by 1.42 mm".

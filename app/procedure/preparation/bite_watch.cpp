@@ -11,8 +11,8 @@
 
 namespace app {
 
-BittenTooth::BittenTooth(Crown crown)
-    : crown_(std::move(crown)), antagonist_(madeAntagonist(occlusalHeights(crown_, crown_.solid))) {}
+BittenTooth::BittenTooth(Crown crown, const assets::PreparedTooth& tooth)
+    : crown_(std::move(crown)), antagonist_(antagonistOf(crown_, occlusalHeights(crown_, crown_.solid), tooth)) {}
 
 BittenTooth::Marked BittenTooth::bitten(const BoxBytes& made, double paper_mm) const {
   const OcclusalRaster heights = occlusalHeights(crown_, made);
@@ -26,6 +26,8 @@ BiteRecord recordOf(const Bite& bite, double t_s) {
   record.t_s = t_s;
   record.paper_um = 1000.0 * bite.paper_mm;
   record.is_made = bite.is_made;
+  if (bite.closing != assets::Closing::axis) record.closing = nameOf(bite.closing);
+  record.is_balanced = bite.is_balanced;
   record.high_um = std::round(1000.0 * bite.open_mm);
   if (std::isfinite(bite.clearance_mm)) record.clearance_um = std::round(1000.0 * bite.clearance_mm);
   if (bite.first_mm) record.first = placeName(*bite.first_mm);
@@ -36,7 +38,7 @@ BiteRecord recordOf(const Bite& bite, double t_s) {
 }
 
 struct BiteWatch::Copy {
-  assets::ToothFrame frame;
+  const assets::PreparedTooth& prepared;
   const assets::CtVolume& scan;
   std::span<const std::uint8_t> before;
   // From the first bite.
@@ -45,7 +47,8 @@ struct BiteWatch::Copy {
 
   BittenTooth::Marked marked(double paper_mm) {
     const assets::VolumeGrid& grid = volume->grid();
-    if (!tooth) tooth.emplace(Crown(ToothBlocks(DenseTooth(grid, volume->before(), volume->labels())), frame));
+    if (!tooth)
+      tooth.emplace(Crown(ToothBlocks(DenseTooth(grid, volume->before(), volume->labels())), prepared.frame), prepared);
     const BoxBytes made(DenseSolid(grid, volume->now()), tooth->box());
     return tooth->bitten(filledTooth(made, volume->filling(), grid), paper_mm);
   }
@@ -53,7 +56,7 @@ struct BiteWatch::Copy {
 
 BiteWatch::BiteWatch(const assets::PreparedTooth& tooth, const assets::CtVolume& scan,
                      std::span<const std::uint8_t> before, const haptics::Bodies& bodies, double paper_mm)
-    : copy_(std::make_unique<Copy>(tooth.frame, scan, before)), bodies_(bodies), paper_mm_(paper_mm) {}
+    : copy_(std::make_unique<Copy>(tooth, scan, before)), bodies_(bodies), paper_mm_(paper_mm) {}
 
 BiteWatch::~BiteWatch() {
   if (marking_.valid()) marking_.wait();

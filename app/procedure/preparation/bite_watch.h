@@ -27,8 +27,8 @@ class BittenTooth {
     assets::VolumeGrid box;  ///< of the spots
   };
 
-  /// With a made antagonist. `crown`: before anything was cut.
-  explicit BittenTooth(Crown crown);
+  /// `crown`: of that tooth, before anything was cut.
+  BittenTooth(Crown crown, const assets::PreparedTooth& tooth);
 
   Marked bitten(const BoxBytes& made, double paper_mm) const;
   const assets::VolumeGrid& box() const { return crown_.solid.grid(); }
@@ -43,7 +43,7 @@ BiteRecord recordOf(const Bite& bite, double t_s);
 
 class BiteWatch {
  public:
-  /// Borrows the bodies. `before`: of the scan's grid, before anything was cut.
+  /// Borrows all. `before`: of the scan's grid, before anything was cut.
   BiteWatch(const assets::PreparedTooth& tooth, const assets::CtVolume& scan, std::span<const std::uint8_t> before,
             const haptics::Bodies& bodies, double paper_mm);
   ~BiteWatch();

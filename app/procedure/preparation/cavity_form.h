@@ -1,7 +1,10 @@
 // P9: the form of a class I or II cavity: depth, isthmus, divergence of its walls, the box, and enamel that no dentine
 // bears (reference/sisters 5.3). Walls are walked to from the middle of the groove; a wall lies where the sum of the
-// solid along the ray says. Frame of the tooth, mm, rad. Pure; any thread; some 0.1 s.
+// solid along the ray says. Where the groove was meant to be a rule says, or the ideal itself, seen from the bite.
+// Frame of the tooth, mm, rad. Pure; any thread; some 0.1 s.
 #pragma once
+
+#include <optional>
 
 #include "app/procedure/preparation/prepared_ideal.h"
 
@@ -17,6 +20,10 @@ struct CavityForm {
 
   bool isCut() const { return depth_mm > 0.0; }
 };
+
+/// The cavity that an ideal is: its groove, what is wanted of it, and a box at one side (of two the larger one). None:
+/// it has no two walls along a floor, as an onlay.
+std::optional<IdealRule> cavityRuleOf(const Crown& crown, const BoxBytes& ideal);
 
 CavityForm cavityForm(const Crown& crown, const BoxBytes& made, const IdealRule& rule);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/segment/cell_masks.h"
-
 namespace app {
 namespace {
 
@@ -60,6 +58,82 @@ class LabelField final : public FineSolid {
   const ToothBlocks& tooth_;
 };
 
+/// Stretches of matter along x, and which of them hang together by their faces.
+class MatterRuns {
+ public:
+  MatterRuns(const Crown& crown, const BoxBytes& made) : size_(made.grid().size), rows_{0} {
+    constexpr std::uint8_t kHolds = 64;  ///< any matter holds, however thin
+    std::size_t v = 0;
+    for (int row = 0; row < size_.y * size_.z; ++row) {
+      for (int x = 0; x < size_.x; ++x, ++v) {
+        if (made.bytes()[v] < kHolds || !assets::isToothPart(crown.label.bytes()[v])) continue;
+        if (rows_.back() == runs_.size() || runs_.back().end != x)
+          runs_.push_back({x, x, static_cast<std::uint32_t>(runs_.size())});
+        runs_.back().end = x + 1;
+      }
+      rows_.push_back(runs_.size());
+      if (row % size_.y > 0) join(row - 1, row);
+      if (row >= size_.y) join(row - size_.y, row);
+    }
+  }
+
+  /// visit(row, from, end, number of its piece).
+  template <class Visit>
+  void forEach(const Visit& visit) {
+    for (int row = 0; row < size_.y * size_.z; ++row)
+      for (std::size_t n = rows_[static_cast<std::size_t>(row)]; n < rows_[static_cast<std::size_t>(row) + 1]; ++n)
+        visit(row, runs_[n].from, runs_[n].end, rootOf(static_cast<std::uint32_t>(n)));
+  }
+  std::size_t count() const { return runs_.size(); }
+
+ private:
+  struct Run {
+    int from, end;
+    std::uint32_t parent;
+  };
+
+  std::uint32_t rootOf(std::uint32_t n) {
+    while (runs_[n].parent != n) n = runs_[n].parent = runs_[runs_[n].parent].parent;
+    return n;
+  }
+  void join(int row, int other) {
+    std::size_t a = rows_[static_cast<std::size_t>(row)], b = rows_[static_cast<std::size_t>(other)];
+    const std::size_t end_a = rows_[static_cast<std::size_t>(row) + 1],
+                      end_b = rows_[static_cast<std::size_t>(other) + 1];
+    while (a < end_a && b < end_b) {
+      if (runs_[a].from < runs_[b].end && runs_[b].from < runs_[a].end)
+        runs_[rootOf(static_cast<std::uint32_t>(a))].parent = rootOf(static_cast<std::uint32_t>(b));
+      (runs_[a].end < runs_[b].end ? a : b) += 1;
+    }
+  }
+
+  glm::ivec3 size_;
+  std::vector<Run> runs_;
+  std::vector<std::size_t> rows_;  ///< where each begins
+};
+
+/// 1 in the voxels of what hangs on the tooth's neck.
+std::vector<std::uint8_t> standing(const Crown& crown, const BoxBytes& made) {
+  constexpr double kNeck_mm = 0.5;
+  const assets::VolumeGrid& grid = made.grid();
+  MatterRuns runs(crown, made);
+  const auto height_mm = [&](int row, int x) {
+    return crown.frame.local(grid.centre_P_mm({x, row % grid.size.y, row / grid.size.y})).z;
+  };
+  std::vector<std::uint8_t> holds(runs.count(), 0), stands(grid.voxelCount(), 0);
+  runs.forEach([&](int row, int from, int end, std::uint32_t piece) {
+    // Heights are straight along a run.
+    if (std::min(height_mm(row, from), height_mm(row, end - 1)) < kNeck_mm) holds[piece] = 1;
+  });
+  runs.forEach([&](int row, int from, int end, std::uint32_t piece) {
+    if (holds[piece] == 0) return;
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.size.x);
+    std::fill(stands.begin() + static_cast<std::ptrdiff_t>(first) + from,
+              stands.begin() + static_cast<std::ptrdiff_t>(first) + end, std::uint8_t{1});
+  });
+  return stands;
+}
+
 }  // namespace
 
 BoxBytes::BoxBytes(const FineSolid& field, const assets::VolumeGrid& box) : BoxBytes(box) {
@@ -72,24 +146,22 @@ BoxBytes::BoxBytes(const FineSolid& field, const assets::VolumeGrid& box) : BoxB
   });
 }
 
-double BoxBytes::at(const glm::dvec3& p_P_mm) const {
-  const glm::dvec3 index = grid_.indexFromPoint(p_P_mm), low = glm::floor(index), f = index - low;
-  const glm::ivec3 ijk(low);
-  if (!grid_.contains(ijk) || !grid_.contains(ijk + 1))
-    return assets::trilinearAt(grid_, p_P_mm, [this](glm::ivec3 at) { return voxel(at) / 255.0; });
-  const auto row = static_cast<std::size_t>(grid_.size.x), layer = row * static_cast<std::size_t>(grid_.size.y);
-  const std::uint8_t* const byte = &bytes_[grid_.index(ijk)];
-  const auto along = [&](std::size_t from) { return byte[from] + f.x * (byte[from + 1] - byte[from]); };
-  const double below = along(0) + f.y * (along(row) - along(0));
-  const double above = along(layer) + f.y * (along(layer + row) - along(layer));
-  return (below + f.z * (above - below)) / 255.0;
+double BoxBytes::atIndex(const glm::dvec3& index) const {
+  if (isInside(index)) return inside(index);
+  return assets::trilinearAt(grid_, grid_.origin_P_mm + grid_.spacing_mm * index,
+                             [this](glm::ivec3 at) { return voxel(at) / 255.0; });
 }
 
 double BoxBytes::solidBetween_mm(const glm::dvec3& from_P_mm, const glm::dvec3& way_P, double length_mm) const {
   constexpr int kSamples = 28;
   const double step_mm = length_mm / kSamples;
+  const glm::dvec3 step = way_P * (step_mm / grid_.spacing_mm);
+  const glm::dvec3 first = grid_.indexFromPoint(from_P_mm) + 0.5 * step;
   double sum = 0.0;
-  for (int n = 0; n < kSamples; ++n) sum += at(from_P_mm + (n + 0.5) * step_mm * way_P);
+  if (isInside(first) && isInside(first + (kSamples - 1.0) * step))
+    for (int n = 0; n < kSamples; ++n) sum += inside(first + static_cast<double>(n) * step);
+  else
+    for (int n = 0; n < kSamples; ++n) sum += atIndex(first + static_cast<double>(n) * step);
   return sum * step_mm;
 }
 
@@ -103,26 +175,16 @@ Crown::Crown(const ToothBlocks& tooth, const assets::ToothFrame& of, double belo
 }
 
 BoxBytes attached(const Crown& crown, const BoxBytes& made) {
-  constexpr double kNeck_mm = 0.5;
-  constexpr std::uint8_t kHolds = 64;  ///< any matter holds, however thin
   const assets::VolumeGrid& grid = made.grid();
   const auto is_tooth = [&](std::size_t v) { return assets::isToothPart(crown.label.bytes()[v]); };
-  std::vector<std::uint8_t> matter(grid.voxelCount());
-  for (std::size_t v = 0; v < matter.size(); ++v) matter[v] = made.bytes()[v] >= kHolds && is_tooth(v) ? 1 : 0;
-  const assets::CellPieces pieces = assets::piecesOfCells(grid.size, matter);
-  std::vector<std::uint8_t> stands(pieces.cells.size(), 0);
-  assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (matter[v] != 0 && crown.frame.local(grid.centre_P_mm(ijk)).z < kNeck_mm)
-      stands[static_cast<std::size_t>(pieces.of[v])] = 1;
-  });
-  const auto is_left = [&](std::size_t v) { return stands[static_cast<std::size_t>(pieces.of[v])] != 0; };
+  const std::vector<std::uint8_t> stands = standing(crown, made);
   // A rim that is thinner than what holds goes with what it borders on.
   BoxBytes left = made;
   assets::forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (made.bytes()[v] == 0 || !is_tooth(v) || is_left(v)) return;
+    if (made.bytes()[v] == 0 || stands[v] != 0 || !is_tooth(v)) return;
     bool is_beside = false;
     assets::forVoxels(glm::max(ijk - 1, glm::ivec3(0)), glm::min(ijk + 2, grid.size),
-                      [&](glm::ivec3 at) { is_beside = is_beside || is_left(grid.index(at)); });
+                      [&](glm::ivec3 at) { is_beside = is_beside || stands[grid.index(at)] != 0; });
     if (!is_beside) left.bytes()[v] = 0;
   });
   return left;

@@ -28,13 +28,32 @@ class BoxBytes {
     return voxel(glm::ivec3(glm::floor(grid_.indexFromPoint(p_P_mm) + 0.5)));
   }
   /// 0..1, linear between the centres of voxels.
-  double at(const glm::dvec3& p_P_mm) const;
+  double at(const glm::dvec3& p_P_mm) const { return atIndex(grid_.indexFromPoint(p_P_mm)); }
+  /// Of a continuous index.
+  double atIndex(const glm::dvec3& index) const;
   /// How much of a stretch is solid, mm: a voxel's byte is the share of it that is solid, so that the sum says where a
   /// wall lies within 2 µm at 0.05 mm, whereas the place where the value passes one half depends on how the wall meets
   /// the voxels.
   double solidBetween_mm(const glm::dvec3& from_P_mm, const glm::dvec3& way_P, double length_mm) const;
 
  private:
+  /// All eight voxels around lie within the grid.
+  double inside(const glm::dvec3& index) const {
+    const glm::ivec3 ijk(index);
+    const glm::dvec3 f = index - glm::dvec3(ijk);
+    const auto row = static_cast<std::size_t>(grid_.size.x), layer = row * static_cast<std::size_t>(grid_.size.y);
+    const std::uint8_t* const byte = &bytes_[grid_.index(ijk)];
+    const auto along = [&](std::size_t from) { return byte[from] + f.x * (byte[from + 1] - byte[from]); };
+    const double below = along(0) + f.y * (along(row) - along(0));
+    const double above = along(layer) + f.y * (along(layer + row) - along(layer));
+    return (below + f.z * (above - below)) / 255.0;
+  }
+  bool isInside(const glm::dvec3& index) const {
+    const glm::dvec3 last(grid_.size - 1);
+    return index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < last.x && index.y < last.y &&
+           index.z < last.z;
+  }
+
   assets::VolumeGrid grid_;
   std::vector<std::uint8_t> bytes_;
 };

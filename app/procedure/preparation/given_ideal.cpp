@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "app/procedure/preparation/cavity_form.h"
 #include "app/procedure/preparation/margin_line.h"
 #include "app/text/usage_error.h"
 #include "assets/ct_volume.h"
@@ -184,7 +185,10 @@ GivenForm::GivenForm(const Crown& crown, const BoxBytes& ideal) : top_(crown, id
   double sum_mm = 0.0, around = 0.0;
   for (const double height_mm : heights_mm)
     if (!std::isnan(height_mm)) sum_mm += height_mm, around += 1.0;
-  if (around < kAllAround * static_cast<double>(heights_mm.size())) return;
+  if (around < kAllAround * static_cast<double>(heights_mm.size())) {
+    if (const auto cavity = cavityRuleOf(crown, ideal)) rule_ = *cavity;
+    return;
+  }
   const WallForm walls = wallForm(after, heights_mm);
   const MarginLine margin = marginLine(before, heights_mm, walls, sum_mm / around);
   if (!std::isfinite(walls.convergence_rad) || !std::isfinite(margin.mean_mm)) return;

@@ -26,7 +26,7 @@ class GivenForm {
  public:
   GivenForm(const Crown& crown, const BoxBytes& ideal);
 
-  /// A crown's margin and walls are those of the ideal itself; else neither walls nor a cavity's form are known.
+  /// A crown's margin and walls, a cavity's groove and box are those of the ideal itself; else none are known.
   const IdealRule& rule() const { return rule_; }
   /// Of a place in the tooth's frame.
   PreparedZone zone(const glm::dvec3& p_mm) const;

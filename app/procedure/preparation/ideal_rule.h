@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <glm/glm.hpp>
+
 namespace app {
 
 enum class IdealKind { crown, cavity, free };  ///< free: of a file, and no crown
@@ -32,6 +34,8 @@ struct IdealRule {
   double box_mm = 3.0;         ///< from cheek to tongue
   double box_axial_mm = 1.5;   ///< from the side of the tooth inwards
   double box_height_mm = 1.0;  ///< of its floor over the cervical line
+  glm::dvec2 groove_mm{0.0};   ///< a place of its middle line, of the tooth's cross-section
+  double groove_rad = 0.0;     ///< of that line, from mesial towards the cheek
 };
 
 /// What crowns are asked for, whatever the material.

@@ -7,11 +7,13 @@
 #include <fmt/core.h>
 
 #include "app/procedure/preparation/deviation_colour.h"
+#include "app/procedure/preparation/made_surface.h"
 
 namespace app {
 namespace {
 
 constexpr glm::dvec3 kUndercut(0.49, 0.12, 0.50), kWay(0.98, 0.91, 0.35);
+constexpr glm::dvec3 kDrawnLine(0.24, 0.26, 0.31);
 constexpr double kArrow_mm = 4.0;
 
 /// Where the way through the middle of the stump meets it, from the bite.
@@ -54,6 +56,20 @@ PreparationPaint preparationPaint(const PreparationMeasure& measure, const BoxBy
       paint.undercut.empty() ? "no undercut" : fmt::format("undercut {:.2f} mm³", outcomes.insertion->undercut_mm3);
   return paint;
 }
+
+PaintSpots outlineSpots(const Crown& crown, const PreparedIdeal& ideal) {
+  constexpr double kHalfLine_mm = 0.1;
+  PaintBrush brush(crown.solid.grid());
+  forSurface(
+      crown.solid, [&](glm::ivec3 ijk, glm::ivec3) { return crown.isTooth(ijk); },
+      [&](const SurfacePlace& place) {
+        const glm::dvec3 p = crown.frame.local(place.p_P_mm);
+        if (p.z > 0.0 && std::abs(ideal.depth_mm(p)) < kHalfLine_mm) brush.lay(place.p_P_mm, kDrawnLine);
+      });
+  return brush.spots();
+}
+
+std::vector<render::SurfacePaint::Row> outlineRows() { return {row(kDrawnLine, "outline of the task")}; }
 
 std::vector<render::SurfacePaint::Row> deviationRows() {
   std::vector<render::SurfacePaint::Row> rows;

@@ -24,7 +24,11 @@ struct PreparationPaint {
 PreparationPaint preparationPaint(const PreparationMeasure& measure, const BoxBytes& made,
                                   const PreparationOutcomes& outcomes);
 
+/// Where an ideal by rule begins on the tooth's surface, as a line drawn on it. Some 0.2 s.
+PaintSpots outlineSpots(const Crown& crown, const PreparedIdeal& ideal);
+
 /// Lines of the legend.
+std::vector<render::SurfacePaint::Row> outlineRows();
 std::vector<render::SurfacePaint::Row> deviationRows();
 std::vector<render::SurfacePaint::Row> insertionRows(const PreparationPaint& paint);
 

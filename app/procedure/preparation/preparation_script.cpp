@@ -5,7 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include <glm/gtc/quaternion.hpp>
+#include "app/procedure/preparation/scripted_hand.h"
+#include "assets/tissue.h"
 
 namespace app {
 namespace {
@@ -16,79 +17,13 @@ constexpr const char* kRoughingBur = "cylinder:0.5,6";
 constexpr const char* kFinishingBur = "capsule:0.5,6";
 
 /// As fast as a high-speed bur takes enamel in such layers.
-constexpr double kCut_mm_per_s = 3.0, kFinish_mm_per_s = 4.0, kWall_mm_per_s = 2.0, kAir_mm_per_s = 60.0;
-constexpr double kClear_mm = 1.0, kToCut_mm = 0.02, kChange_s = 0.8;
+constexpr double kCut_mm_per_s = 3.0, kFinish_mm_per_s = 4.0, kWall_mm_per_s = 2.0;
+constexpr double kClear_mm = 1.0, kToCut_mm = 0.02;
 constexpr double kStock_mm = 0.15;  ///< left by roughing
-constexpr double kOffNeighbour_mm = 0.15;
-constexpr double kBeside_mm = 1.5;  ///< as far beside the tooth a bur may be
-constexpr std::size_t kTurns = 2;   ///< around the walls: the second takes what the first left
-const glm::dvec3 kUp{0.0, 0.0, 1.0};
-
-/// The end of a bur at places of the tooth's frame, and how it leans.
-class ScriptedBur {
- public:
-  explicit ScriptedBur(const assets::ToothFrame& frame) : frame_(frame) {}
-
-  void take(const haptics::BurShape& bur, const char* name) {
-    bur_ = bur;
-    if (!script_.poses.empty()) {
-      t_s_ += kChange_s;
-      script_.requests.push_back({t_s_, name, "", "scripted hand"});
-      t_s_ += kChange_s;
-    }
-  }
-  const haptics::BurShape& bur() const { return bur_; }
-
-  /// `shaft`: unit, in the tooth's frame.
-  void go(const glm::dvec3& end_mm, const glm::dvec3& shaft, double mm_per_s, bool turns) {
-    const double half_mm = 0.5 * bur_.length_mm + (bur_.kind == haptics::ShapeKind::capsule ? bur_.radius_mm : 0.0);
-    const glm::dvec3 middle_P = frame_.inP(end_mm + half_mm * shaft);
-    const glm::dquat rotation(kUp, frame_.axes_P * shaft);
-    if (!script_.poses.empty()) {
-      constexpr double kLeast_s = 0.002;
-      t_s_ += std::max(kLeast_s, glm::distance(end_mm, at_mm_) / mm_per_s);
-      script_.poses.back().pedal = turns;
-    }
-    script_.poses.push_back({t_s_, {glm::normalize(rotation), middle_P}, turns, 0u});
-    at_mm_ = end_mm;
-  }
-  /// Straight up into the air.
-  void lift(double clear_mm) { go({at_mm_.x, at_mm_.y, clear_mm}, kUp, kAir_mm_per_s, false); }
-  /// Through the air to above a place.
-  void goOver(const glm::dvec2& at_mm, double clear_mm, const glm::dvec3& shaft = kUp) {
-    lift(clear_mm);
-    go({at_mm, clear_mm}, shaft, kAir_mm_per_s, false);
-  }
-  const glm::dvec3& at_mm() const { return at_mm_; }
-  HandScript done() { return std::move(script_); }
-
- private:
-  assets::ToothFrame frame_;
-  haptics::BurShape bur_;
-  double t_s_ = 0.0;
-  glm::dvec3 at_mm_{0.0};
-  HandScript script_;
-};
-
-/// How low the end of an upright bur may go over a map, staying `stock_mm` off it all around.
-double lowestEnd_mm(const OcclusalMap& map, const glm::dvec2& at_mm, const haptics::BurShape& bur, double stock_mm) {
-  constexpr int kRings = 5, kSpokes = 16;
-  // A wall in the map leans by one of its steps.
-  const double radius_mm = bur.radius_mm + stock_mm - 0.5 * OcclusalMap::kStep_mm;
-  double end_mm = map.at(at_mm);
-  for (int ring = 1; ring <= kRings; ++ring) {
-    const double off_mm = radius_mm * ring / kRings;
-    // A round end is higher there than at its middle.
-    const double rise_mm = bur.kind == haptics::ShapeKind::capsule
-                               ? radius_mm - std::sqrt(std::max(0.0, radius_mm * radius_mm - off_mm * off_mm))
-                               : 0.0;
-    for (int n = 0; n < kSpokes; ++n) {
-      const double turn = 2.0 * std::numbers::pi * n / kSpokes;
-      end_mm = std::max(end_mm, map.at(at_mm + off_mm * glm::dvec2(std::cos(turn), std::sin(turn))) - rise_mm);
-    }
-  }
-  return end_mm + stock_mm;
-}
+constexpr double kOffNeighbour_mm = 0.1;
+constexpr std::uint8_t kSomeNeighbour = 8;  ///< of 255: what a bur would take of the rim of its voxels counts as cut
+constexpr double kBeside_mm = 1.5;          ///< as far beside the tooth a bur may be
+constexpr std::size_t kTurns = 2;           ///< around the walls: the second takes what the first left
 
 /// What is had and what is wanted, seen from the bite.
 struct Maps {
@@ -108,7 +43,7 @@ struct Maps {
   /// Nothing is cut below.
   double low_mm() const {
     if (rule.kind == IdealKind::crown) return rule.margin_height_mm;
-    return rule.box_side == 0 ? 0.0 : rule.box_height_mm;
+    return rule.kind == IdealKind::free || rule.box_side == 0 ? 0.0 : rule.box_height_mm;
   }
   double clear_mm() const { return crown.top_mm + kClear_mm; }
 
@@ -125,9 +60,13 @@ struct Maps {
   static OcclusalMap neighboursOf(const PreparationMeasure& measure) {
     Crown other = measure.crown();
     other.reach_mm += kBeside_mm;
-    for (std::uint8_t& label : other.label.bytes())
-      label = static_cast<std::uint8_t>(
-          assets::Tissue{label} == assets::Tissue::other_teeth ? assets::Tissue::enamel : assets::Tissue::unlabelled);
+    for (std::size_t v = 0; v < other.label.bytes().size(); ++v) {
+      std::uint8_t& label = other.label.bytes()[v];
+      const bool is_neighbour = assets::Tissue{label} == assets::Tissue::other_teeth;
+      label = static_cast<std::uint8_t>(is_neighbour ? assets::Tissue::enamel : assets::Tissue::unlabelled);
+      std::uint8_t& solid = other.solid.bytes()[v];
+      solid = is_neighbour && solid >= kSomeNeighbour ? 255 : 0;
+    }
     return OcclusalMap(other);
   }
 };
@@ -138,7 +77,7 @@ struct Raster {
 
 /// Line by line to and fro wherever something is to be cut, no lower than `level_mm` and the ideal, where that is
 /// within a layer over the level.
-void mill(ScriptedBur& hand, const Maps& maps, const Raster& raster, double level_mm, double mm_per_s) {
+void mill(ScriptedHand& hand, const Maps& maps, const Raster& raster, double level_mm, double mm_per_s) {
   const haptics::BurShape& bur = hand.bur();
   const double reach_mm = maps.crown.reach_mm + bur.radius_mm;
   bool is_forth = true;
@@ -150,14 +89,14 @@ void mill(ScriptedBur& hand, const Maps& maps, const Raster& raster, double leve
       const double there_mm = lowestEnd_mm(maps.had, at, bur, 0.0);
       if (there_mm <= floor_mm + kToCut_mm || there_mm <= level_mm || end_mm >= level_mm + raster.layer_mm) continue;
       if (glm::distance(glm::dvec2(hand.at_mm()), at) > 2.0 * raster.step_mm) hand.goOver(at, maps.clear_mm());
-      hand.go({at, end_mm}, kUp, mm_per_s, true);
+      hand.go({at, end_mm}, ScriptedHand::kUp, mm_per_s, true);
     }
     is_forth = !is_forth;
   }
 }
 
 /// Layers from the bite down to the ideal.
-void rough(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
+void rough(ScriptedHand& hand, const Maps& maps, const Raster& raster) {
   const double low_mm = maps.low_mm() + raster.stock_mm - raster.layer_mm;
   for (double level_mm = maps.crown.top_mm - raster.layer_mm; level_mm > low_mm; level_mm -= raster.layer_mm)
     mill(hand, maps, raster, level_mm, kCut_mm_per_s);
@@ -165,13 +104,13 @@ void rough(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
 }
 
 /// Once over all that roughing left, at the ideal: one layer as high as the crown.
-void finish(ScriptedBur& hand, const Maps& maps, const Raster& raster) {
+void finish(ScriptedHand& hand, const Maps& maps, const Raster& raster) {
   mill(hand, maps, raster, maps.low_mm() - kClear_mm, kFinish_mm_per_s);
   hand.lift(maps.clear_mm());
 }
 
 /// Around the stump on the margin, leaning as its walls do.
-void finishWalls(ScriptedBur& hand, const PreparationMeasure& measure, const Maps& maps) {
+void finishWalls(ScriptedHand& hand, const PreparationMeasure& measure, const Maps& maps) {
   const IdealRule& rule = measure.rule();
   const double radius_mm = hand.bur().radius_mm, from_mm = rule.margin_height_mm + rule.fillet_mm;
   const StumpWalls walls(measure.crown(), measure.ideal(), from_mm, from_mm + 1.0);
@@ -179,11 +118,12 @@ void finishWalls(ScriptedBur& hand, const PreparationMeasure& measure, const Map
   const auto around = [&](std::size_t n) {
     const double turn = StumpWalls::turn_rad(n), square = walls.squareness(n, 1);
     const glm::dvec3 out(std::cos(turn), std::sin(turn), 0.0);
-    const glm::dvec3 shaft = glm::normalize(kUp - lean / square * out);
+    const glm::dvec3 shaft = glm::normalize(ScriptedHand::kUp - lean / square * out);
     // The middle of the round end: its radius over the margin, and off the wall drawn down to it.
     const double middle_mm = rule.margin_height_mm + radius_mm;
     const double wall_mm = walls.radius_mm(n, 1) + (walls.height_mm(1) - middle_mm) * lean / square;
-    const glm::dvec3 middle = middle_mm * kUp + (wall_mm + radius_mm / (square * std::cos(rule.half_angle_rad))) * out;
+    const glm::dvec3 middle =
+        middle_mm * ScriptedHand::kUp + (wall_mm + radius_mm / (square * std::cos(rule.half_angle_rad))) * out;
     return std::pair(middle - radius_mm * shaft, shaft);
   };
   bool is_there = false;
@@ -204,25 +144,27 @@ void finishWalls(ScriptedBur& hand, const PreparationMeasure& measure, const Map
 
 }  // namespace
 
-std::vector<std::string> scriptedBurs(const IdealRule& rule) {
-  if (rule.kind == IdealKind::cavity) return {kCavityBur};
+std::vector<std::string> scriptedBurs(const IdealRule* rule) {
+  if (rule == nullptr) return {kRoughingBur, kFinishingBur, kCavityBur};
+  if (rule->kind == IdealKind::cavity) return {kCavityBur};
   return {kRoughingBur, kFinishingBur};
 }
 
 HandScript preparationScript(const PreparationMeasure& measure, std::span<const haptics::Tool> tray) {
   const Maps maps(measure);
-  ScriptedBur hand(measure.crown().frame);
-  hand.take(tray[0].head, "");
-  hand.go({0.0, 0.0, maps.clear_mm()}, kUp, kAir_mm_per_s, false);
+  ScriptedHand hand(measure.crown().frame);
+  hand.take(tray[0], "");
+  hand.go({0.0, 0.0, maps.clear_mm()}, ScriptedHand::kUp, ScriptedHand::kAir_mm_per_s, false);
   if (measure.rule().kind == IdealKind::cavity) {
+    if (tray.size() > 1) hand.take(tray[2], kCavityBur);
     rough(hand, maps, {.line_mm = 0.1, .step_mm = 0.1, .layer_mm = 0.4, .stock_mm = 0.0});
     return hand.done();
   }
   rough(hand, maps, {.line_mm = 0.7, .step_mm = 0.2, .layer_mm = 0.8, .stock_mm = kStock_mm});
-  hand.take(tray[1].head, kFinishingBur);
+  hand.take(tray[1], kFinishingBur);
   hand.lift(maps.clear_mm());
   finish(hand, maps, {.line_mm = 0.3, .step_mm = 0.2, .layer_mm = maps.clear_mm() + kClear_mm, .stock_mm = 0.0});
-  finishWalls(hand, measure, maps);
+  if (measure.rule().kind == IdealKind::crown) finishWalls(hand, measure, maps);
   return hand.done();
 }
 

@@ -15,10 +15,11 @@
 
 namespace app {
 
-/// The burs that preparationScript() wants for a rule, as on the command line.
-std::vector<std::string> scriptedBurs(const IdealRule& rule);
+/// The burs that preparationScript() wants for a rule, as on the command line; nullptr: for an ideal from a file,
+/// whatever it is.
+std::vector<std::string> scriptedBurs(const IdealRule* rule);
 
-/// `tray`: begins with scriptedBurs().
+/// `tray`: scriptedBurs().
 HandScript preparationScript(const PreparationMeasure& measure, std::span<const haptics::Tool> tray);
 
 }  // namespace app

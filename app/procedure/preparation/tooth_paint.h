@@ -19,6 +19,12 @@ struct PaintSpot {
 };
 using PaintSpots = std::vector<PaintSpot>;
 
+/// What is drawn on a tooth from the beginning.
+struct DrawnOutline {
+  assets::VolumeGrid box;  ///< of the spots
+  PaintSpots spots;
+};
+
 /// Gathers places of one measure; where several are near, their mean.
 class PaintBrush {
  public:

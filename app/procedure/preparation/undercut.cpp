@@ -29,20 +29,31 @@ CrownColumns::CrownColumns(const Crown& crown, const BoxBytes& solid, double mar
       low_mm_(-crown.reach_mm - kAside_mm),
       side_(static_cast<int>(-2.0 * low_mm_ / column_mm_)),
       levels_(std::max(1, static_cast<int>(std::ceil((crown.top_mm - margin_mm) / step_mm_)))),
-      bytes_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) * static_cast<std::size_t>(levels_)) {
+      bytes_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) * static_cast<std::size_t>(levels_)),
+      stretches_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(levels_)) {
+  const assets::VolumeGrid& grid = solid.grid();
+  const glm::dvec3 along = crown.frame.axes_P[0] * (column_mm_ / grid.spacing_mm);
   std::size_t v = 0;
   for (int level = 0; level < levels_; ++level)
-    for (int y = 0; y < side_; ++y)
+    for (int y = 0; y < side_; ++y) {
+      const glm::dvec3 first = grid.indexFromPoint(crown.frame.inP(
+          {low_mm_ + 0.5 * column_mm_, low_mm_ + (y + 0.5) * column_mm_, margin_mm + (level + 0.5) * step_mm_}));
       for (int x = 0; x < side_; ++x, ++v) {
-        const glm::dvec3 p_P = crown.frame.inP(
-            {low_mm_ + (x + 0.5) * column_mm_, low_mm_ + (y + 0.5) * column_mm_, margin_mm + (level + 0.5) * step_mm_});
-        if (crown.label.nearest(p_P) == static_cast<std::uint8_t>(assets::Tissue::other_teeth)) continue;
-        bytes_[v] = static_cast<std::uint8_t>(255.0 * solid.at(p_P) + 0.5);
+        const glm::dvec3 index = first + static_cast<double>(x) * along;
+        const double share = solid.atIndex(index);
+        if (share == 0.0) continue;
+        const std::uint8_t label = crown.label.voxel(glm::ivec3(glm::floor(index + 0.5)));
+        if (label == static_cast<std::uint8_t>(assets::Tissue::other_teeth)) continue;
+        bytes_[v] = static_cast<std::uint8_t>(255.0 * share + 0.5);
+        stretches_[v / static_cast<std::size_t>(side_)].take({x, x + 1});
       }
+    }
 }
 
 double CrownColumns::undercut_mm3(const glm::dvec2& lean) const {
-  std::vector<float> most(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0.0F);
+  const auto side = static_cast<std::size_t>(side_);
+  std::vector<float> most(side * side, 0.0F), lost_along(side, 0.0F);
+  std::vector<Stretch> reaches(side);
   const int aside = static_cast<int>(kAside_mm / column_mm_) - 1;
   double lost = 0.0;
   for (int level = levels_ - 1; level >= 0; --level) {
@@ -52,19 +63,26 @@ double CrownColumns::undercut_mm3(const glm::dvec2& lean) const {
     const glm::vec2 share(shift - glm::dvec2(cells));
     const float w00 = (1.0F - share.x) * (1.0F - share.y), w10 = share.x * (1.0F - share.y);
     const float w01 = (1.0F - share.x) * share.y, w11 = share.x * share.y;
-    float sum = 0.0F;
-    for (int y = aside; y < side_ - aside; ++y)
-      for (int x = aside; x < side_ - aside; ++x) {
-        const int a = x + cells.x, b = y + cells.y;
-        const float w = w00 * at(a, b, level) + w10 * at(a + 1, b, level) + w01 * at(a, b + 1, level) +
-                        w11 * at(a + 1, b + 1, level);
-        float& so_far = most[static_cast<std::size_t>(y * side_ + x)];
-        if (w > so_far)
-          so_far = w;
-        else
-          sum += so_far - w;
+    std::ranges::fill(lost_along, 0.0F);
+    for (int y = aside; y < side_ - aside; ++y) {
+      // Where this level or one above it holds something.
+      Stretch& reached = reaches[static_cast<std::size_t>(y)];
+      for (const int row : {y + cells.y, y + cells.y + 1})
+        if (const Stretch& of = stretch(row, level); of.end > 0)
+          reached.take({std::max(aside, of.from - cells.x - 1), std::min(side_ - aside, of.end - cells.x)});
+      if (reached.end <= reached.from) continue;
+      const std::uint8_t* const here = &bytes_[index(reached.from + cells.x, y + cells.y, level)];
+      const std::uint8_t* const next = here + side;
+      float* const so_far = &most[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(reached.from)];
+      float* const lost_here = &lost_along[static_cast<std::size_t>(reached.from)];
+      for (int x = 0; x < reached.end - reached.from; ++x) {
+        const float w = w00 * here[x] + w10 * here[x + 1] + w01 * next[x] + w11 * next[x + 1];
+        const float most_now = std::max(so_far[x], w);
+        lost_here[x] += most_now - w;
+        so_far[x] = most_now;
       }
-    lost += static_cast<double>(sum);
+    }
+    for (const float one : lost_along) lost += static_cast<double>(one);
   }
   return lost / 255.0 * column_mm_ * column_mm_ * step_mm_;
 }

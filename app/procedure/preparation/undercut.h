@@ -4,6 +4,7 @@
 // 0.2 s to sample, 10 ms a way.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,15 +23,24 @@ class CrownColumns {
   double undercut_mm3(const glm::dvec2& lean) const;
 
  private:
-  std::uint8_t at(int x, int y, int level) const {
-    return bytes_[(static_cast<std::size_t>(level) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(y)) *
-                      static_cast<std::size_t>(side_) +
-                  static_cast<std::size_t>(x)];
+  std::size_t index(int x, int y, int level) const {
+    const auto side = static_cast<std::size_t>(side_);
+    return (static_cast<std::size_t>(level) * side + static_cast<std::size_t>(y)) * side + static_cast<std::size_t>(x);
+  }
+
+  /// Columns from..end of a row that hold something.
+  struct Stretch {
+    int from = 1 << 20, end = 0;
+    void take(const Stretch& other) { from = std::min(from, other.from), end = std::max(end, other.end); }
+  };
+  const Stretch& stretch(int y, int level) const {
+    return stretches_[static_cast<std::size_t>(level) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(y)];
   }
 
   double column_mm_, step_mm_, low_mm_;
   int side_ = 0, levels_ = 0;
   std::vector<std::uint8_t> bytes_;
+  std::vector<Stretch> stretches_;  ///< of all rows
 };
 
 struct InsertionWay {

@@ -83,7 +83,7 @@ TEST_F(ToothImportCommand, RefusesInOneLine) {
   std::fill(bytes.begin() + static_cast<long>(bytes.find("\n\n")) + 2, bytes.end(), '\x96');
   expectRefused(imported(write("one.nrrd", bytes)), "every voxel is 150");
   expectRefused(imported(good, "--tooth-number 16"), "stands upside down");
-  expectRefused(imported(good, "--tooth-number 41"), "premolars and molars");
+  expectRefused(imported(good, "--tooth-number 19"), "no tooth of adults");
   expectRefused(imported(good, "--levels 0,100,150"), "--levels");
   expectRefused(molar("import " + good + " --tooth " + good + " --out " + at("patient")), "without SOURCE");
   expectRefused(molar("import --out " + at("patient")), "SOURCE");

@@ -23,6 +23,11 @@ TEST(BiteEvent, ReadsBackWhatItWrote) {
   nothing.paper_um = 8.0;
   EXPECT_EQ(biteFrom(biteText(nothing)), nothing) << "nothing opposes the tooth";
   EXPECT_DOUBLE_EQ(someBite().area_mm2(), 0.623);
+  for (const char* const closing : {"hinge", "balance"}) {
+    BiteRecord bite = someBite();
+    bite.is_made = false, bite.closing = closing, bite.is_balanced = bite.closing == "balance";
+    EXPECT_EQ(biteFrom(biteText(bite)), bite) << closing;
+  }
 }
 
 TEST(BiteEvent, IsNotReadFromOtherWords) {
@@ -33,7 +38,9 @@ TEST(BiteEvent, IsNotReadFromOtherWords) {
        R"({"t_s": -1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": 1, "first": "", "contacts": []})",
        R"({"t_s": 1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": "1", "first": "", "contacts": []})",
        R"({"t_s": 1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": 1, "first": "", "contacts": [1]})",
-       R"({"t_s": 1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": 1, "first": "", "contacts": {}})"})
+       R"({"t_s": 1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": 1, "first": "", "contacts": {}})",
+       R"({"t_s": 1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": 1, "first": "", "contacts": [], "closing": "sideways", "balanced": true})",
+       R"({"t_s": 1, "paper_um": 40, "antagonist": "made", "high_um": 0, "clearance_um": 1, "first": "", "contacts": [], "closing": "hinge"})"})
     EXPECT_FALSE(biteFrom(text)) << text;
 }
 

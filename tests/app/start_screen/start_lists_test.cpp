@@ -9,9 +9,12 @@
 #include "app/procedure/preparation/ideal_rule.h"
 #include "app/text/command_line.h"
 #include "assets/synthetic/practice_block.h"
+#include "assets/synthetic/preparation_block.h"
 
 namespace app {
 namespace {
+
+constexpr std::size_t kBlocks = assets::kPracticeTasks.size() + assets::kPreparationBlocks.size();
 
 std::vector<haptics::FoundDevice> foundDevices() {
   return {{.name = "Touch",
@@ -77,8 +80,8 @@ RehearseOptions parsed(const std::vector<std::string>& arguments) {
 
 TEST(StartLists, EveryCaseIsOfferedTheUsualOneFirstChosen) {
   const StartList list = someLists()[0];
-  ASSERT_EQ(list.choices.size(), cases().size() + assets::kPracticeTasks.size());
-  EXPECT_EQ(list.choices.back().arguments, std::vector<std::string>({"--case", "block-ball"}));
+  ASSERT_EQ(list.choices.size(), cases().size() + kBlocks);
+  EXPECT_EQ(list.choices.back().arguments, std::vector<std::string>({"--case", "block-stump"}));
   for (std::size_t n = 0; n < cases().size(); ++n)
     EXPECT_EQ(list.choices[n].arguments, std::vector<std::string>({"--case", std::string(cases()[n].name)}));
   EXPECT_EQ(list.choice().arguments[1], usualCase().name);
@@ -86,7 +89,7 @@ TEST(StartLists, EveryCaseIsOfferedTheUsualOneFirstChosen) {
 
 TEST(StartLists, ImportedPatientsAreOfferedBeforeTheCases) {
   const StartList list = someLists(20)[0];
-  ASSERT_EQ(list.choices.size(), kPatientsOffered + cases().size() + assets::kPracticeTasks.size());
+  ASSERT_EQ(list.choices.size(), kPatientsOffered + cases().size() + kBlocks);
   EXPECT_EQ(list.choices[1].words, "mine 1");
   EXPECT_EQ(list.choices[1].arguments, std::vector<std::string>({"/data/patients/mine 1"}));
   EXPECT_EQ(list.choice().arguments[1], usualCase().name) << "the usual case is chosen at first";

@@ -129,16 +129,61 @@ TEST_F(GivenIdealFile, AMeshMeasuresAsTheRuleItWasMadeBy) {
 }
 
 TEST(GivenIdeal, WhatGoesNotAllAroundHasNoWallsAndNoMargin) {
-  const auto groove = [](const glm::dvec3& p) {
-    return std::min(intact_mm(p), std::max(std::abs(p.y) - 1.0, 5.0 - p.z));
-  };
-  const PreparationMeasure measure(coarse().crown, preparedBy(givenBy(groove)), "--ideal");
+  // An onlay: no floor between two walls.
+  const auto onlay = [](const glm::dvec3& p) { return std::min(intact_mm(p), std::max(-p.y, 5.0 - p.z)); };
+  const PreparationMeasure measure(coarse().crown, preparedBy(givenBy(onlay)), "--ideal");
   EXPECT_EQ(measure.rule().kind, IdealKind::free);
   const PreparationOutcomes outcomes = measure.outcomesOf(coarse().made(intact_mm));
   EXPECT_FALSE(outcomes.walls || outcomes.margin || outcomes.cavity);
-  // Two thirds of its volume are within 5 mm of the axis: 2 x 2 mm, some 9.8 long.
   EXPECT_NEAR(outcomes.removed.under_mm3(), outcomes.removed.wanted_mm3, 1e-6);
-  EXPECT_NEAR(outcomes.removed.wanted_mm3, 2.0 * 19.865, 0.5);
+  EXPECT_NEAR(outcomes.removed.wanted_mm3, std::numbers::pi * kRadius_mm * kRadius_mm, 0.8);
+}
+
+// Where its groove lies is seen from the ideal itself: across the fissure, beside the axis, turned.
+TEST(GivenIdeal, ACavityIsMeasuredAlongItsOwnGroove) {
+  for (const double degrees : {0.0, 30.0, 90.0, -50.0}) {
+    const double c = std::cos(degrees * kDegree), s = std::sin(degrees * kDegree);
+    const auto groove = [&](double deeper_mm, double wider_mm) {
+      return [=](const glm::dvec3& p) {
+        const double along = c * (p.x - 0.6) + s * (p.y + 0.4), across = c * (p.y + 0.4) - s * (p.x - 0.6);
+        const double inside_mm =
+            std::min({2.0 - std::abs(along), 0.6 + 0.5 * wider_mm - std::abs(across), p.z - (5.0 - deeper_mm)});
+        return std::min(intact_mm(p), -inside_mm);
+      };
+    };
+    const PreparationMeasure measure(coarse().crown, preparedBy(givenBy(groove(0.0, 0.0))), "--ideal");
+    ASSERT_EQ(measure.rule().kind, IdealKind::cavity) << degrees;
+    EXPECT_EQ(measure.rule().box_side, 0);
+    EXPECT_NEAR(measure.rule().depth_mm, 2.0, 0.03);
+    EXPECT_NEAR(measure.rule().isthmus_mm, 1.2, 0.03);
+    EXPECT_LT(glm::distance(measure.rule().groove_mm, {0.6, -0.4}), 0.05);
+    const PreparationOutcomes outcomes = measure.outcomesOf(coarse().made(groove(0.4, 0.3)));
+    ASSERT_TRUE(outcomes.cavity);
+    EXPECT_NEAR(outcomes.cavity->depth_mm, 2.4, 0.03) << degrees;
+    EXPECT_NEAR(outcomes.cavity->isthmus_mm, 1.5, 0.03) << degrees;
+    EXPECT_NEAR(outcomes.cavity->length_mm, 4.0, 0.05) << degrees;
+    EXPECT_NEAR(outcomes.cavity->divergence_rad, 0.0, 1.0 * kDegree);
+    EXPECT_GT(outcomes.cavity->unsupported_mm2, 1.0);
+  }
+}
+
+TEST(GivenIdeal, ACavityMeasuresAsTheRuleItWasMadeBy) {
+  for (const char* const name : {"class-1", "class-2:mesial", "class-2:distal"}) {
+    const IdealRule& rule = idealRule(name, "--ideal");
+    const PreparationMeasure by_rule(coarse().crown, rule, "--ideal");
+    const PreparationMeasure measure(
+        coarse().crown, preparedBy(givenIdeal(by_rule.ideal(), coarse().crown, std::string(64, 'a'), "--ideal f")),
+        "--ideal");
+    ASSERT_EQ(measure.rule().kind, IdealKind::cavity) << name;
+    EXPECT_EQ(measure.rule().box_side, rule.box_side) << name;
+    const CavityForm a = *by_rule.outcomesOf(by_rule.ideal()).cavity, b = *measure.outcomesOf(by_rule.ideal()).cavity;
+    EXPECT_NEAR(a.depth_mm, b.depth_mm, 0.03) << name;
+    EXPECT_NEAR(a.isthmus_mm, b.isthmus_mm, 0.03) << name;
+    if (rule.box_side == 0) continue;
+    EXPECT_NEAR(a.box_axial_mm, b.box_axial_mm, 0.05) << name;
+    EXPECT_NEAR(a.box_width_mm, b.box_width_mm, 0.05) << name;
+    EXPECT_NEAR(a.box_height_mm, b.box_height_mm, 0.05) << name;
+  }
 }
 
 TEST(GivenIdeal, RefusesWhatIsNoPreparationOfTheTooth) {
