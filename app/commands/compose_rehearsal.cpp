@@ -358,8 +358,6 @@ std::optional<Continuation> chooseFormer(RehearseOptions& options) {
       options.access = "open";  // its cavity is as it was left
       refuseUnlessForRootCanal(options);
     }
-    if (options.cavity == "ready")
-      throw UsageError("--cavity ready: --continue takes the tooth as it was left, leave it out");
     if (const auto& prepared = former->setup.prepared) {
       options.task = "preparation";
       options.tooth = prepared->fdi;

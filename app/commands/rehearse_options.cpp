@@ -64,13 +64,11 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
               "Of a preparation: a carious lesion there, soft inside and firm around, to be excavated")
       .oneOf(cariesSites())
       .needs(task);
-  command
-      .option("--cavity", options.cavity,
-              "Of a preparation for a filling: uncut; or ready: it is cut to its ideal, to practise filling it. Space, "
-              "pedal or button lays, packs, carves and cures")
-      .oneOf({"uncut", "ready"})
-      .showsDefault()
-      .needs(task);
+  Option cavity = command.option(
+      "--cavity", options.cavity,
+      "Of a preparation for a filling: uncut; or ready: it is cut to its ideal, to practise filling it. Space, "
+      "pedal or button lays, packs, carves and cures");
+  cavity.oneOf({"uncut", "ready"}).showsDefault().needs(task);
   command
       .option("--paper-um", options.paper_um,
               "Of a preparation: articulating paper, its thickness in µm (real ones: 8 to 200)")
@@ -224,9 +222,10 @@ void addRehearseOptions(CommandLine& command, RehearseOptions& options) {
   command.flag("--no-record", options.no_record, "Record nothing").excludes(record);
   command
       .option("--continue", options.continued,
-              "Go on where this session ended: its bone, case and tools. last: the newest; undo begins anew")
+              "Go on where this session ended: its bone, filling, case and tools. last: the newest; undo begins anew")
       .valueNamed("SESSION")
-      .excludes(named);
+      .excludes(named)
+      .excludes(cavity);
   command.option("--seconds", options.plan.seconds, "End after this time").from(0.1, 86400.0);
   command.option("--snapshot", options.plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
   command.option("--first-snapshot", options.plan.first_snapshot, "The same before the first cut");

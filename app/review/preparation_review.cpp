@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -174,7 +175,7 @@ std::string cavityTable(const PreparationOfSession& of) {
 }  // namespace
 
 std::optional<PreparationOfSession> preparationOfSession(SessionReader& session, const StoredStart& start,
-                                                         std::span<const std::uint8_t> solid_after) {
+                                                         const BoneLeft& left) {
   if (!start.setup.prepared) return {};
   PreparationOfSession of{*start.setup.prepared, {}, {}, {}, {}, {}};
   for (const SessionEvent& event : session.events())
@@ -183,8 +184,8 @@ std::optional<PreparationOfSession> preparationOfSession(SessionReader& session,
   const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
   PreparationMeasure measure(Crown(before, of.tooth.frame), of.tooth, "--ideal");
   of.rule = measure.rule();
-  const std::optional<haptics::Filling::Volumes> filling = session.finalFilling(start);
-  const BoxBytes made(DenseSolid(start.grid, solid_after), measure.crown().solid.grid());
+  const std::optional<haptics::Filling::Volumes>& filling = left.laid;
+  const BoxBytes made(DenseSolid(start.grid, left.solid), measure.crown().solid.grid());
   of.outcomes = measure.outcomesOf(made);
   if (filling) of.outcomes.filling = measure.fillingOf(made, laidBoxes(*filling, start.grid, made.grid()));
   of.picture = preparationPicture(measure, made, of.outcomes);
@@ -198,8 +199,9 @@ std::optional<PreparationOfSession> preparationOfSession(const std::string& path
   SessionReader session(path);
   if (!session.about().setup.prepared) return {};
   const StoredStart start = session.start();
-  const auto end = session.finalBone(start);
-  return end ? preparationOfSession(session, start, end->solid) : std::nullopt;
+  auto end = session.finalBone(start);
+  if (!end) return {};
+  return preparationOfSession(session, start, {std::move(end->solid), session.finalFilling(start), {}, {}, {}});
 }
 
 std::string preparationJson(const PreparationOfSession& of) {

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "app/procedure/preparation/preparation_outcomes.h"
 #include "app/session/bite_event.h"
+#include "app/session/replay.h"
 #include "app/session/session_reader.h"
 #include "assets/prepared_tooth.h"
 #include "render/image.h"
@@ -26,7 +26,7 @@ struct PreparationOfSession {
 
 /// None: another operation. `start` is that of this session.
 std::optional<PreparationOfSession> preparationOfSession(SessionReader& session, const StoredStart& start,
-                                                         std::span<const std::uint8_t> solid_after);
+                                                         const BoneLeft& left);
 /// None: another operation, or one that was not ended in order.
 std::optional<PreparationOfSession> preparationOfSession(const std::string& path);
 

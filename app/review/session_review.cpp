@@ -34,14 +34,14 @@ SessionReview reviewOf(const std::string& path, const RunAgain& again) {
   review.moments = again.draw(toldMoments(review.metrics, review.course));
   review.remarks = again.remarks;
   const auto& laid = again.left.laid;
-  if (const auto treated = treatmentOfSession(session, start, again.left.solid)) {
+  if (const auto treated = treatmentOfSession(session, start, again.left)) {
     const std::optional<assets::CtVolume> jaw = jawOf(start, again.patient_folder);
     const auto metal = fragmentsIn(start.setup, session.events());
     review.treatment.emplace(TreatmentReview{
         *treated, treatmentFilms(start, {again.left.solid, metal, laid ? &*laid : nullptr}, jaw ? &*jaw : nullptr)});
   }
 
-  review.preparation = preparationOfSession(session, start, again.left.solid);
+  review.preparation = preparationOfSession(session, start, again.left);
   if (again.patient != nullptr && again.patient->site)
     review.plan = extractionPlan(*again.patient, again.patient->title);
   else

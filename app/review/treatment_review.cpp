@@ -1,5 +1,6 @@
 #include "app/review/treatment_review.h"
 
+#include <utility>
 #include <vector>
 
 #include "app/procedure/root_canal/dense_tooth.h"
@@ -32,16 +33,15 @@ FileUse fileUse(SessionReader& session, const assets::ToothCanals& tooth) {
 }  // namespace
 
 std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, const StoredStart& start,
-                                                     std::span<const std::uint8_t> solid_after) {
+                                                     const BoneLeft& left) {
   if (!start.setup.canals) return {};
   TreatmentOfSession of{*start.setup.canals, {}};
   if (const std::vector<SessionCommand> commands = session.commands(); !commands.empty())
     of.wear = commands.back().command.wear.law;
   const ToothBlocks before(DenseTooth(start.grid, start.whole.empty() ? start.solid : start.whole, start.label));
-  const DenseSolid after(start.grid, solid_after);
-  const std::optional<haptics::Filling::Volumes> filling = session.finalFilling(start);
+  const DenseSolid after(start.grid, left.solid);
   std::optional<DenseSolid> laid;
-  if (filling) laid.emplace(start.grid, filling->laid);
+  if (left.laid) laid.emplace(start.grid, left.laid->laid);
   of.treatment = treatmentOf(of.tooth, before, after, fileUse(session, of.tooth), laid ? &*laid : nullptr);
   return of;
 }
@@ -50,8 +50,12 @@ std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path) {
   SessionReader session(path);
   if (!session.about().setup.canals) return {};
   const StoredStart start = session.start();
-  const auto end = session.finalBone(start);
-  return end ? treatmentOfSession(session, start, end->solid) : std::nullopt;
+  auto end = session.finalBone(start);
+  if (!end) return {};
+  BoneLeft left;
+  left.solid = std::move(end->solid);
+  left.laid = session.finalFilling(start);
+  return treatmentOfSession(session, start, left);
 }
 
 }  // namespace app

@@ -2,12 +2,11 @@
 // two. Throws SessionError.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "app/procedure/root_canal/treatment.h"
+#include "app/session/replay.h"
 #include "app/session/session_reader.h"
 #include "assets/tooth_canals.h"
 
@@ -21,8 +20,8 @@ struct TreatmentOfSession {
 
 /// None: the session is of another operation, or its bone at the end is not known.
 std::optional<TreatmentOfSession> treatmentOfSession(const std::string& path);
-/// The same with a bone that is known, in the order of the grid. `start`: that of the session, which is rewound.
+/// The same with what it left, which is known. `start`: that of the session, which is rewound.
 std::optional<TreatmentOfSession> treatmentOfSession(SessionReader& session, const StoredStart& start,
-                                                     std::span<const std::uint8_t> solid_after);
+                                                     const BoneLeft& left);
 
 }  // namespace app

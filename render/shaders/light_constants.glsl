@@ -9,7 +9,7 @@
 #define LAMP_CONE_DARK 0.25f        // to this share
 
 // A curing lamp, about 460 nm.
-#define CURING_LIGHT 0.35f, 1.6f, 9.0f
+#define CURING_LIGHT 0.10f, 0.80f, 7.0f
 #define CURING_EDGE 0.75f           // of its radius, from where it fades
 #define CURING_WRAP 0.4f            // enamel and composite scatter it
 #define CURING_WHITE 0.25f          // of its light comes back whatever the colour of the surface

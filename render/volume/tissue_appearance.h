@@ -39,7 +39,7 @@ inline constexpr std::array<TissueAppearance, assets::kTissueCount> kTissueAppea
     {{0.40f, 0.42f, 0.45f}, 0.9f, 1.0f},     // amalgam
     {{0.20f, 0.45f, 0.30f}, 0.8f, 1.0f},     // wax: green, as inlay wax
     {{0.85f, 0.36f, 0.30f}, kDull, 1.0f},    // gutta-percha
-    {{0.62f, 0.64f, 0.68f}, 0.95f, 1.0f},    // amalgam that has not set: brighter
+    {{0.47f, 0.49f, 0.53f}, 0.95f, 1.0f},    // amalgam that has not set: brighter
 }};
 
 }  // namespace render

@@ -79,9 +79,10 @@ TEST(TreatmentPage, ARootFillingIsToldWhereThereIsOne) {
   RootFilling filling;
   filling.end_mm = -0.8, filling.canal_mm3 = 2.0, filling.filled_mm3 = 1.84;
   filling.voids = {{0.213, {}}}, filling.largest_void_mm3 = 0.213;
+  review.of.tooth.canals.push_back(review.of.tooth.canals[0]);
+  review.of.treatment.canals.push_back(review.of.treatment.canals[0]);
   review.of.treatment.canals[0].filling = filling;
-  review.of.treatment.canals.emplace_back();
-  review.of.treatment.canals.back().name = "other";
+  review.of.treatment.canals[1].name = "other";
   const std::string page = pageOf(review);
   EXPECT_TRUE(tells(page, "Root filling"));
   EXPECT_TRUE(tells(page,
