@@ -5,7 +5,6 @@
 
 #include "app/case/treated_tooth.h"
 #include "app/procedure/preparation/bite.h"
-#include "app/procedure/preparation/filling_script.h"
 #include "app/procedure/preparation/given_antagonist.h"
 #include "app/procedure/preparation/given_ideal.h"
 #include "app/procedure/preparation/groove_script.h"
@@ -65,7 +64,7 @@ std::vector<std::string> chooseBite(assets::Patient& patient, const assets::CtVo
 
 std::vector<std::string> preparationTools(const RehearseOptions& options) {
   const IdealRule* const rule = isIdealFile(options.ideal) ? nullptr : &idealRule(options.ideal, "--ideal");
-  if (options.plan.device == "scripted") return options.cavity == "ready" ? fillingTray() : scriptedBurs(rule);
+  if (options.plan.device == "scripted") return scriptedBurs(rule);
   // A pear and a narrow cylinder, a round one and an inverted cone, and what fills a cavity.
   if (rule != nullptr && rule->kind == IdealKind::cavity)
     return {"pear:0.5,1.2", "cylinder:0.4,4", "round:1.0",   "inverted-cone:0.5,0.8", "flame:0.6,6", "composite",
@@ -74,7 +73,7 @@ std::vector<std::string> preparationTools(const RehearseOptions& options) {
   return {"round-taper:0.9,8", "torpedo:0.8,8", "flame:0.6,6", "wheel:1.8,1.2", "cylinder:0.5,6", "round:1.4"};
 }
 
-void planPreparation(RehearsalPlan& plan, bool draws_outline, ScriptedWork work) {
+void planPreparation(RehearsalPlan& plan, bool draws_outline, bool grooves) {
   const assets::PreparedTooth& tooth = *plan.patient.prepared;
   const bool is_scripted = plan.device == "scripted";
   if (tooth.given && !is_scripted) return;
@@ -87,12 +86,12 @@ void planPreparation(RehearsalPlan& plan, bool draws_outline, ScriptedWork work)
   if (!is_scripted) return;
   std::vector<haptics::Tool> tray = plan.other_tools;
   tray.insert(tray.begin(), plan.command.tool);
-  if (work == ScriptedWork::groove) {
+  if (grooves) {
     plan.hand_script = grooveScript(crown, tray);
     return;
   }
   const PreparationMeasure measure(std::move(crown), tooth, "--ideal");
-  plan.hand_script = work == ScriptedWork::fill ? fillingScript(measure, tray) : preparationScript(measure, tray);
+  plan.hand_script = preparationScript(measure, tray);
 }
 
 std::vector<std::uint8_t> cutReady(assets::Patient& patient) {

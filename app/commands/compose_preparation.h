@@ -23,13 +23,9 @@ glm::dvec2 hingeFrom(const std::string& text);
 /// The tray, where nothing was asked for by name.
 std::vector<std::string> preparationTools(const RehearseOptions& options);
 
-/// What a scripted hand does: it prepares the tooth to its ideal, fills the cavity that was cut, or grooves the biting
-/// surface with burs that were named.
-enum class ScriptedWork : std::uint8_t { prepare, fill, groove };
-
 /// The tooth has room for its ideal, and a scripted hand knows its way; throws UsageError where it has none.
-/// `draws_outline`: on a practice block.
-void planPreparation(RehearsalPlan& plan, bool draws_outline, ScriptedWork work);
+/// `draws_outline`: on a practice block. `grooves`: a scripted hand has burs that were named and tries them.
+void planPreparation(RehearsalPlan& plan, bool draws_outline, bool grooves);
 
 /// Cuts the tooth to its ideal. Returns the solid as it was.
 std::vector<std::uint8_t> cutReady(assets::Patient& patient);

@@ -482,12 +482,7 @@ std::optional<RehearsalPlan> composeRehearsal(RehearseOptions& options) {
   if (plan.patient.canals)
     plan.command.file_reference = {plan.patient.canals->canals.front().reference_P_mm,
                                    plan.patient.canals->frame.axes_P[2], orificeDepth_mm(*plan.patient.canals)};
-  if (plan.patient.prepared) {
-    const ScriptedWork work = are_tools_named             ? ScriptedWork::groove
-                              : options.cavity == "ready" ? ScriptedWork::fill
-                                                          : ScriptedWork::prepare;
-    planPreparation(plan, preparationBlockOf(options) != nullptr, work);
-  }
+  if (plan.patient.prepared) planPreparation(plan, preparationBlockOf(options) != nullptr, are_tools_named);
   if (options.cavity == "ready" && plan.patient.prepared) plan.scanned_solid = cutReady(plan.patient);
   // An assistant holds cheek and flap aside.
   plan.shows_whole_operation = isShown(options);

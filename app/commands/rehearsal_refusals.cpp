@@ -111,9 +111,8 @@ void refuseUnlessForPreparation(const RehearseOptions& options) {
   if (options.cavity != "ready") return;
   if (isIdealFile(options.ideal) || idealRule(options.ideal, "--ideal").kind != IdealKind::cavity)
     throw UsageError("--cavity ready: " + options.ideal + " is no cavity by rule, give --ideal class-1 or class-2");
-  if (options.plan.device == "scripted" && idealRule(options.ideal, "--ideal").box_side != 0)
-    throw UsageError("--cavity ready: a scripted hand has no matrix to fill " + options.ideal +
-                     " against, give --ideal class-1 or another --device");
+  if (options.plan.device == "scripted")
+    throw UsageError("--cavity ready: a scripted hand cuts the cavity itself, leave it out or give another --device");
   if (!options.continued.empty())
     throw UsageError("--cavity ready: --continue " + options.continued + " has its own cavity, leave one of them out");
 }

@@ -22,7 +22,7 @@ set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webc
 set(calibration/record ${calibration_words} calibration/output_file.h calibration/fit/ calibration/verification/ calibration/record/)
 # Folders of assets: plain types at the root, then readers and writers, then the folders that combine them.
 set(assets_words calibration/ assets/ct_volume.h assets/cut_field.h assets/instruction_set.h assets/json_depth.h assets/load_error.h assets/mesh.h assets/metal_fragment.h
-    assets/operative_site.h assets/patient.h assets/planned_cut.h assets/prepared_tooth.h assets/progress.h assets/proposed.h assets/scan_origin.h assets/soft_tissue.h assets/soft_tissue_field.h assets/bur_outline.h assets/handpiece_outline.h assets/surface_smoothing.h
+    assets/operative_site.h assets/opposing_teeth.h assets/patient.h assets/planned_cut.h assets/prepared_tooth.h assets/progress.h assets/proposed.h assets/scan_origin.h assets/soft_tissue.h assets/soft_tissue_field.h assets/bur_outline.h assets/handpiece_outline.h assets/surface_smoothing.h
     assets/smooth_distance.h assets/solid_sample.h assets/solid_voxels.h assets/structure_distance.h assets/risk_structures.h assets/tissue.h assets/toml_reader.h assets/tooth.h assets/tooth_canals.h assets/tooth_sampler.h assets/trilinear.h assets/vertex_normals.h assets/volume_grid.h)
 set(assets_root ${assets_words})
 foreach(room mesh scan scenery)

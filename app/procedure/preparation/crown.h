@@ -75,7 +75,7 @@ struct Crown {
   bool isTooth(const glm::dvec3& p_P_mm) const { return assets::isToothPart(label.nearest(p_P_mm)); }
 };
 
-/// Without what no longer hangs on the tooth's neck: slivers of enamel that stand at a neighbour. Some 30 ms.
+/// Without what no longer hangs on the tooth's neck: slivers of enamel that stand at a neighbour. Some 15 ms.
 BoxBytes attached(const Crown& crown, const BoxBytes& made);
 
 }  // namespace app

@@ -113,7 +113,7 @@ std::optional<ClosedJaws> balancedFrom(const OcclusalRaster& heights, const Anta
 
 OcclusalRaster movedOver(const OcclusalRaster& heights, const OcclusalRaster& surface, const JawMotion& motion) {
   constexpr int kTries = 8;
-  constexpr double kThere_mm = 1e-7;
+  constexpr double kThere_mm = 2e-6;  ///< heights are floats
   const glm::dmat3 back = glm::transpose(motion.turn);
   OcclusalRaster moved;
   for (int y = 0; y < kRasterSide; ++y)

@@ -1,6 +1,6 @@
 // What a tooth preparation has come to against its ideal: P1 to P9 (reference/sisters 5.3), raw millimetres first, no
 // single mark. From the tooth before and after. Frame P, mm. Any thread but the servo's; the ideal of a molar at 0.05
-// mm some 1.5 s once, the outcomes some 0.5 s.
+// mm some 1.5 s once, the outcomes some 0.25 s.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // What a measured preparation has to be painted on the live tooth: its distance to the ideal, what is undercut along
-// the way of insertion, and that way as an arrow onto the stump. Made beside the measure, on its thread, some 150 ms.
+// the way of insertion, and that way as an arrow onto the stump. Made beside the measure, on its thread, some 50 ms.
 // Frame P, mm.
 #pragma once
 

@@ -1,7 +1,7 @@
 // P5: what a crown could not be put over (reference/sisters 5.3). Column by column along the way of insertion, from the
 // bite to the margin: the most that was met so far, less what is there. And the way of insertion within 5 degrees of
 // the tooth's axis with the least of it. The crown is sampled once in the tooth's frame. mm, rad. Any thread; some
-// 0.2 s to sample, 10 ms a way.
+// 70 ms to sample, 4 ms a way.
 #pragma once
 
 #include <algorithm>

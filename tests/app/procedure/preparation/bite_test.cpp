@@ -21,9 +21,7 @@ TEST(Bite, ACuspOnAPlaneIsMarkedOverItsCap) {
       EXPECT_NEAR(cap_mm2(paper_mm), area_mm2, 0.0006);
       const Bite bite = biteOn(heights, plane(kPlane_mm), paper_mm);
       ASSERT_EQ(bite.contacts.size(), 1u) << paper_um;
-      // Of 8 µm, a height that is 0.3 µm off makes 4 %.
-      const double share = paper_um < 10.0 ? 0.04 : 0.02;
-      EXPECT_NEAR(bite.contacts[0].area_mm2, cap_mm2(paper_mm), share * cap_mm2(paper_mm)) << paper_um << " µm";
+      EXPECT_NEAR(bite.contacts[0].area_mm2, cap_mm2(paper_mm), 0.02 * cap_mm2(paper_mm)) << paper_um << " µm";
       EXPECT_NEAR(bite.open_mm, 0.013, 0.002);
       ASSERT_TRUE(bite.first_mm);
       EXPECT_LT(glm::distance(*bite.first_mm, place), 0.08);
@@ -32,27 +30,22 @@ TEST(Bite, ACuspOnAPlaneIsMarkedOverItsCap) {
   }
 }
 
-TEST(Bite, Experiment) {
+// Wherever its top lies among the voxels: a foil's mark is that of a gap of 8 µm, of which a tenth is 1.25 %.
+TEST(Bite, TheMarkOfAFoilIsTrueWhereverTheCuspStands) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  for (int n = 0; n < 24; ++n) {
+  double mean = 0.0, worst = 0.0;
+  constexpr int kCusps = 12;
+  for (int n = 0; n < kCusps; ++n) {
     const glm::dvec2 place(2.0 * any(random), 2.0 * any(random));
-    const double top = kPlane_mm + 0.05 * any(random);
-    const OcclusalRaster heights = heightsOf(cusps({{place, top}}));
-    double hi = -1;
-    for (int y = 0; y < OcclusalRaster::kSide; ++y)
-      for (int x = 0; x < OcclusalRaster::kSide; ++x)
-        if (heights.has(x, y)) hi = std::max(hi, (double)heights.at(x, y));
-    printf("%d", n);
-    for (double um : {8.0, 16.0, 40.0}) {
-      const Bite bite = biteOn(heights, plane(6.5), 0.001 * um);
-      const double at = static_cast<double>(heights.at(place));
-      printf("  %g um: area %+.2f %% (open %+.3f um, cellmax %+.3f, at top %+.3f)", um,
-             100 * (bite.area_mm2() / cap_mm2(0.001 * um) - 1), 1000 * (bite.open_mm + 6.5 - top), 1000 * (hi - top),
-             1000 * (at - top));
-    }
-    printf("\n");
+    const OcclusalRaster heights = heightsOf(cusps({{place, kPlane_mm + 0.05 * any(random)}}));
+    const Bite bite = biteOn(heights, plane(6.5), 0.008);
+    ASSERT_EQ(bite.contacts.size(), 1u);
+    const double off = bite.contacts[0].area_mm2 / cap_mm2(0.008) - 1.0;
+    mean += off / kCusps, worst = std::max(worst, std::abs(off));
   }
+  EXPECT_LT(std::abs(mean), 0.01);
+  EXPECT_LT(worst, 0.02);
 }
 
 TEST(Bite, AHighSpotAloneIsMarkedUntilThePaperIsThickerThanItIsHigh) {

@@ -27,10 +27,10 @@ Antagonist hinged(double height_mm, const glm::dvec2& behind_and_over_mm) {
 // The plane z = height turned by a about the hinge H has the normal n = (-sin a, 0, cos a) and n (p - H) = -over. It
 // touches a ball of middle C and radius R where n (C - H) + R = -over.
 TEST(JawClosing, APlaneTurnsAboutTheHingeOntoACusp) {
-  for (const glm::dvec2& hinge : {glm::dvec2(55.0, 32.0), glm::dvec2(80.0, 0.0), glm::dvec2(30.0, 20.0)})
-    for (const double high_mm : {0.02, 0.3, 1.0}) {
-      const glm::dvec2 place(1.313, -0.777);
-      const OcclusalRaster heights = heightsOf(cusps({{place, kPlane_mm + high_mm}}));
+  for (const double high_mm : {0.02, 0.3, 1.0}) {
+    const glm::dvec2 place(1.313, -0.777);
+    const OcclusalRaster heights = heightsOf(cusps({{place, kPlane_mm + high_mm}}));
+    for (const glm::dvec2& hinge : {glm::dvec2(55.0, 32.0), glm::dvec2(80.0, 0.0), glm::dvec2(30.0, 20.0)}) {
       const Bite bite = biteOn(heights, hinged(kPlane_mm, hinge), 0.04);
       const glm::dvec2 arm(place.x + hinge.x, high_mm - kCusp_mm - hinge.y);
       // arm.y cos a - arm.x sin a = -over - R.
@@ -51,6 +51,7 @@ TEST(JawClosing, APlaneTurnsAboutTheHingeOntoACusp) {
       // As seen along the axis.
       EXPECT_NEAR(bite.contacts[0].area_mm2, cap_mm2(0.04), 0.03 * cap_mm2(0.04));
     }
+  }
 }
 
 TEST(JawClosing, AHighSpotIsMetFirstAndLiftsTheRestByTheirLevers) {
@@ -73,7 +74,7 @@ TEST(JawClosing, AHighSpotIsMetFirstAndLiftsTheRestByTheirLevers) {
 TEST(JawClosing, APlaneComesToRestOnThreeUnequalCusps) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  for (int n = 0; n < 6; ++n) {
+  for (int n = 0; n < 4; ++n) {
     std::vector<Cusp> all;
     for (int k = 0; k < 3; ++k) {
       const double turn = 2.0 * std::numbers::pi * (k + 0.15 * any(random)) / 3.0;
