@@ -86,7 +86,7 @@ TEST(TreatmentPage, ARootFillingIsToldWhereThereIsOne) {
   const std::string page = pageOf(review);
   EXPECT_TRUE(tells(page, "Root filling"));
   EXPECT_TRUE(tells(page,
-                    "<td>single</td><td>-0.8 mm: short</td><td>92 % of 2.00 mm³</td><td>1, largest 0.213 mm³</td>"
+                    "<td>single</td><td>−0.8 mm: short</td><td>92 % of 2.00 mm³</td><td>1, largest 0.213 mm³</td>"
                     "<td>0.00 mm³</td>"))
       << page;
   EXPECT_TRUE(tells(page, "<td>other</td><td>not filled</td>"));

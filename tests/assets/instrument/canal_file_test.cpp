@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "tests/assets/instrument/part_named.h"
 #include "tests/assets/mesh/closed_mesh.h"
@@ -40,7 +41,9 @@ TEST(CanalFile, IsColouredByItsTorquePlaceByPlace) {
 }
 
 TEST(CanalCone, IsAsThickAsItsSizeAndTaperSayAndGoneOnceItIsLetGoOf) {
-  DrawnCone drawn{.cone = *guttaPerchaCone(30, 0.04, 21.0), .node_T_mm = {}};
+  std::vector<glm::vec3> nodes;
+  for (int n = 0; n <= 32; ++n) nodes.emplace_back(0.0f, 0.0f, -21.0f * static_cast<float>(n) / 32.0f);
+  DrawnCone drawn{.cone = *guttaPerchaCone(30, 0.04, 21.0), .node_T_mm = nodes};
   const MeshModel model = canalCone(drawn);
   for (const MeshPart& part : model.parts) {
     EXPECT_EQ(test::opennessOf(part.triangles), "") << part.name;
