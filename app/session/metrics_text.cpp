@@ -19,13 +19,27 @@ std::string valueLine(double value, std::string_view unit, std::string_view name
   return fmt::format("{:>11.2f} {:<8} {}{}\n", value + 0.0, unitText(unit), name, is_confirmed ? "" : kNotConfirmed);
 }
 
+/// What has no value stands below, a line for each reason.
 std::string measuresText(const std::vector<MeasureValue>& measures) {
+  struct Untold {
+    std::string_view why, first;
+    std::size_t count = 0;
+  };
   std::string words;
+  std::vector<Untold> untold;
   for (const MeasureValue& measure : measures) {
     if (isAmongMeasures(measure.id)) continue;
-    words += measure.value ? valueLine(*measure.value, measure.unit, measure.name, measure.is_confirmed)
-                           : fmt::format("{:>11} {:<8} {}: {}\n", "-", "", measure.name, measure.why);
+    if (measure.value) {
+      words += valueLine(*measure.value, measure.unit, measure.name, measure.is_confirmed);
+      continue;
+    }
+    auto same = std::ranges::find(untold, measure.why, &Untold::why);
+    if (same == untold.end()) same = untold.insert(untold.end(), {measure.why, measure.name});
+    ++same->count;
   }
+  for (const Untold& one : untold)
+    words += fmt::format("{:>11} {:<8} {}{}: {}\n", "-", "", one.first,
+                         one.count == 1 ? "" : fmt::format(" and {} more (--json)", one.count - 1), one.why);
   return words;
 }
 

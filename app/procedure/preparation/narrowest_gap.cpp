@@ -13,7 +13,7 @@ constexpr double kRound_mm = 5e-4;  ///< that a place may lie off the round form
 /// the sums of the least squares are known.
 std::array<double, 6> roundForm(const OcclusalRaster& gap_mm, int x, int y) {
   constexpr int kSide = 2 * kReach + 1;
-  constexpr double n = kSide * kSide;
+  constexpr double kPlaces = kSide * kSide;
   double squares = 0.0, fourths = 0.0;
   for (int i = -kReach; i <= kReach; ++i) squares += i * i, fourths += i * i * i * i;
   const double s2 = kSide * squares, s4 = kSide * fourths, s22 = squares * squares;
@@ -23,10 +23,11 @@ std::array<double, 6> roundForm(const OcclusalRaster& gap_mm, int x, int y) {
       const auto g = static_cast<double>(gap_mm.at(x + i, y + j));
       sum += g, sum_x += i * g, sum_y += j * g, sum_xx += i * i * g, sum_xy += i * j * g, sum_yy += j * j * g;
     }
-  // n c + s2 (a + b) = sum; s2 c + s4 a + s22 b = sum_xx; s2 c + s22 a + s4 b = sum_yy.
-  const double both = (sum_xx + sum_yy - 2.0 * s2 * sum / n) / (s4 + s22 - 2.0 * s2 * s2 / n);
+  // kPlaces c + s2 (a + b) = sum; s2 c + s4 a + s22 b = sum_xx; s2 c + s22 a + s4 b = sum_yy.
+  const double both = (sum_xx + sum_yy - 2.0 * s2 * sum / kPlaces) / (s4 + s22 - 2.0 * s2 * s2 / kPlaces);
   const double apart = (sum_xx - sum_yy) / (s4 - s22);
-  return {(sum - s2 * both) / n, sum_x / s2, sum_y / s2, 0.5 * (both + apart), sum_xy / s22, 0.5 * (both - apart)};
+  return {(sum - s2 * both) / kPlaces, sum_x / s2,   sum_y / s2,
+          0.5 * (both + apart),        sum_xy / s22, 0.5 * (both - apart)};
 }
 
 }  // namespace

@@ -292,7 +292,6 @@ TEST_F(PreparationCommand, RefusesInOneLine) {
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   };
   refused("--task preparation --device poses:" + farAway(), "which tooth?");
-  refused("--task preparation --tooth 45 --device scripted --tool round:1.2", "burs of its own");
   refused("--task preparation --tooth 45 --flap closed --device poses:" + farAway(), "is of an extraction");
   refused("--task preparation --tooth 11 --device poses:" + farAway(), "no such tooth");
   refused("--task preparation --tooth 45 --paper-um 0.5 --device poses:" + farAway(), "--paper-um");
