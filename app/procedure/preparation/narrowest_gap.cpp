@@ -1,6 +1,5 @@
 #include "app/procedure/preparation/narrowest_gap.h"
 
-#include <array>
 #include <cmath>
 
 namespace app {
@@ -9,9 +8,14 @@ namespace {
 constexpr int kReach = 4;           ///< cells around: 0.2 mm
 constexpr double kRound_mm = 5e-4;  ///< that a place may lie off the round form
 
-/// Of gaps over the square around a place: c + bx x + by y + axx x² + axy x y + ayy y², in cells. On a square raster
-/// the sums of the least squares are known.
-std::array<double, 6> roundForm(const OcclusalRaster& gap_mm, int x, int y) {
+/// c + bx x + by y + axx x² + axy x y + ayy y², in cells.
+struct RoundForm {
+  double c, bx, by, axx, axy, ayy;
+  double at(double x, double y) const { return c + bx * x + by * y + axx * x * x + axy * x * y + ayy * y * y; }
+};
+
+/// Of gaps over the square around a place. On a square raster the sums of the least squares are known.
+RoundForm roundForm(const OcclusalRaster& gap_mm, int x, int y) {
   constexpr int kSide = 2 * kReach + 1;
   constexpr double kPlaces = kSide * kSide;
   double squares = 0.0, fourths = 0.0;
@@ -43,17 +47,17 @@ NarrowestGap narrowestGap(const OcclusalRaster& gap_mm) {
   least.place_mm = OcclusalRaster::place_mm(at.x, at.y);
   const glm::ivec2 end(OcclusalRaster::kSide - kReach);
   if (at.x < kReach || at.y < kReach || at.x >= end.x || at.y >= end.y) return least;
-  const auto [c, bx, by, axx, axy, ayy] = roundForm(gap_mm, at.x, at.y);
-  const double curved = 4.0 * axx * ayy - axy * axy;
+  const RoundForm form = roundForm(gap_mm, at.x, at.y);
+  const double curved = 4.0 * form.axx * form.ayy - form.axy * form.axy;
   // A comparison with no number fails.
-  if (!(curved > 0.0) || !(axx > 0.0)) return least;
-  const glm::dvec2 top((axy * by - 2.0 * ayy * bx) / curved, (axy * bx - 2.0 * axx * by) / curved);
+  if (!(curved > 0.0) || !(form.axx > 0.0)) return least;
+  const glm::dvec2 top((form.axy * form.by - 2.0 * form.ayy * form.bx) / curved,
+                       (form.axy * form.bx - 2.0 * form.axx * form.by) / curved);
   if (glm::length(top) > 1.5) return least;
-  const auto round = [&](double i, double j) { return c + bx * i + by * j + axx * i * i + axy * i * j + ayy * j * j; };
   for (int j = -kReach; j <= kReach; ++j)
     for (int i = -kReach; i <= kReach; ++i)
-      if (std::abs(static_cast<double>(gap_mm.at(at.x + i, at.y + j)) - round(i, j)) > kRound_mm) return least;
-  return {least.place_mm + OcclusalRaster::kStep_mm * top, round(top.x, top.y)};
+      if (std::abs(static_cast<double>(gap_mm.at(at.x + i, at.y + j)) - form.at(i, j)) > kRound_mm) return least;
+  return {least.place_mm + OcclusalRaster::kStep_mm * top, form.at(top.x, top.y)};
 }
 
 }  // namespace app
