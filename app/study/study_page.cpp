@@ -62,7 +62,7 @@ constexpr std::string_view kImpossible = "\u2020";
 std::string publishedText(const AnswerRow& row) {
   if (!row.published) return "";
   const PublishedSummary& published = *row.published;
-  return fmt::format("{}: {}\u00a0±\u00a0{}{}", published.count, fixedOr(published.mean, 2),
+  return fmt::format("{}:\u00a0{}\u00a0±\u00a0{}{}", published.count, fixedOr(published.mean, 2),
                      fixedOr(published.deviation, 2), row.can_be_answered ? "" : kImpossible);
 }
 

@@ -80,11 +80,11 @@ TEST(StudyResult, GivesThePublishedTableOfTenDentists) {
     EXPECT_EQ(row.summary.count, 10u);
     // Ours, and in grey what was printed.
     const std::string cells = "<td>" + row.says + "</td><td>10</td><td>" + one.mean + "</td><td>" + one.deviation +
-                              "</td><td><span class=\"quiet\">10: " + one.mean + "\u00a0±\u00a0" + one.deviation +
+                              "</td><td><span class=\"quiet\">10:\u00a0" + one.mean + "\u00a0±\u00a0" + one.deviation +
                               "</span></td>";
     EXPECT_NE(page.find(cells), std::string::npos) << cells;
   }
-  EXPECT_NE(page.find("10: 4.40\u00a0±\u00a01.32†"), std::string::npos);
+  EXPECT_NE(page.find("10:\u00a04.40\u00a0±\u00a01.32†"), std::string::npos);
   EXPECT_NE(page.find("† No 10 whole answers on this scale"), std::string::npos);
   EXPECT_NE(page.find("repeat those of the tooth model"), std::string::npos);
   const auto json = nlohmann::json::parse(studyJson(result))["items"];
